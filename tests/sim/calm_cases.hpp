@@ -1,4 +1,4 @@
-// Bodies that meet after a flight, so that a calm step lacks lists: for tests of steps that are repeated.
+// Scenes for tests of repeated steps: bodies meet after a flight, so that a calm step needs contact lists.
 #pragma once
 
 #include "sim/bodies.hpp"
@@ -25,7 +25,7 @@ inline void addBox(Scene& scene, Vec3 origin, std::array<std::uint32_t, 3> cells
     start(scene, first, how);
 }
 
-// Fills in the host's part of a step, by its frame.
+// Fills in the host's part of a step, by its frame number.
 using Input = std::function<void(Step&)>;
 
 struct Case {
@@ -34,7 +34,7 @@ struct Case {
     Settings settings;
     std::uint64_t steps = 40;
     Input input = {};
-    bool isBroken = false; // some calm step lacks lists
+    bool isBroken = false; // some calm step needs lists
 };
 
 inline Scene onFloor() {
@@ -43,14 +43,14 @@ inline Scene onFloor() {
     return scene;
 }
 
-// Falls until a floor meets it.
+// A box that falls onto a floor.
 inline Case landing() {
     Case one{"a box that lands", onFloor(), {.substeps = 16, .contactRoom = 64}, 30, {}, true};
     addBox(one.scene, {0, 0.6f, 0}, {4, 4, 4});
     return one;
 }
 
-// Two that fly until they meet.
+// Two boxes that fly until they collide.
 inline Case collision() {
     Case one{"boxes that collide", {}, {.substeps = 12, .contactRoom = 64, .pokes = 1}, 30, {}, true};
     one.scene.gravity = {0, 0, 0};
@@ -60,8 +60,8 @@ inline Case collision() {
     return one;
 }
 
-// Two boxes meet while a point that follows no faster than it may leads a third one, and a collider on a path
-// and a poke move beside it: the host's part of the state.
+// The state has a part that the host controls. While two boxes collide, a grab with a bounded speed leads a
+// third box, and a collider on a path and a poke move beside it.
 inline Case ledByTheHost() {
     Case one = collision();
     one.name = "a box that is led";

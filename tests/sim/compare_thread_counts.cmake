@@ -1,5 +1,6 @@
-# cmake -DBINARY=<test> -DFILTER=<tests> -DLEAST=<n> -P compare_thread_counts.cmake: the state hashes that they print, n or
-# more, must not depend on how many threads a software device computes with.
+# Fails if the state hashes that tests print depend on the number of threads of a software device, or if there
+# are fewer than n.
+#   cmake -DBINARY=<test> -DFILTER=<tests> -DLEAST=<n> -P compare_thread_counts.cmake
 foreach(threads 0 1 2)
     set(ENV{LP_NUM_THREADS} ${threads})
     execute_process(COMMAND ${BINARY} --gtest_filter=${FILTER} OUTPUT_VARIABLE output RESULT_VARIABLE result)

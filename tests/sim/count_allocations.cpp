@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-#ifdef __has_feature // clang's spelling
+#ifdef __has_feature // the macro of clang
 #define HAS_FEATURE(name) __has_feature(name)
 #else
 #define HAS_FEATURE(name) 0
@@ -19,8 +19,8 @@ thread_local std::size_t allocations = 0;
 
 #if defined __SANITIZE_ADDRESS__ || HAS_FEATURE(address_sanitizer)
 
-// As in support/device.cpp, which is not linked here: the validation layer keeps memory until the process
-// ends.
+// The validation layer keeps memory until the process ends. The same function is in support/device.cpp, which
+// is not linked here.
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() {
     return "detect_leaks=0";

@@ -1,5 +1,5 @@
-// Counts calls of operator new. Replaces the global operators of the binary that links it, in a file of its
-// own so that no compiler inlines one of the pair.
+// Counts calls of operator new. Replaces the global operators of the binary in a separate source file, so
+// that no compiler inlines only one of a pair.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace sinew::test {
 
-/// False under AddressSanitizer, which needs the operators for itself.
+/// False under AddressSanitizer, which replaces the operators itself.
 bool canCountAllocations();
 
-/// Calls of operator new in this thread while `action` runs.
+/// Number of calls of operator new in this thread while `action` runs.
 std::size_t countAllocations(const std::function<void()>& action);
 
 } // namespace sinew::test

@@ -1,4 +1,4 @@
-// A runner for each room.
+// Makes a new runner for each capacity.
 #include "sim/growing_run.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A scene that begins with too little room for its contacts, and makes more as steps say what they need.
+// Runs a scene that starts with too small a contact capacity, and enlarges it as steps report their need.
 #pragma once
 
 #include "sim/runner.hpp"
@@ -8,13 +8,13 @@
 namespace sinew::test {
 
 struct GrowingRun {
-    std::uint64_t hash = 0; ///< of the state at the end
+    std::uint64_t hash = 0; ///< of the final state
     int growths = 0;
 };
 
-/// `steps` steps from room for one contact on. One that finds too little must say how much it needs and leave
-/// the state as it was; a simulation with that much takes over and does it again. `afterStep` is called after
-/// each that came to its end.
+/// Runs `steps` steps, starting with capacity for one contact. A step that lacks capacity must report its
+/// need and leave the state unchanged; a simulation with that capacity takes over and repeats the step. Calls
+/// `afterStep` after each completed step.
 GrowingRun runGrowing(const sim::Scene& scene, sim::Settings settings, int steps,
                       const std::function<void(Runner&)>& afterStep = {});
 

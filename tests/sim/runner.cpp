@@ -1,4 +1,4 @@
-// Submits one command buffer a step and waits.
+// Submits one command buffer a step and waits for it.
 #include "sim/runner.hpp"
 
 #include "sim/compile.hpp"
@@ -16,24 +16,24 @@ namespace {
 
 using Vec4 = std::array<float, 4>;
 
-constexpr int rehearsalsOfAPair = 2; // of a step of one kind after one of another
+constexpr int rehearsalsOfAPair = 2; // steps of one kind after one of another
 
-// What makes other commands of a step.
+// The parts of a step that change its commands, as bits.
 unsigned kindOf(const sim::Step& step) {
     return unsigned{!step.anchors.empty()} | unsigned{!step.grabs.empty()} << 1 |
            unsigned{!step.pokes.empty()} << 2 | unsigned{step.wakes} << 3 |
            unsigned{!step.blade.from.empty()} << 4 | unsigned{(step.ray.radius > 0)} << 5;
 }
 
-// On a software device small scenes are several times faster without a thread pool. Whoever sets the variable
-// wins.
+// Without a thread pool, small scenes are several times faster on a software device. An existing value of the
+// variable is kept.
 [[maybe_unused]] const bool hasThreadDefault = setenv("LP_NUM_THREADS", "0", 0) == 0;
 
 std::vector<Eigen::Vector3d> download(const vk::BufferView& view, std::size_t count) {
     std::vector<Eigen::Vector3d> result;
     if (view.size == 0) return result;
     for (const Vec4& element : queue().download<Vec4>(view)) {
-        if (result.size() == count) break; // a buffer is never empty
+        if (result.size() == count) break; // buffers are never empty
         result.emplace_back(double{element[0]}, double{element[1]}, double{element[2]});
     }
     return result;
@@ -125,7 +125,7 @@ void Runner::takeOverByHost(const Runner& from, const Saved* saved) {
 }
 
 bool Runner::change(const sim::Scene& scene) {
-    std::vector<sim::SceneChange> changes; // until the commands have finished
+    std::vector<sim::SceneChange> changes; // kept until the commands have finished
     bool isPossible = true;
     submit([&](VkCommandBuffer commands, sim::Simulation& simulation) {
         std::optional<sim::SceneChange> change = simulation.prepareChange(scene);

@@ -1,4 +1,4 @@
-// Builders of the shared scenes.
+// Builds the shared scenes.
 #include "sim/scenes.hpp"
 
 #include "sim/bodies.hpp"
@@ -113,7 +113,7 @@ Scene particleAt(Vec3 position, Vec3 velocity) {
 void disturb(Scene& scene, float distance, float speed) {
     std::mt19937 random(42);
     const auto within = [&random](float bound) {
-        // Not std::uniform_real_distribution: its values differ from library to library.
+        // std::uniform_real_distribution gives different values in different libraries.
         return bound * (static_cast<float>(random() >> 8) / 8388608.0f - 1);
     };
     for (Particle& particle : scene.particles) {

@@ -1,4 +1,4 @@
-// Small scenes that several tests share. Random ones have fixed seeds.
+// Small scenes shared by several tests. Random ones have fixed seeds.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -11,7 +11,7 @@
 
 namespace sinew::sim {
 
-/// How GoogleTest names a solver.
+/// Prints a solver in messages of GoogleTest.
 void PrintTo(Solver solver, std::ostream* stream);
 
 } // namespace sinew::sim
@@ -25,35 +25,36 @@ struct NamedScene {
 
 struct ChainLinks {
     float compliance = 0;       ///< of every link [m/N]
-    bool isEverySecond = false; ///< gives it to every second link only; the others are rigid
+    bool isEverySecond = false; ///< only every second link has it; the others are rigid
 };
 
 /// `count` particles of 0.5 to 1 kg in a row along x, 0.1 m apart, each linked to the next.
 sim::Scene chain(std::uint32_t count, const ChainLinks& links = {});
-/// `links` below a fixed particle at the origin, each with `mass` [kg] at its end.
+/// A chain of `links` links below a fixed particle at the origin, each with `mass` [kg] at its end.
 sim::Scene hangingChain(std::uint32_t links, float spacing, float mass, float compliance);
 /// A full voxel body of cells^3 cells with its lowest corner at (0, height, 0).
 sim::Scene block(std::uint32_t cells, float spacing, float youngModulus, float height = 0);
 /// A block of 3^3 cells of 0.1 m without gravity that moves at `speed` [m/s] and spins about (1, 2, -1) at
 /// 2.4 rad/s.
 sim::Scene spinningBlock(const sim::Vec3& speed);
-/// Fills for a lattice from a hash: empty cells, slivers, halves and full ones side by side.
+/// Fills for a lattice from a hash: empty cells, slivers, half and full cells side by side.
 std::vector<float> raggedFill(std::size_t cells);
-/// A horizontal sheet of size^2 particles, 0.1 m apart, two corners pinned.
+/// A horizontal sheet of size^2 particles, 0.1 m apart, with two fixed corners.
 sim::Scene sheet(std::uint32_t size, float compliance = 0);
-/// A sheet of 9 x 9 particles, 0.1 m apart, that may be cut, without gravity; and a blade that halves it at
-/// x = 0.45 m from one step to the next.
+/// A cuttable sheet of 9 x 9 particles, 0.1 m apart, without gravity, and a blade that halves it at x = 0.45
+/// m in one step.
 sim::Scene cuttableSheet();
 sim::Blade bladeAcrossSheet();
-/// One particle of 1 kg.
+/// A scene with one particle of 1 kg.
 sim::Scene particleAt(sim::Vec3 position, sim::Vec3 velocity = {});
 
-/// What a std::logic_error thrown by `action` says.
+/// Message of the std::logic_error that `action` throws.
 std::string refusal(const std::function<void()>& action);
 
-/// Moves every particle by up to `distance` [m] and gives it up to `speed` [m/s] along each axis.
+/// Moves every particle by up to `distance` [m] along each axis and gives it up to `speed` [m/s] along each.
 void disturb(sim::Scene& scene, float distance, float speed);
-/// A floor through the lowest particle and a wall leaning on the first one, with friction and restitution.
+/// Adds a floor through the lowest particle and a tilted wall at the first one, with friction and
+/// restitution.
 void addRoom(sim::Scene& scene);
 
 sim::Vec3 toFloats(const Eigen::Vector3d& v);
@@ -62,10 +63,10 @@ Eigen::Vector3d toVector(const sim::Vec3& v);
 double sizeOf(const sim::Scene& scene);
 /// Sum of the finite masses [kg].
 double massOf(const sim::Scene& scene);
-/// Of the particles that move, at velocities `v` [J].
+/// Kinetic energy of the moving particles at velocities `v` [J].
 double kineticEnergy(const sim::Scene& scene, const std::vector<Eigen::Vector3d>& v);
 
-/// One of each kind: nothing, free particles, chains, lattices, cloth; with and without planes, skins and
+/// One scene of each kind: empty, free particles, chains, lattices, cloth; with and without planes, skins and
 /// fixed ends.
 std::vector<NamedScene> allScenes();
 

@@ -1,4 +1,4 @@
-// planBarriers against a brute-force oracle: on random lists of passes and on the programs of real scenes.
+// Tests planBarriers against a brute-force search, on random lists of passes and on programs of real scenes.
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
 #include "sim/compile.hpp"
@@ -15,7 +15,7 @@ using namespace sinew::sim;
 
 namespace {
 
-// What a pass reads and writes, a bit a buffer.
+// Buffers that a pass reads and writes, one bit a buffer.
 constexpr std::size_t mostBuffers = 256;
 struct Footprint {
     std::bitset<mostBuffers> reads, writes;
@@ -30,12 +30,12 @@ Footprint footprint(const Pass& pass) {
     return result;
 }
 
-// Read after write, write after write, write after read.
+// Whether there is a read after write, write after write, or write after read.
 bool conflict(const Footprint& first, const Footprint& second) {
     return ((first.writes & (second.reads | second.writes)) | (first.reads & second.writes)).any();
 }
 
-// Whether two passes of a run without a barrier inside depend on each other.
+// Whether two passes in a run without barriers depend on each other.
 bool hasHazard(std::span<const Footprint> run) {
     for (std::size_t j = 1; j < run.size(); ++j) {
         for (std::size_t i = 0; i < j; ++i) {
@@ -45,7 +45,7 @@ bool hasHazard(std::span<const Footprint> run) {
     return false;
 }
 
-// The runs between the barriers.
+// The runs between barriers.
 std::vector<std::span<const Footprint>> runs(std::span<const Footprint> footprints,
                                              const std::vector<bool>& barriers) {
     std::vector<std::span<const Footprint>> result;
@@ -58,7 +58,7 @@ std::vector<std::span<const Footprint>> runs(std::span<const Footprint> footprin
     return result;
 }
 
-// The smallest number of barriers that leaves no hazard, by dynamic programming over the last run.
+// Smallest number of barriers without a hazard, by dynamic programming over the last run.
 std::size_t fewestBarriers(std::span<const Footprint> footprints) {
     std::vector<std::size_t> fewest(footprints.size() + 1, footprints.size());
     fewest[0] = 0;
@@ -85,7 +85,7 @@ std::vector<bool> barriersOf(std::span<const Pass> passes, Recording recording =
     return result;
 }
 
-// No run has a hazard inside, and without any one barrier there would be one.
+// Expects no hazard within any run, and one after removing any single barrier.
 void expectSafeAndNeeded(std::span<const Pass> passes, Recording recording = {}) {
     const std::vector<Footprint> footprints = footprintsOf(passes, recording);
     std::vector<bool> barriers = barriersOf(passes, recording);
@@ -103,7 +103,7 @@ void expectSafeAndNeeded(std::span<const Pass> passes, Recording recording = {})
 std::vector<Pass> randomPasses(std::mt19937& random, std::uint32_t buffers) {
     std::vector<Pass> passes(random() % 24);
     for (Pass& pass : passes) {
-        pass.barriers[0] = random() % 2 == 0; // left over from an earlier plan
+        pass.barriers[0] = random() % 2 == 0; // as if left from an earlier plan
         pass.uses.resize(random() % 5);
         for (BufferUse& use : pass.uses) {
             use = {{static_cast<std::uint32_t>(random() % buffers)},
@@ -147,7 +147,7 @@ TEST(Barriers, AreSafeAndNeededInTheProgramsOfAllScenes) {
     }
 }
 
-// Of a mesh that may be cut: a step with a blade, and all lists of its skin.
+// A cuttable mesh: a step with a blade, and all lists of its skin.
 TEST(Barriers, AreSafeAndNeededWhereAMeshIsCut) {
     Scene scene;
     mesh::MeshBody body{.name = "sphere", .youngModulus = 1e5f, .isCuttable = true};

@@ -1,4 +1,4 @@
-// Cloth, chain and lattice bodies: mass, topology and the elastic constants that per-cell assembly promises
+// Tests of cloth, chain and lattice bodies: mass, topology and the elastic constants of the per-cell assembly
 // (cases 11 and 23).
 #include "sim/bodies.hpp"
 #include "sim/reference/implicit_step.hpp"
@@ -18,7 +18,7 @@ using namespace sinew::sim;
 
 namespace {
 
-/// Energy density [Pa] of a homogeneous small strain in a body of the given volume [m^3].
+/// Energy density [Pa] of a small homogeneous strain in a body of the given volume [m^3].
 double energyDensity(const Scene& scene, double volume, const Eigen::Matrix3d& strain) {
     double energy = 0;
     for (const DistanceConstraint& link : scene.distances) {
@@ -36,8 +36,8 @@ Eigen::Matrix3d strainOf(double xx, double yy, double xy) {
     return strain;
 }
 
-/// Solves the linearised statics of a bar along y, held on rollers at its lower end and at two side planes,
-/// with `force` [N] spread over the upper end as a uniform traction would. Returns the displacements.
+/// Displacements of a bar along y by linearised statics. Rollers hold its lower end and two side planes, and
+/// `force` [N] acts on the upper end as a uniform traction.
 Eigen::VectorXd solveBar(const Scene& scene, double top, double force) {
     const auto size = static_cast<Eigen::Index>(3 * scene.particles.size());
     std::vector<Eigen::Triplet<double>> entries;
@@ -60,9 +60,9 @@ Eigen::VectorXd solveBar(const Scene& scene, double top, double force) {
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
         const Eigen::Vector3d x = test::toVector(scene.particles[i].position);
         for (int axis = 0; axis < 3; ++axis)
-            if (x(axis) < 1e-6) // a roller, as a very stiff spring to the wall
+            if (x(axis) < 1e-6) // the roller is a very stiff spring to the wall
                 entries.emplace_back(3 * i + axis, 3 * i + axis, 1e12);
-        if (x.y() > top - 1e-4) // corner masses share the end face as the areas around the corners do
+        if (x.y() > top - 1e-4) // corner masses have the shares of the areas around the corners
             load(static_cast<Eigen::Index>(3 * i + 1)) =
                 force / double{scene.particles[i].inverseMass} / topMass;
     }
@@ -73,7 +73,7 @@ Eigen::VectorXd solveBar(const Scene& scene, double top, double force) {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Particles' positions stand for the vertices, so that creased and two-sided skins are seen as one surface.
+/// Names vertices by their particles' positions, so that creased and two-sided skins count as one surface.
 std::map<Edge, int> directedEdges(const Skin& skin) {
     std::map<Edge, int> edges;
     for (const auto& triangle : skin.triangles)
@@ -135,8 +135,8 @@ TEST(Cloth, LinksTheNextButOneWhereItResistsFolding) {
     }
 }
 
-// A strip of 8 x 40 cells hangs from its first row; its middle is far from both ends. Its rims' edges carry
-// as much as those inside, so it is stiffer than asked by 3 / (4 x 8).
+// A strip of 8 x 40 cells hangs from its first row; its middle is far from both ends. The edges on its rims
+// carry as much as those inside, which makes it stiffer by 3 / (4 x 8).
 TEST(Cloth, HasTheMembraneStiffnessAskedForAndPoissonRatioAThird) {
     constexpr std::uint32_t cells = 8, rows = 40, columns = cells + 1;
     constexpr double spacing = 0.1, stiffness = 1000, load = 0.8; // [m], [N/m], [N]
@@ -145,7 +145,7 @@ TEST(Cloth, HasTheMembraneStiffnessAskedForAndPoissonRatioAThird) {
     for (std::uint32_t i = 0; i < columns; ++i) strip.pinned.push_back(i);
     Scene scene;
     addCloth(scene, strip);
-    double parts = 0; // a corner of the last row belongs to half a cell
+    double parts = 0; // a corner of the last row has half a cell
     for (std::uint32_t i = 0; i < columns; ++i) parts += i == 0 || i == cells ? 0.5 : 1;
     for (std::uint32_t i = 0; i < columns; ++i) {
         const double part = (i == 0 || i == cells ? 0.5 : 1) / parts;
@@ -183,7 +183,7 @@ TEST(Cloth, HasASkinOnBothSides) {
     for (const auto& [edge, count] : directedEdges(scene.skins.back())) {
         EXPECT_EQ(directedEdges(scene.skins.back()).at({edge.second, edge.first}), count);
     }
-    std::map<std::uint32_t, std::set<bool>> sides; // of each vertex: the signs of the normals around it
+    std::map<std::uint32_t, std::set<bool>> sides; // signs of the normals around each vertex
     const Skin& skin = scene.skins.back();
     for (const auto& triangle : skin.triangles) {
         const auto x = [&](int corner) {
@@ -256,7 +256,7 @@ TEST(Lattice, WeighsItsFillTimesItsDensity) {
     Lattice lattice = block({3, 2, 2});
     lattice.fill.assign(12, 0.5f);
     lattice.fill[0] = 0;
-    lattice.fill[3] = 0.01f; // its corners have the share of 1/8, and the body weighs no more for it
+    lattice.fill[3] = 0.01f; // its corners have a share of 1/8, without more mass of the body
     addLattice(scene, lattice);
     EXPECT_NEAR(test::massOf(scene), 1000 * 1e-3 * (10 * 0.5 + 0.01), 1e-5);
     EXPECT_NEAR(double{scene.bodies[0].restVolume}, 1e-3 * (10 * 0.5 + 0.01), 1e-8);
@@ -377,8 +377,8 @@ TEST(LatticeSkin, EnclosesTheFilledCells) {
     Scene scene;
     Lattice lattice = block({3, 3, 3});
     lattice.fill.assign(27, 1);
-    lattice.fill[13] = 0; // a cavity in the middle
-    lattice.fill[26] = 0; // and a corner gone
+    lattice.fill[13] = 0; // an inner cavity
+    lattice.fill[26] = 0; // a missing corner
     const LatticeCorners corners = addLattice(scene, lattice);
     addLatticeSkin(scene, lattice, corners, {1, 0, 0});
     const Skin& skin = scene.skins.at(0);

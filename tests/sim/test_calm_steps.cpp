@@ -1,5 +1,5 @@
-// Calm steps, which make lists of contacts in their first substep alone: the same bits as those that make
-// them in any, whatever of them was undone and repeated, with several in flight.
+// Tests of calm steps, which build contact lists only in their first substep. They must give the same bits as
+// steps that may build lists in any substep, also after undone and repeated steps and with several in flight.
 #include "sim/calm_cases.hpp"
 #include "sim/calm_steps.hpp"
 #include "sim/collision/contact_scenes.hpp"
@@ -17,7 +17,7 @@
 namespace sinew::sim {
 namespace {
 
-// Steps of a scene with some of them in flight, each recorded again where it lacked lists.
+// Runs the steps of a scene with some in flight, and repeats those that lacked lists.
 class Steps {
 public:
     Steps(const Scene& scene, const Settings& settings, bool repeats, std::uint32_t inFlight = 1,
@@ -70,7 +70,7 @@ public:
     std::uint64_t calm() const { return calm_; }
     std::uint64_t repeated() const { return repeated_; }
     std::uint64_t later() const { return later_; } // steps that needed lists after their first substep
-    std::optional<std::uint64_t> broken() const { return broken_; } // the first that lacked lists
+    std::optional<std::uint64_t> broken() const { return broken_; } // the first step that lacked lists
     const std::vector<Impulses>& forces() const { return forces_; } // by step
 
 private:
@@ -82,7 +82,7 @@ private:
         values_[frame % values_.size()] = test::queue().submit(commands);
     }
 
-    // All that was recorded from the step that lacked lists on.
+    // Expects all steps from the one that lacked lists on to be undone.
     void expectAllUndone(std::uint64_t next) {
         for (std::uint64_t frame = settled_; frame < next; ++frame) {
             const Status status = simulation_.status(frame);
@@ -144,8 +144,8 @@ Case cut() {
     return one;
 }
 
-// Two that fly until they meet, of which one may tear: all its steps have the passes of cuts, and calm ones,
-// too.
+// Two boxes that fly until they collide, and a third that may tear. All steps have the passes of cuts, also
+// calm ones.
 Case torn() {
     Case one = collision();
     one.name = "boxes that may tear";
@@ -160,7 +160,7 @@ Case torn() {
     return one;
 }
 
-// A hand takes hold of a box in the step behind the first one that lacks lists, and lets go.
+// A grab takes a box in the step after the first one that lacks lists, and releases it later.
 Case held() {
     Case one = landing();
     one.name = "a box that is held";
@@ -175,7 +175,7 @@ Case held() {
     return one;
 }
 
-// One flies, and wakes one of two that sleep.
+// One flying box wakes one of two sleeping boxes.
 Case asleep() {
     Case one{"boxes that sleep", {}, {.substeps = 12, .contactRoom = 64, .sleeps = true}, 70, {}, true};
     one.scene.gravity = {0, 0, 0};
@@ -185,7 +185,7 @@ Case asleep() {
     return one;
 }
 
-// So few substeps that few, or none, come after the first one.
+// So few substeps that few or none follow the first.
 Case inSubsteps(std::uint32_t substeps, bool isBroken) {
     Case one = landing();
     one.name = substeps == 1 ? "a box that lands, in one substep" : "a box that lands, in an odd number";
@@ -194,14 +194,14 @@ Case inSubsteps(std::uint32_t substeps, bool isBroken) {
     return one;
 }
 
-// Positions have remainders there, which a step that is undone loses.
+// Positions far away have remainders, which an undone step loses.
 Case farAway() {
     Case one{"a box that lands far away", onFloor(), {.substeps = 16, .contactRoom = 64}, 30};
     addBox(one.scene, {900, 0.6f, 0}, {4, 4, 4});
     return one;
 }
 
-// A step that is undone loses velocities that nobody publishes.
+// An undone step loses velocities that are not published.
 Case withoutVelocities() {
     Case one = landing();
     one.name = "a box that lands without velocities";
@@ -291,7 +291,7 @@ TEST(CalmSteps, AndThoseThatAreRepeatedLeaveTheBitsOfAllOthers) {
     EXPECT_GT(later, 20u) << "no scene needs lists in the midst of a step";
 }
 
-// Impulses of a step that was repeated are those of the step that was not undone.
+// A repeated step reports only the impulses of its completed run.
 TEST(CalmSteps, KeepTheForcesOfOthers) {
     const Case one = withForces();
     Steps plain(one.scene, one.settings, false), calm(one.scene, one.settings, true, 2);
@@ -309,8 +309,8 @@ TEST(CalmSteps, KeepTheForcesOfOthers) {
     EXPECT_TRUE(isHeld) << "it does not land";
 }
 
-// Until a step that lacks lists is on the device, and not looked at yet: what is saved then, and what goes on
-// from a reset, goes on as if nothing was.
+// A step that lacks lists has run and has not been evaluated yet. A state saved then, and steps after a
+// reset, must continue as if nothing had happened.
 TEST(CalmSteps, LeaveNothingBehindInStatesOfTheirOwn) {
     const Case one = landing();
     Simulation simulation(test::device(), one.scene, one.settings);
@@ -340,7 +340,7 @@ TEST(CalmSteps, LeaveNothingBehindInStatesOfTheirOwn) {
     submit([&](VkCommandBuffer commands) { simulation.recordLoadState(commands, saved.view(), host); });
     EXPECT_FALSE(step(frame, true).isUndone) << "it goes on before the step that lacked lists";
     EXPECT_FALSE(step(frame + 1, true).isUndone);
-    // one that does not repeat steps goes on, too
+    // A host that does not repeat steps continues, too.
     submit([&](VkCommandBuffer commands) { simulation.recordLoadState(commands, saved.view(), host); });
     EXPECT_FALSE(step(frame, false).isUndone);
 }

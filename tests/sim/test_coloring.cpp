@@ -1,4 +1,4 @@
-// Colorings without a device: valid on any graph, and with as few colors as regular bodies allow.
+// Tests of colorings without a device: valid on any graph, and with the few colors that regular bodies allow.
 #include "sim/bodies.hpp"
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
@@ -20,7 +20,7 @@ Coloring colored(const Scene& scene) {
     return colorByParticles(scene, inverseMasses(scene));
 }
 
-// The largest number of constraints on a particle that moves.
+// Largest number of constraints on a moving particle.
 std::uint32_t degreeOf(const Scene& scene) {
     const std::vector<float> inverseMass = inverseMasses(scene);
     std::vector<std::uint32_t> count(scene.particles.size());
@@ -31,7 +31,7 @@ std::uint32_t degreeOf(const Scene& scene) {
     return largest;
 }
 
-// Every constraint that can move is in one color, once; no color touches a moving particle twice.
+// Every constraint that can move has one color, and no color uses a moving particle twice.
 void expectValid(const Scene& scene, const Coloring& coloring) {
     const std::vector<float> inverseMass = inverseMasses(scene);
     std::vector<int> uses(scene.distances.size());
@@ -55,7 +55,8 @@ void expectValid(const Scene& scene, const Coloring& coloring) {
     }
 }
 
-// Particles at random places, constraints between random pairs, some of them twice; some particles fixed.
+// Particles at random places, with constraints between random pairs, some of them double; some particles are
+// fixed.
 Scene randomGraph(std::uint32_t seed) {
     std::mt19937 random(seed);
     Scene scene;
@@ -115,7 +116,7 @@ TEST(Coloring, OfLatticesTakesEighteenColors) {
     EXPECT_EQ(latticeColors({.cells = {5, 4, 7}}), 18u);
 }
 
-// Holes and steps break the index differences of a full grid, but not its directions.
+// Holes and steps change the index differences of a full grid, but not its directions.
 TEST(Coloring, OfVoxelsOfAnyShapeTakesEighteenColors) {
     Lattice lattice{.origin = {0.3f, -2, 7}, .cells = {9, 8, 10}, .spacing = 0.013f};
     for (std::uint32_t k = 0; k < 10; ++k)
@@ -128,8 +129,8 @@ TEST(Coloring, OfVoxelsOfAnyShapeTakesEighteenColors) {
     EXPECT_EQ(latticeColors(lattice), 18u);
 }
 
-// The first and the last turn of the links of each step between indices: those of two steps enclose each
-// other or lie apart.
+// The links of an index step are solved in the turns from their first to their last color. The ranges of two
+// index steps must be nested or disjoint.
 TEST(Coloring, NestsTheTurnsOfDirections) {
     for (const std::uint32_t neighbours : {0u, 18u, 26u}) {
         Scene scene;

@@ -1,4 +1,4 @@
-// Boundary planes on the device: rest, restitution, friction (analytic cases 16 to 18).
+// Tests of boundary planes on the device: rest, restitution and friction (analytic cases 16 to 18).
 #include "sim/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -24,7 +24,8 @@ protected:
     }
 };
 
-// A particle at rest on a plane through the origin that falls towards +x at `degrees`, friction 0.5.
+// A particle at rest on a plane through the origin that slopes down towards +x by `degrees`, with friction
+// 0.5.
 Scene onIncline(double degrees, const Vec3& velocity = {}) {
     const double angle = degrees * std::numbers::pi / 180;
     Scene scene = test::particleAt({0, 0, 0}, velocity);
@@ -57,7 +58,7 @@ TEST_P(Contact, StopsAFallingParticleAtItsOffset) {
     EXPECT_LE(runner.velocities()[0].norm(), g / 600) << "at most what gravity adds in a substep";
 }
 
-// Case 16: rebound to e^2 h_0, at 600 substeps a second.
+// Case 16: the rebound height is e^2 h_0, with 600 substeps a second.
 TEST_P(Contact, ReboundsToTheHeightOfItsRestitution) {
     for (const double restitution : {0.0, 0.5, 1.0}) {
         Scene scene = test::particleAt({0, 1, 0});
@@ -85,7 +86,7 @@ TEST_P(Contact, NeverReboundsHigherThanItFell) {
     }
 }
 
-// Case 17: sticks up to atan 0.5 = 26.57 degrees, within one degree.
+// Case 17: friction holds up to atan 0.5 = 26.57 degrees, within one degree.
 TEST_P(Contact, SticksOnAnInclineBelowTheFrictionAngle) {
     test::Runner runner(onIncline(25.6), settings());
     runner.run(120);

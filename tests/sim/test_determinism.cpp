@@ -1,6 +1,6 @@
-// The same bits from run to run, after a reset, and with every kernel's invocations in reversed order. How
-// many threads a software device uses is fixed for a process: compare_thread_counts.cmake runs this binary
-// once for each.
+// Tests for equal bits from run to run, after a reset, and with reversed invocation order. The number of
+// threads of a software device is fixed for a process, so compare_thread_counts.cmake runs this binary once
+// for each number.
 #include "sim/compile.hpp"
 #include "sim/gpu_executor.hpp"
 #include "sim/runner.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int steps = 20;
 
-// Several work groups each, falling onto planes with friction and restitution.
+// Scenes of several work groups that fall onto planes with friction and restitution.
 std::vector<test::NamedScene> scenes() {
     std::vector<test::NamedScene> result{{"block", test::block(6, 0.05f, 1e5f)},
                                          {"sheet", test::sheet(16, 1e-5f)},
@@ -38,7 +38,7 @@ protected:
     }
 };
 
-// The item of every invocation of a kernel of ours, as a program runs it.
+// Item of every invocation of a test kernel in a program.
 std::vector<std::uint32_t> itemsOf(bool isReversed, std::uint32_t count) {
     ProgramBuilder builder(isReversed);
     const BufferId items = builder.scratch<std::uint32_t>("items", count);
@@ -71,7 +71,7 @@ TEST_P(Determinism, ThreeRunsEndInTheSameBits) {
         const std::uint64_t hash = test::hashOfRun(named.scene, settings(), steps);
         EXPECT_EQ(test::hashOfRun(named.scene, settings(), steps), hash) << named.name;
         EXPECT_EQ(test::hashOfRun(named.scene, settings(), steps), hash) << named.name;
-        // For compare_thread_counts.cmake.
+        // Output for compare_thread_counts.cmake.
         std::printf("state_hash %s %s %016" PRIx64 "\n", named.name.c_str(), solverName(GetParam()), hash);
     }
 }

@@ -1,5 +1,5 @@
-// Forces that a step reports, against what they must be by weight, momentum and Hooke's law. Every scene also
-// moves as it does without them.
+// Compares the forces that a step reports with weight, momentum and Hooke's law. Reporting forces must not
+// change the motion of a scene.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/compile.hpp"
@@ -35,7 +35,7 @@ double massOf(const Scene& scene, const Body& body) {
     return mass;
 }
 
-// A block of 3^3 cells of 0.1 m with its lowest corner at (0, height, 0), whose particles are 0.05 m wide.
+// A block of 3^3 cells of 0.1 m with its lowest corner at (0, height, 0) and particles 0.05 m wide.
 void addBlock(Scene& scene, float height, const std::string& name = "block", float x = 0,
               float young = 2e5f) {
     addLattice(scene, {.name = name,
@@ -53,7 +53,7 @@ Scene quiet() {
     return scene;
 }
 
-// Two triangles at that height, far beyond a block; the middle of the mesh is below the block's.
+// Two triangles at `height` that extend far beyond a block; their common centre is below the block's.
 MeshCollider table(float height) {
     return {.name = "table",
             .vertices = {{-1, height, -1}, {1.3f, height, -1}, {1.3f, height, 1.3f}, {-1, height, 1.3f}},
@@ -61,7 +61,7 @@ MeshCollider table(float height) {
             .thickness = 0.01f};
 }
 
-// The impulses of each of some steps, after others. All of them came to their ends.
+// Impulses of each of `steps` steps after `before` others; all steps must be completed.
 std::vector<Impulses> impulsesOf(test::Runner& runner, int before, int steps) {
     std::vector<Impulses> impulses;
     if (before > 0) runner.run(before);
@@ -74,7 +74,7 @@ std::vector<Impulses> impulsesOf(test::Runner& runner, int before, int steps) {
     return impulses;
 }
 
-// Each of them by dt is `wanted` within a share, and their mean within half of that.
+// Expects each impulse over dt to be `wanted` within `share`, and their mean within half of that.
 template <typename Of>
 void expectForce(const std::vector<Impulses>& all, double dt, const Vector& wanted, double share,
                  const Of& of, const char* what) {
@@ -93,7 +93,7 @@ Vector up(double force) {
     return {0, force, 0};
 }
 
-// A weight that something carries, and what that feels of it.
+// Expects a weight on the carried side and its opposite on the carrier.
 template <typename Carried, typename Carrier>
 void expectWeight(const std::vector<Impulses>& all, double dt, double weight, const Carried& carried,
                   const Carrier& carrier) {
@@ -123,7 +123,7 @@ TEST(Weight, OfABlockIsOnAPlane) {
     for (const Impulses& impulses : all) {
         EXPECT_EQ(impulses.planes[1].linear.x, 0);
         EXPECT_LT(test::toVector(impulses.bodies[0].contacts.linear).norm(),
-                  1e-5 * weight * dt); // its own cancel
+                  1e-5 * weight * dt); // internal contacts cancel
     }
 }
 
@@ -135,7 +135,7 @@ TEST(Weight, OfABlockIsOnABoxCollider) {
                         .halfExtents = {1, 0.1f, 1},
                         .friction = 0.5f,
                         .pose = {.position = {0.15f, -0.1f, 0.15f}}}};
-    for (const bool touches : {true, false}) { // with and without contacts between particles
+    for (const bool touches : {true, false}) { // with and without particle contacts
         SCOPED_TRACE(touches);
         for (Particle& particle : scene.particles) particle.radius = touches ? 0.05f : 0;
         test::Runner runner(scene, withForces());
@@ -158,7 +158,7 @@ TEST(Weight, OfABlockIsOnAMesh) {
     expectWeight(
         all, dt, weight, [](const Impulses& i) { return i.bodies[0].contacts.linear; },
         [](const Impulses& i) { return i.bodies[1].contacts.linear; });
-    for (const Impulses& impulses : all) // the block stands over the middle of the table
+    for (const Impulses& impulses : all) // the block stands over the table's centre
         EXPECT_LT(test::toVector(impulses.bodies[1].contacts.angular).norm(), 0.01 * weight * dt * 0.3);
 }
 
@@ -219,7 +219,7 @@ TEST(Weight, HangsOnItsHoldByHookesLaw) {
 
 TEST(Weight, OfAClothIsSharedByItsTwoPins) {
     Scene scene = test::sheet(8, 1e-4f);
-    scene.damping = 1.5f; // takes 0.1 % of the weight, by the speed that gravity gives in a substep
+    scene.damping = 1.5f; // takes 0.1 % of the weight: the speed that gravity adds in a substep is damped
     std::vector<std::uint32_t> pins;
     double mass = massOf(scene, scene.bodies[0]);
     const std::vector<float> inverseMass = inverseMasses(scene);
@@ -272,7 +272,7 @@ TEST(Weight, HangsOnAnAttachmentByHookesLaw) {
 
 TEST(Grabbed, FeelsItsStiffnessTimesTheStretch) {
     Scene scene = test::particleAt({0.1f, 1, 0.2f});
-    addBlock(scene, 3); // is not held
+    addBlock(scene, 3); // not grabbed
     scene.particles[0].inverseMass = 0.5f;
     scene.bodies.push_back({"ball", 0, 1});
     Settings settings = withForces(8);
@@ -322,7 +322,7 @@ TEST(Struck, PlanesAndCollidersFeelTheChangeOfMomentum) {
             before = after;
         }
         EXPECT_NEAR(onPlane.y(), 6 * (1 + double{restitution}), 0.01);
-        EXPECT_LT(onCollider.x(), -0.1); // it came there
+        EXPECT_LT(onCollider.x(), -0.1); // contact has begun
     }
 }
 
@@ -350,7 +350,7 @@ TEST(Struck, TwoBlocksFeelOppositeImpulses) {
         struck += right.x();
         before = after;
     }
-    EXPECT_GT(struck, 0.5 * 3 * massOf(scene, scene.bodies[0])); // as a plastic impact gives at least
+    EXPECT_GT(struck, 0.5 * 3 * massOf(scene, scene.bodies[0])); // least value, for a plastic impact
 }
 
 TEST(Struck, AMeshFeelsTheChangeOfMomentumOfWhatIsFast) {
@@ -363,7 +363,7 @@ TEST(Struck, AMeshFeelsTheChangeOfMomentumOfWhatIsFast) {
         MeshCollider mesh = table(0);
         if (isDriven) mesh.path = {{0, {}}, {10, {.position = {0, 1, 0}}}};
         addMeshCollider(scene, mesh);
-        MeshCollider other = table(-3); // feels nothing
+        MeshCollider other = table(-3); // without any contact
         other.name = "other";
         addMeshCollider(scene, other);
         test::Runner runner(scene, withForces(4));
@@ -417,7 +417,7 @@ TEST(Torque, OfALeverIsItsArmTimesTheWeight) {
     expectForce(
         all, dt, {0.15 * weight, 0, -0.15 * weight}, weightShare,
         [](const Impulses& i) { return i.planes[0].angular; }, "about the plane's place");
-    for (const Impulses& impulses : all) // it stands
+    for (const Impulses& impulses : all) // at rest
         EXPECT_LT(test::toVector(impulses.bodies[0].planes.angular).norm(), 0.003 * weight * dt);
 }
 
@@ -445,7 +445,7 @@ TEST(Torque, OnABodyIsTheChangeOfItsAngularMomentum) {
     EXPECT_LE((given - spin).norm(), 0.02 * spin.norm()) << given.transpose() << " / " << spin.transpose();
 }
 
-// The solvers without contacts between particles.
+// The solvers without particle contacts.
 class ForcesOf : public testing::TestWithParam<Solver> {
 protected:
     Settings settings(const Scene& scene) const {
@@ -457,7 +457,7 @@ protected:
     }
 };
 
-// With `jacobi` the particles are loose: it keeps no forces of bodies with links.
+// With `jacobi` the particles are loose, because it keeps no forces of bodies with links.
 TEST_P(ForcesOf, WhatStandsAreItsWeight) {
     struct Case {
         bool isOnPlane;

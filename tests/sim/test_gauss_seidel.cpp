@@ -1,6 +1,5 @@
-// What `gauss_seidel` promises beyond what every solver does: static shapes that do not depend on the number
-// of substeps, and a warm start that helps where it can and stays within its guard where it cannot (methods:
-// C, D).
+// Tests of the special properties of `gauss_seidel`: static shapes independent of the number of substeps, and
+// a warm start that improves convergence and is limited by its guard where it would diverge.
 #include "sim/bodies.hpp"
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
@@ -33,7 +32,7 @@ Scene dampedChain() {
     return scene;
 }
 
-// 24 x 6 x 6 particles of E = 2e7 Pa, clamped at one end, falling under gravity.
+// 24 x 6 x 6 particles with E = 2e7 Pa, clamped at one end, falling under gravity.
 Scene stiffBeam() {
     Scene scene{.name = "stiff beam"};
     const LatticeCorners corners =
@@ -44,7 +43,7 @@ Scene stiffBeam() {
 }
 
 struct Energy {
-    double kinetic = 0, work = 0; // [J]; work = what gravity has done
+    double kinetic = 0, work = 0; // kinetic energy, and work of gravity [J]
 };
 
 Energy energyOf(const Scene& scene, const std::vector<Vector3d>& x, const std::vector<Vector3d>& v) {
@@ -57,7 +56,7 @@ Energy energyOf(const Scene& scene, const std::vector<Vector3d>& x, const std::v
     return energy;
 }
 
-// Hung by two corners, 3 cm apart.
+// Cloth hung by two corners, 3 cm apart.
 Scene hungCloth(std::array<std::uint32_t, 2> size, float compliance = 0) {
     Scene scene{.name = "hung cloth"};
     addCloth(scene, {.origin = {0, 2, 0},
@@ -70,7 +69,7 @@ Scene hungCloth(std::array<std::uint32_t, 2> size, float compliance = 0) {
     return scene;
 }
 
-// A block that flies and spins, without gravity.
+// Momenta of a block that flies and spins without gravity.
 struct Momentum {
     Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
 };
@@ -88,9 +87,9 @@ Momentum momentumOf(const Scene& scene, const test::Runner& runner) {
 
 } // namespace
 
-// Pairwise in place: every correction and every warm impulse has its opposite. A cold start pulls along the
-// predicted directions, as implicit Euler does: spin decays by (omega h)^2 a substep. A warm one pulls along
-// those it found before.
+// Pairwise corrections and warm impulses cancel exactly. A cold start pulls along predicted directions, like
+// implicit Euler, and reduces spin by (omega h)^2 a substep. A warm start pulls along the directions found
+// before.
 TEST(GaussSeidel, KeepsMomentumAndWithAWarmStartAngularMomentum) {
     const Scene scene = test::spinningBlock({0.5f, 0.2f, -0.4f});
     const double mass = test::massOf(scene), speed = 0.67, radius = 0.26;
@@ -125,8 +124,8 @@ TEST(GaussSeidel, GivesTheSameBitsWithTexelsAndWithLoads) {
     }
 }
 
-// Case 6: extension m g N (N + 1) / (2 k) = 20.6 mm, within 1 % at the default number of substeps, 0.1 %
-// above.
+// Case 6: the extension m g N (N + 1) / (2 k) = 20.6 mm holds within 1 % at the default number of substeps,
+// and 0.1 % above it.
 TEST(HangingChain, StretchesByItsWeight) {
     const Scene scene = dampedChain();
     const double exact = 0.01 * g * 20 * 21 / (2 * 1000);
@@ -148,8 +147,8 @@ TEST(HangingChain, OfRigidLinksKeepsItsLengthWithinOnePercent) {
     }
 }
 
-// Unguarded, a warm start diverges on the stiff beam up to 32 substeps (methods: D); with the displacement
-// guard alone it gains hundreds of joules of vibration.
+// Without a guard, a warm start diverges on the stiff beam up to 32 substeps. With the displacement guard
+// alone, it adds hundreds of joules of vibration.
 TEST(StiffBeam, GainsNoEnergyFromAWarmStart) {
     const Scene scene = stiffBeam();
     for (const std::uint32_t substeps : {8u, 16u, 32u, 64u}) {
@@ -162,8 +161,8 @@ TEST(StiffBeam, GainsNoEnergyFromAWarmStart) {
     }
 }
 
-// The order of the colors decides: where the two colors of one direction alternate with those of another the
-// same sheets keep 1e-3 to 7e-2 J for ever.
+// The order of colors is decisive: if the two colors of one direction alternate with those of another, the
+// same sheets keep 1e-3 to 7e-2 J permanently.
 TEST(RigidCloth, ComesToRest) {
     const Scene scene = hungCloth({33, 33});
     test::Runner runner(scene, warm(64));

@@ -1,5 +1,5 @@
-// Bodies whose neighbours are computed: every form of the kernel gives the same bits, one step agrees with
-// double precision, and a grid that does not say what the lists say is refused.
+// Tests of bodies with computed neighbours: all forms of the kernel give the same bits, one step agrees with
+// double precision, and a grid that contradicts the lists is refused.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/constraints/agreement.hpp"
@@ -49,7 +49,7 @@ Scene sheet(std::array<std::uint32_t, 2> size) {
     return scene;
 }
 
-// Bodies of two shapes, two of them alike, free particles and a chain between them.
+// Bodies of two shapes, two of them equal, with free particles and a chain between them.
 Scene mixture() {
     Scene scene = sheet({7, 5});
     addLattice(scene, {.origin = {0, 0.5f, 0}, .cells = {2, 3, 4}, .spacing = 0.1f, .youngModulus = 2e5f});
@@ -82,7 +82,7 @@ std::vector<std::pair<const char*, Scene>> scenes() {
             {"mixture", disturbed(mixture())}};
 }
 
-// All of those but the mixture in one scene, which small shared memory holds body by body. Bodies do not
+// All of those bodies except the mixture in one scene. Each fits into small shared memory, and they do not
 // touch.
 Scene bodies() {
     Scene scene{.name = "bodies"};
@@ -110,8 +110,8 @@ TEST(Grid, IsComputedForEveryRegularBody) {
         << "a link that the grid does not have must not be lost";
 }
 
-// Scenes share their pipelines, which cost more than their steps: bodies of all kinds fly side by side, those
-// that may be resident and those that have free particles and a chain among them.
+// Scenes share their pipelines, which cost more than their steps. Bodies of all kinds fly side by side; some
+// may be resident, others have free particles and a chain among them.
 TEST(Grid, FormsGiveTheSameBits) {
     const Forms forms[] = {{.chunk = 3},
                            {.columns = 1, .chunk = 5},
@@ -138,7 +138,7 @@ TEST(Grid, FormsGiveTheSameBits) {
         }
 }
 
-// 12 x 13 x 13 slots of 32 bytes are more than the 32 KiB of most devices.
+// 12 x 13 x 13 slots of 32 bytes exceed the 32 KiB of most devices.
 TEST(Grid, IsKeptResidentOnlyWithinTheSharedMemoryOfTheDevice) {
     const Scene scene = body({11, 12, 12});
     Settings settings{.substeps = 1};
@@ -147,7 +147,7 @@ TEST(Grid, IsKeptResidentOnlyWithinTheSharedMemoryOfTheDevice) {
     EXPECT_EQ(test::hashOfRun(scene, settings), expected);
 }
 
-// Its 49 blocks of columns are more than a work group of the march has invocations.
+// The body has 49 blocks of columns, more than a work group of the march has invocations.
 TEST(Grid, IsNotResidentWhereContactsFollow) {
     Scene scene = disturbed(body({12, 12, 3}));
     for (Particle& particle : scene.particles) particle.radius = 0.01f;
@@ -220,7 +220,7 @@ TEST(Grid, BodyTakesAtMost72BytesAParticleAnd16MoreForPublicVelocities) {
     EXPECT_LE(bytes(true), 88);
 }
 
-// Slots by rule: bodies in a row, of even and odd extents, and what breaks the rule.
+// Computed slots: bodies in a row, with even and odd extents, and bodies that break the rule.
 TEST(Grid, SlotsOfEqualFullBodiesFollowTheRuleThatKernelsCompute) {
     Scene row, ragged = body({4, 3, 5}, test::raggedFill(60)), unequal = body({2, 2, 2});
     for (const float x : {0.0f, 2.0f, 4.0f})
@@ -267,7 +267,7 @@ TEST(Grid, ThatContradictsTheListsIsRefusedInASentence) {
          },
          "distance[7] is not the link"},
         {[](Scene& s) {
-             // a second cell, away from all particles
+             // A second cell, away from all particles.
              Grid& grid = s.grids[0];
              grid.nodes = {3, 3, 6};
              grid.fill.resize(20);

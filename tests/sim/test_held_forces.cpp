@@ -1,5 +1,5 @@
-// Forces on what never moves: of two such things on each other there are none, a hold gives the opposite of
-// what touches what it holds, and faces that never move feel any number of points.
+// Tests of forces on fixed objects: there are none between two fixed objects, a hold reports the opposite of
+// the contact forces on its particles, and fixed faces accept any number of points.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/hash.hpp"
@@ -29,7 +29,7 @@ Vector forceOf(const Impulse& impulse, const Scene& scene) {
     return test::toVector(impulse.linear) / double{scene.dt};
 }
 
-// The impulses of ten steps, after `steps` others.
+// Impulses of ten steps after `steps` others.
 std::vector<Impulses> after(test::Runner& runner, int steps) {
     std::vector<Impulses> all;
     runner.run(steps);
@@ -41,7 +41,7 @@ std::vector<Impulses> after(test::Runner& runner, int steps) {
     return all;
 }
 
-// Expects a force that points up and has this size, within a share of the weight of all.
+// Expects an upward force of this size, within a share of the total weight.
 void expectUp(const Impulse& impulse, double force, const Scene& scene, double weight) {
     const Vector found = forceOf(impulse, scene);
     EXPECT_LE((found - Vector(0, force, 0)).norm(), weightShare * weight) << found.transpose();
@@ -78,7 +78,7 @@ MeshCollider meshOf(std::vector<Vec3> vertices, std::vector<std::array<std::uint
             .thickness = 0.01f};
 }
 
-// Two squares beside each other, both of half extent 0.6.
+// Two squares beside each other, each with half extent 0.6.
 MeshCollider twoTables() {
     return meshOf({{-0.6f, 0, -0.6f},
                    {0.6f, 0, -0.6f},
@@ -91,7 +91,7 @@ MeshCollider twoTables() {
                   {{0, 2, 1}, {0, 3, 2}, {4, 6, 5}, {4, 7, 6}});
 }
 
-// The bytes of the buffer with that label.
+// Contents of the buffer with this label.
 std::vector<std::byte> contents(test::Runner& runner, const std::string& label) {
     const auto& buffers = runner.simulation().program().buffers;
     for (std::uint32_t b = 0; b < buffers.size(); ++b)
@@ -108,7 +108,7 @@ double largest(const BodyImpulses& body) {
 
 } // namespace
 
-// A held ball that is driven through another held one, past a free one.
+// A held ball is driven through another held ball, past a free one.
 TEST(HeldForces, OfTwoThatNeverMoveAreNone) {
     for (const float restitution : {0.0f, 0.5f})
         for (const float friction : {0.0f, 0.4f}) {
@@ -131,7 +131,7 @@ TEST(HeldForces, OfTwoThatNeverMoveAreNone) {
         }
 }
 
-// Every other particle of two interlocked bodies is held, so that some that never move touch.
+// Every other particle of two interlocked bodies is held, so that some fixed particles touch.
 TEST(HeldForces, OfInterlockedBodiesThatAreHeldAreFinite) {
     Scene scene = test::weightless();
     addBlock(scene, {0, 0, 0});
@@ -151,7 +151,7 @@ TEST(HeldForces, OfInterlockedBodiesThatAreHeldAreFinite) {
     EXPECT_LT(most, 1e6);
 }
 
-// 2,500 small balls fall onto one triangle: more than a face that moves may know.
+// 2,500 small balls fall onto one triangle, more than a moving face can list.
 TEST(HeldForces, FeelAnyNumberOfPointsOnOneFace) {
     Scene scene;
     scene.damping = 1;
@@ -220,18 +220,18 @@ TEST(HeldForces, OfAHoldAreThoseOfWhatStandsOnItsFaces) {
         expectUp(impulses.holds[0], weight, scene, weight);
         expectUp(impulses.holds[1], 0, scene, weight);
         expectUp(impulses.holds[2], weight, scene, weight);
-        // the block stands 1 m from the middle of both squares: a torque about z
+        // The block stands 1 m from the middle of both squares, which gives a torque about z.
         EXPECT_NEAR(double{impulses.bodies[1].contacts.angular.z} / double{scene.dt}, weight, 0.02 * weight);
         EXPECT_NEAR(double{impulses.bodies[1].holds.angular.z} / double{scene.dt}, -weight, 0.02 * weight);
     }
 }
 
-// A ball falls onto a cloth of which only the middle moves: it touches faces with corners that never do. The
-// hold gives all changes of momentum but those of gravity.
+// A ball falls onto a cloth of which only the middle can move, and touches faces with fixed corners. The hold
+// causes all changes of momentum except those by gravity.
 TEST(HeldForces, OfABorderAreTheChangesOfMomentum) {
     Scene scene;
     addCloth(scene, {.origin = {-0.2f, 0, -0.2f}, .size = {3, 3}, .spacing = 0.2f, .thickness = 0.02f});
-    const std::vector<std::uint32_t> border{0, 1, 2, 3, 5, 6, 7, 8}; // all but the middle
+    const std::vector<std::uint32_t> border{0, 1, 2, 3, 5, 6, 7, 8}; // all except the middle
     hold(scene, border);
     scene.holds = {{"border", border}};
     scene.particles.push_back(test::ballAt({0.06f, 0.12f, 0.04f}, {}, 2));
@@ -257,7 +257,7 @@ TEST(HeldForces, OfABorderAreTheChangesOfMomentum) {
     EXPECT_GT(given.y(), 0.5 * 2 * gravity * 60 * dt);
 }
 
-// All goes on where the other one stood, also where the first step is undone.
+// The simulation that takes over continues exactly, also if its first step is undone.
 TEST(HeldForces, MayBeAskedForLater) {
     Scene scene;
     addChain(scene,

@@ -1,4 +1,4 @@
-// Held and driven particles (sim/holds.hpp) of every kind of body.
+// Tests of held and driven particles (sim/holds.hpp) of all kinds of bodies.
 #include "sim/holds.hpp"
 
 #include "sim/bodies.hpp"
@@ -40,7 +40,7 @@ std::vector<std::uint32_t> endOf(const Scene& scene) {
     return select(scene, scene.bodies[0], insideOf(lowEnd)).particles;
 }
 
-// Every bit of a place.
+// Expects equal bits of the positions.
 void expectUnmoved(const Scene& scene, const test::Runner& runner, std::span<const std::uint32_t> held) {
     const auto x = runner.positions();
     for (const std::uint32_t particle : held)
@@ -183,8 +183,8 @@ TEST(Drive, GoesOnFromASavedStateWithTheSameBits) {
     EXPECT_EQ(runner.stateHash(), first);
 }
 
-// The path begins after the body has fallen asleep: one particle of no radius is driven, from which all the
-// rest hangs by links.
+// The path begins after the body has fallen asleep. One driven particle without a radius carries the rest by
+// links.
 TEST(Drive, WakesWhatSleepsOnIt) {
     Scene scene;
     scene.damping = 8;
@@ -213,7 +213,7 @@ TEST(Drive, IsRefusedWithSolversThatHaveNoFormForIt) {
     EXPECT_NE(validate(scene, {.substeps = 8}).at(0).find("has particle 100000 of"), std::string::npos);
 }
 
-// A blade goes through the beam beside what is held or driven: only the rest falls.
+// A blade cuts the beam beside the held or driven particles: only the rest falls.
 TEST(Hold, IsLeftBehindByWhatABladeCutsOff) {
     for (const bool isDriven : {false, true}) {
         SCOPED_TRACE(isDriven ? "driven" : "held");

@@ -1,5 +1,5 @@
-// Passes of which a kernel decides whether they run: what the builder refuses, how they print, and that the
-// device obeys, under validation.
+// Tests of passes that a kernel switches on or off: errors of the builder, the printed form, and execution on
+// the device under validation.
 #include "layout.h"
 #include "sim/gpu_executor.hpp"
 #include "sim/scenes.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t count = 300; // the last group is partly idle
 
-// Two switches and two runs a step, of which exactly one runs.
+// A program with two switches and two runs a step, of which exactly one is executed.
 struct Toggled {
     ProgramBuilder builder{false};
     BufferId arguments = builder.scratch<layout::DispatchArguments>("arguments", 2);

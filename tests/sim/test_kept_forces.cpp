@@ -1,5 +1,5 @@
-// Keeping forces changes no motion, is no part of a state, does not depend on the order of work, and counts
-// no undone step.
+// Tests that keeping forces does not change the motion, is not part of the state, is independent of the
+// invocation order, and does not count undone steps.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/face_scenes.hpp"
@@ -36,7 +36,8 @@ Lattice blockAt(const Vec3& origin, bool isCuttable = false) {
             .isCuttable = isCuttable};
 }
 
-// Two blocks, one held at a corner, fall onto a mesh and a plane with a collider; friction and rebound.
+// Two blocks, one held at a corner, fall onto a mesh and a plane with a collider; with friction and
+// restitution.
 Scene clash(bool hasSurfaces, float restitution) {
     Scene scene{.name = "clash"};
     addLattice(scene, blockAt({0, 0.1f, 0}));
@@ -59,7 +60,7 @@ Scene clash(bool hasSurfaces, float restitution) {
     return scene;
 }
 
-// Two lattices, one in the other.
+// Two lattices, one inside the other.
 Scene interlocked() {
     Scene scene = test::weightless();
     addLattice(scene, blockAt({0, 0, 0}));
@@ -114,7 +115,7 @@ TEST(KeptForces, ChangeNoMotionOfWhatTouches) {
     }
 }
 
-// A scene without contacts has its planes in a pass of their own where forces are kept.
+// With kept forces, the planes of a scene without contacts use a separate pass.
 TEST(KeptForces, ChangeNoMotionElsewhereButForRounding) {
     for (const test::NamedScene& named : test::allScenes()) {
         if (named.scene.particles.empty()) continue;
@@ -155,7 +156,7 @@ TEST(KeptForces, OfContactsAddUpToNothing) {
     }
 }
 
-// compare_thread_counts.cmake runs this with other numbers of threads, and compares what it prints.
+// compare_thread_counts.cmake runs this test with several numbers of threads and compares its output.
 TEST(KeptForces, HaveTheSameBitsInReversedOrder) {
     for (const test::NamedScene& named : scenes()) {
         SCOPED_TRACE(named.name);
@@ -246,7 +247,7 @@ TEST(KeptForces, OfAnUndoneStepAreNone) {
                    once = undisturbed.simulation().forces(10);
     EXPECT_GT(norm(again.bodies[0].contacts.linear), 1e-3);
     EXPECT_EQ(norm(again.bodies[0].contacts.linear), norm(once.bodies[0].contacts.linear));
-    // without room for contacts
+    // Contact capacity is too small.
     Settings narrow = withForces();
     narrow.contactRoom = 1;
     Scene dense = test::weightless();
@@ -293,7 +294,7 @@ TEST(KeptForces, OfPokesAreOppositeToTheirBodies) {
     double pushed = 0;
     for (int s = 0; s < 30; ++s) {
         const std::array pokes{
-            Poke{.radius = NAN}, // is not there
+            Poke{.radius = NAN}, // is inactive
             Poke{.radius = 0.1f,
                  .pose = {.position = {-0.3f + 0.01f * static_cast<float>(s), 0.15f, 0.15f}}}};
         const Status status = runner.step({.dt = scene.dt, .gravity = scene.gravity, .pokes = pokes});
@@ -326,7 +327,7 @@ TEST(KeptForces, AreRefusedWhereThereAreNone) {
     Settings settings = withForces();
     settings.solver = Solver::gaussSeidel;
     EXPECT_TRUE(validate(free, settings).empty());
-    settings.solver = Solver::jacobi; // averages what links do
+    settings.solver = Solver::jacobi; // its links do not conserve momentum
     ASSERT_EQ(validate(free, settings).size(), 1u);
     EXPECT_NE(validate(free, settings)[0].find("jacobi averages"), std::string::npos);
     free.distances.clear();
@@ -352,7 +353,7 @@ TEST(KeptForces, AreRefusedWhereTheyHaveNoRoom) {
     EXPECT_TRUE(validate(scene, settings).empty());
 }
 
-// A row for what faces give is there only where a point can touch them.
+// Faces have a row only if a point can touch them.
 TEST(KeptForces, HaveNoRowsOfFacesThatStopNothing) {
     const auto rows = [](float radius) {
         Scene scene = test::particleAt({0, 1, 0});

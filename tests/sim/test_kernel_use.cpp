@@ -1,4 +1,4 @@
-// Simulations of one device share what their programs have in common.
+// Tests that simulations of one device share the common parts of their programs.
 #include "sim/program.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -11,7 +11,7 @@ using namespace sinew::sim;
 
 namespace {
 
-// Users of each kernel of a simulation's program, but for this one.
+// Number of other users of each kernel of a simulation's program.
 std::vector<long> usersOf(const Simulation& simulation) {
     std::vector<long> users;
     for (const KernelUse& use : simulation.program().kernels) {

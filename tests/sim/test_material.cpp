@@ -1,5 +1,5 @@
-// A material that is turned while a scene plays acts from the next step on: with the bits of a scene that has
-// it from the start, where nothing has happened yet.
+// Tests of material changes during a run: they act from the next step on, and before any motion they give the
+// bits of a scene made with that material.
 #include "sim/bodies.hpp"
 #include "sim/material.hpp"
 #include "sim/runner.hpp"
@@ -18,7 +18,7 @@ Settings settingsOf(Solver solver, std::uint32_t substeps = 8) {
     return {.solver = solver, .substeps = substeps, .iterations = solver == Solver::split ? 1u : 3u};
 }
 
-// A lattice that hangs from one end, with volumes where the Poisson ratio is above 1/4.
+// A lattice that hangs from one end, with cell volumes for Poisson ratios above 1/4.
 Scene beam(float youngModulus, float poissonRatio = 0.25f) {
     Scene scene{.name = "beam"};
     addLattice(
@@ -41,7 +41,7 @@ double lowest(const test::Runner& runner) {
     return y;
 }
 
-// Turned before the first step, and again after a reset: as made so.
+// Changes the material before the first step and after a reset; expects the bits of a scene made with it.
 void expectAsMadeSo(const Scene& scene, const Material& material, const Settings& settings) {
     const Scene turned = withMaterial(scene, material);
     const std::uint64_t wanted = test::hashOfRun(turned, settings, 20);
@@ -86,7 +86,7 @@ TEST(Material, OfBodiesIsTurnedOneByOne) {
 
 TEST(Material, OfATenthOfTheStiffnessSagsTenTimesAsFar) {
     Scene scene = beam(4e6f);
-    scene.gravity = {0, -0.5f, 0}; // bends little
+    scene.gravity = {0, -0.5f, 0}; // bends only slightly
     scene.damping = 8;
     const Settings settings = settingsOf(Solver::split, 64);
     test::Runner runner(scene, settings), soft(withMaterial(scene, {.stiffness = 0.1f}), settings);
@@ -143,7 +143,7 @@ TEST(Material, OfASheetThatWasCutLeavesTheCut) {
     test::Runner other(withMaterial(scene, {.stiffness = 0.5f}), settings);
     other.cut(test::bladeAcrossSheet());
     other.run(6);
-    const auto x = runner.positions(), y = other.positions(); // at rest: nothing but the cut is there
+    const auto x = runner.positions(), y = other.positions(); // at rest, so that only the cut differs
     for (std::size_t i = 0; i < x.size(); ++i) ASSERT_LT((x[i] - y[i]).norm(), 1e-5) << i;
     const std::uint64_t wanted = runner.stateHash();
     runner.load(saved);

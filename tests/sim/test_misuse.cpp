@@ -1,4 +1,4 @@
-// A host's mistake is said once, in a sentence; correct use is not.
+// Tests that each mistake of a host gives one sentence, once, and that correct use gives none.
 #include "sim/bodies.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr Settings fewSubsteps{.substeps = 2};
 
-// Records into a command buffer that is submitted and waited for.
+// Records into a command buffer, submits it and waits for it.
 void submit(const std::function<void(VkCommandBuffer)>& record) {
     const VkCommandBuffer commands = queue().begin();
     record(commands);
@@ -34,13 +34,13 @@ Simulation& reset(Simulation& simulation) {
     return simulation;
 }
 
-// The one sentence that there is to say, with all these parts.
+// Expects exactly one sentence that has all these parts.
 void expectOne(const Sentences& said, std::initializer_list<const char*> parts) {
     ASSERT_EQ(said.size(), 1u) << ::testing::PrintToString(said);
     for (const char* part : parts) EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
 }
 
-// Balls in a row that nearly touch: with a wide margin each of them is near ten others.
+// A row of balls that nearly touch: with a wide margin, each is near ten others.
 Scene crowd(int count) {
     Scene scene{.name = "crowd", .gravity = {}};
     for (int i = 0; i < count; ++i)
@@ -150,14 +150,14 @@ TEST(Misuse, OfStepsBeforeTheFirstResetIsSaid) {
     EXPECT_EQ(next.complaints(), Sentences{}) << "a state that was taken over is one";
 }
 
-// Three frames in flight of three steps each.
+// Three frames in flight with three steps each.
 TEST(Misuse, OfMoreStepsInFlightThanTheSettingSaysIsSaid) {
     for (const std::uint32_t allowed : {1u, 4u, 9u}) {
         Settings settings = fewSubsteps;
         settings.framesInFlight = allowed;
         Simulation simulation(test::device(), test::chain(6), settings);
         reset(simulation);
-        const VkCommandBuffer commands = queue().begin(); // none has finished before it is submitted
+        const VkCommandBuffer commands = queue().begin(); // no step can finish before the submission
         for (std::uint64_t frame = 18; frame < 27; ++frame) simulation.record(commands, {.frame = frame});
         EXPECT_EQ(simulation.oldestInFlight(), 27 - allowed);
         queue().wait(queue().submit(commands));
@@ -184,7 +184,7 @@ TEST(Misuse, OfTheNumberOfStepsInFlightIsRefused) {
                   std::string::npos);
 }
 
-// The lines of docs/embedding.md, for a host without GrowingSimulation.
+// The code of docs/embedding.md for a host without GrowingSimulation.
 TEST(Misuse, OfRoomForContactsIsLoudAndHasACure) {
     const Scene scene = crowd(128);
     Settings settings = fewSubsteps;

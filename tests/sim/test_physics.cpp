@@ -1,4 +1,4 @@
-// Laws of motion on the device that are no analytic case of tests/cases: damping.
+// Tests of damping on the device, which is not an analytic case of tests/cases.
 #include "sim/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"

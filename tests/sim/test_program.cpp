@@ -1,4 +1,4 @@
-// Step programs without a device: what the builder refuses, what a scene adds, and the printed form.
+// Tests of step programs without a device: errors of the builder, the passes of scenes, and the printed form.
 #include "kernels.hpp"
 #include "sim/compile.hpp"
 #include "sim/scenes.hpp"
@@ -18,9 +18,9 @@ using namespace sinew::sim;
 namespace {
 
 using Vec4 = std::array<float, 4>;
-using Words = std::array<std::uint32_t, 16>; // as large as the step parameters
+using Words = std::array<std::uint32_t, 16>; // the size of the step parameters
 
-// What predict.comp takes: two lists of vec4, the step parameters, and a count as push constant.
+// The arguments of predict.comp: two lists of vec4, the step parameters, and a count as push constant.
 struct Predict {
     ProgramBuilder builder{false};
     BufferId positions = builder.scratch<Vec4>("positions", 8),
@@ -262,13 +262,13 @@ TEST(Program, RunsEveryKernelReversedWhereAsked) {
 }
 
 TEST(Program, DeclaresTheBytesItsKernelsTouch) {
-    // A vec4 of each of 128 particles is 2048 bytes. Parameters 64, status 32; read and written counts twice.
-    // update 64, fill 16; drift 4 x 2048 + 64; copy 2 x 2048; measure 2 x 2048 + 32 + 64; publish 8 x 2048 +
-    // 16 + 64: it may undo the step.
+    // A vec4 for each of 128 particles is 2048 bytes. Parameters are 64 bytes, the status 32; reads and
+    // writes count separately. update 64, fill 16; drift 4 x 2048 + 64; copy 2 x 2048; measure 2 x 2048 + 32
+    // + 64; publish 8 x 2048 + 16 + 64, because it may undo the step.
     Scene scene = test::chain(128);
     scene.distances.clear();
     for (Particle& particle : scene.particles)
-        particle.position.x *= 0.01f; // near enough to need no remainders
+        particle.position.x *= 0.01f; // near the origin, where remainders are not needed
     EXPECT_EQ(declaredBytes(compile(scene, {.substeps = 1})), 16u * 2048 + 384);
 }
 
@@ -304,7 +304,7 @@ std::string contents(const std::string& path) {
 
 } // namespace
 
-// SINEW_UPDATE_GOLDEN=1 rewrites the files; a commit that does so says why the new program is right.
+// SINEW_UPDATE_GOLDEN=1 rewrites the files. A commit that does so must justify the new program.
 TEST(Describe, PrintsTheGoldenText) {
     for (const Golden& golden : goldens()) {
         const std::string path = std::string(SINEW_GOLDEN_FOLDER) + "/" + golden.file;

@@ -1,5 +1,5 @@
-// What recording may not do: allocate, create buffers, or cost more than its dispatches. Without validation,
-// whose layer allocates on its own.
+// Tests of recording: it must not allocate, create buffers, or cost more than its dispatches. Runs without
+// the validation layer, which allocates memory of its own.
 #include "sim/bodies.hpp"
 #include "sim/count_allocations.hpp"
 #include "sim/program.hpp"
@@ -23,7 +23,7 @@ using namespace sinew::sim;
 
 namespace {
 
-// An unvalidated device, as an application has.
+// A device without validation, as in an application.
 struct Application {
     vk::Loader loader;
     vk::Device device = vk::Device::create(loader.getInstanceProcAddr(), {});
@@ -44,14 +44,14 @@ Scene everything() {
     return scene;
 }
 
-// A device that stops in the middle of a command buffer: copies after the first `most` are not done. Vulkan's
-// entry points carry no user pointer.
+// A device that stops in the middle of a command buffer: copies after the first `most` are skipped. The state
+// is global because Vulkan functions have no user pointer.
 struct Stopping {
     PFN_vkCmdCopyBuffer copy = nullptr;
     PFN_vkCmdPipelineBarrier barrier = nullptr;
     int copies = 0, most = 0;
-    bool isVisible = false;        // a barrier since the last copy makes that visible to the host first
-    bool isLastBehindThat = false; // the last copy stands behind such a barrier
+    bool isVisible = false;        // a barrier after the last copy makes it visible to the host
+    bool isLastBehindThat = false; // such a barrier precedes the last copy
 };
 Stopping stopping;
 
@@ -125,8 +125,8 @@ TEST(Recording, OfAStepWithABladeAllocatesNothing) {
     EXPECT_EQ(after.reserved, before.reserved);
 }
 
-// A step may be on its way while the host asks for its status: it has finished when all that the host reads
-// of it has arrived.
+// A host may ask for the status while a step is running. The step counts as finished only after all data for
+// the host have arrived.
 TEST(Recording, OfAStepEndsWithTheMarkThatItHasFinished) {
     test::HostDevice host;
     stopping = {reinterpret_cast<PFN_vkCmdCopyBuffer>(host.original("vkCmdCopyBuffer")),
@@ -151,7 +151,7 @@ TEST(Recording, OfAStepEndsWithTheMarkThatItHasFinished) {
         ASSERT_LT(stopping.copies, 1000);
         EXPECT_TRUE(stopping.isLastBehindThat) << "else the mark may overtake what it marks";
         EXPECT_EQ(simulation.oldestInFlight(), std::nullopt);
-        for (const int lost : {3, 2, 1}) { // counts, status, mark, in whichever order
+        for (const int lost : {3, 2, 1}) { // counts, status, mark, in any order
             ++frame;
             play(lost);
             EXPECT_FALSE(simulation.status(frame).isFinished) << "without the last " << lost << " copies";

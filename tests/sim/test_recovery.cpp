@@ -1,6 +1,6 @@
-// Hard cases 4 to 7: a cube flattened, mirrored, scattered or collapsed to a point becomes a cube again, and
-// its energy never grows. Once with volumes (Poisson ratio 0.45), once with links alone and recovery
-// pressure.
+// Hard cases 4 to 7: a cube that is flattened, mirrored, scattered or collapsed to a point recovers its
+// shape, and its energy never grows. Runs with cell volumes (Poisson ratio 0.45), and with links alone and
+// recovery pressure.
 #include "sim/bodies.hpp"
 #include "sim/reference/cells.hpp"
 #include "sim/reference/trajectory.hpp"
@@ -33,7 +33,7 @@ class Recovery : public testing::TestWithParam<Material> {};
 Scene cube(const Material& material) {
     Scene scene{.name = "cube"};
     scene.gravity = {0, 0, 0};
-    scene.damping = 3; // else it rings for seconds, and what it rings about is not yet to be seen
+    scene.damping = 3; // otherwise it oscillates for seconds, which hides the rest shape
     addLattice(scene, {.cells = {cells, cells, cells},
                        .spacing = spacing,
                        .poissonRatio = material.poissonRatio,
@@ -53,8 +53,8 @@ template <typename Move> Scene moved(const Material& material, const Move& move)
 }
 
 struct Shape {
-    double leastVolume = 0, volume = 0; // signed, of a cell and of the body, by those at rest
-    double rms = 0;                     // distance from the rest shape, by the body's diagonal
+    double leastVolume = 0, volume = 0; // signed volumes of a cell and of the body, over those at rest
+    double rms = 0;                     // distance from the rest shape, over the body's diagonal
 };
 
 Shape shapeOf(const Scene& rest, const std::vector<Vector3d>& x) {
@@ -70,17 +70,18 @@ Shape shapeOf(const Scene& rest, const std::vector<Vector3d>& x) {
         from.col(static_cast<Eigen::Index>(i)) = test::toVector(rest.particles[i].position);
         to.col(static_cast<Eigen::Index>(i)) = x[i];
     }
-    const Eigen::Matrix4d fit = Eigen::umeyama(from, to, false); // a rotation, never a mirror
+    const Eigen::Matrix4d fit = Eigen::umeyama(from, to, false); // a rotation without reflection
     const Eigen::Matrix3Xd apart =
         (fit.topLeftCorner<3, 3>() * from).colwise() + fit.topRightCorner<3, 1>() - to;
     shape.rms = apart.norm() / std::sqrt(static_cast<double>(x.size())) / test::sizeOf(rest);
     return shape;
 }
 
-// Runs four times, the last in reversed order: all must end in the same bits. The energy of the first run
-// never exceeds what it began with. (32 substeps have all of the stiffness with room to spare. With 8, a few
-// fewer than are chosen unasked, kinetic energy stays below 0.53 of it too, but the sum, counted with
-// stiffness that a clamped cell does not have, exceeds it by 17 % in the first frame of a flattened cube.)
+// Shape after a run. Makes four runs, the last in reversed order, which must end with equal bits; the energy
+// of the first must never exceed its initial value. (32 substeps give full stiffness with a margin. With 8
+// substeps, slightly fewer than the automatic choice, the kinetic energy also stays below 0.53 of it. The
+// sum, however, uses stiffness that a clamped cell lacks, and exceeds the initial value by 17 % in the first
+// frame of a flattened cube.)
 Shape shapeAfter(const Scene& scene, const Material& material, int seconds) {
     std::uint64_t hash = 0;
     std::vector<Vector3d> x;
@@ -151,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Recovery,
 
 namespace {
 
-// The volume that is left of a box which was pressed to a part of its height and released.
+// Remaining volume of a box that was pressed to a part of its height and released.
 double volumeAfterBeingPressed(float poissonRatio, float recovery, float part) {
     constexpr float side = 0.3f;
     Scene scene;
@@ -164,7 +165,7 @@ double volumeAfterBeingPressed(float poissonRatio, float recovery, float part) {
     const Scene rest = scene;
     scene.damping = 2;
     scene.planes = {{.friction = 0.3f}};
-    const float low = 0.5f + part * side; // the middle of a block of 1 m
+    const float low = 0.5f + part * side; // centre of a block of 1 m
     scene.colliders = {
         {.shape = ColliderShape::box,
          .halfExtents = {1, 0.5f, 1},
@@ -176,7 +177,7 @@ double volumeAfterBeingPressed(float poissonRatio, float recovery, float part) {
 
 } // namespace
 
-// From which ratio on cells unfold by themselves: docs/scene-files.md.
+// docs/scene-files.md gives the ratio above which cells unfold without recovery.
 TEST(PressedBox, UnfoldsFromAPoissonsRatioOf032On) {
     for (const float part : {0.27f, 0.4f})
         for (const float ratio : {0.32f, 0.36f})

@@ -1,5 +1,5 @@
-// The double reference against numbers worked out by hand and against laws, so that it can be the truth of
-// other tests.
+// Tests the double reference against hand-computed numbers and physical laws, so that other tests can use it
+// as the truth.
 #include "sim/reference/reference.hpp"
 #include "sim/scenes.hpp"
 
@@ -30,7 +30,7 @@ State run(const StepFunction& step, const Scene& scene, const Settings& settings
     return state;
 }
 
-// Three equal masses on the x axis at 0, 1.2 and 2.5, rigid links of length 1, no gravity.
+// Three equal masses on the x axis at 0, 1.2 and 2.5 with rigid links of length 1, without gravity.
 Scene stretchedTriple() {
     Scene scene;
     scene.gravity = {0, 0, 0};
@@ -41,7 +41,7 @@ Scene stretchedTriple() {
 
 void expectOnAxis(const State& state, const std::vector<double>& expected) {
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        EXPECT_NEAR(state.x[i].x(), expected[i], 1e-7) << i; // the scene holds 1.2 as a float
+        EXPECT_NEAR(state.x[i].x(), expected[i], 1e-7) << i; // the scene stores 1.2 as a float
         EXPECT_EQ(state.x[i].tail<2>().norm(), 0);
     }
 }
@@ -56,7 +56,7 @@ Vector3d momentumOf(const Scene& scene, const State& state) {
 } // namespace
 
 TEST(Reference, GaussSeidelSeesWhatTheConstraintBeforeDid) {
-    // The first link moves 0 and 1 to 0.1 and 1.1; the second then finds 1.4.
+    // The first link moves 0 and 1 to 0.1 and 1.1. The second then has the length 1.4.
     const State state = run(reference::stepGaussSeidel, stretchedTriple(), {.substeps = 1}, 1);
     expectOnAxis(state, {0.1, 1.3, 2.3});
     EXPECT_NEAR(state.v[1].x(), 0.1 / frame, 1e-5);
@@ -70,16 +70,16 @@ TEST(Reference, GaussSeidelTakesConstraintsInTheOrderItIsGiven) {
     expectOnAxis(state, {0.175, 1.175, 2.35});
 }
 
-// The first substep ends at 0.1, 1.3, 2.3 and moves on to 0.2, 1.4, 2.1 with multipliers -0.1 and -0.2: 0.3
-// (of rigid links no more is kept) of them would move the ends of a link by more than a twentieth of its
-// length, so both start at -0.025.
+// The first substep ends at 0.1, 1.3, 2.3 with multipliers -0.1 and -0.2, and moves on to 0.2, 1.4, 2.1.
+// Rigid links keep at most 0.3 of a multiplier. That would move the ends of a link by more than a twentieth
+// of its length, so both start at -0.025.
 TEST(Reference, WarmGaussSeidelStartsFromGuardedMultipliers) {
     const auto after = [](float warmStart) {
         return run(reference::stepGaussSeidel, stretchedTriple(), {.substeps = 2, .warmStart = warmStart}, 1);
     };
     expectOnAxis(after(0), {0.3, 1.2, 2.2});
     expectOnAxis(after(0.9f), {0.3125, 1.19375, 2.19375});
-    // 0.1 of them stays below the guard: -0.01 and -0.02.
+    // A share of 0.1 stays below the guard: -0.01 and -0.02.
     expectOnAxis(after(0.1f), {0.31, 1.195, 2.195});
     EXPECT_NEAR(after(0.1f).multipliers[0].lambda, 0.1 * -0.11, 1e-7);
 }
@@ -102,7 +102,7 @@ TEST(Reference, JacobiAveragesWhatBothLinksWant) {
 }
 
 TEST(Reference, SplitStartsWithHalfAClampedKick) {
-    // kappa = omega / (2 n w) = 0.25 at the middle; half of 0.25 x 0.2 and of 0.25 x 0.3.
+    // kappa = omega / (2 n w) = 0.25 at the middle; the kick is half of 0.25 x 0.2 and of 0.25 x 0.3.
     const Settings settings{.substeps = 1, .omega = 1, .theta = 0};
     expectOnAxis(run(reference::stepSplit, stretchedTriple(), settings, 1), {0.025, 1.2125, 2.4625});
 }
@@ -118,7 +118,7 @@ TEST(Reference, FallsExactly) {
     }
 }
 
-// Static stretch m g / k; XPBD and jacobi with one link are exact at any number of iterations.
+// The static stretch is m g / k. XPBD, and jacobi with one link, are exact for any number of iterations.
 TEST(Reference, HangsAsItsLoadSays) {
     Scene scene;
     scene.damping = 20;
@@ -153,7 +153,7 @@ TEST(Reference, KeepsMomentumWhereItsMethodDoes) {
 
 TEST(Reference, SticksBelowTheFrictionAngleAndSlidesAbove) {
     for (const auto& [name, step] : solvers) {
-        for (const double degrees : {26.0, 28.0}) { // friction 0.5: 26.57 degrees
+        for (const double degrees : {26.0, 28.0}) { // friction 0.5 holds up to 26.57 degrees
             const double angle = degrees * std::numbers::pi / 180;
             Scene scene = test::particleAt({0, 0, 0});
             scene.planes = {
@@ -172,13 +172,13 @@ TEST(Reference, ReboundsWithItsRestitution) {
         scene.particles[0].contactOffset = 0.1f;
         scene.planes = {{.offset = 0.1f, .restitution = 0.5f}};
         State state = reference::initialState(scene);
-        double speed = 0; // the largest upward
+        double speed = 0; // largest upward speed
         for (int s = 0; s < 30; ++s) {
             step(scene, {.substeps = 100}, frame, state);
             speed = std::max(speed, state.v[0].y());
             EXPECT_GE(state.x[0].y(), 0.2 - 1e-9) << name;
         }
-        // Seen at the end of the frame it happened in: gravity has taken some of it.
+        // The speed is read at the end of the frame of the impact, after some gravity.
         EXPECT_NEAR(speed, 0.5 * std::sqrt(2 * 9.81 * 0.3), 9.81 * frame) << name;
     }
 }

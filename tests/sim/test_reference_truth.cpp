@@ -1,6 +1,6 @@
-// The references that other tests and the study call the truth, held against what is known of them: Verlet
-// converges with order 2 and keeps energy and momentum; Newton converges quadratically to an implicit Euler
-// step of order 1 and to states at rest.
+// Tests the references that other tests and the study use as the truth. Verlet converges with order 2 and
+// conserves energy and momentum. Newton's method converges quadratically to an implicit Euler step of order 1
+// and to states at rest.
 #include "sim/reference/implicit_step.hpp"
 #include "sim/reference/potential.hpp"
 #include "sim/reference/trajectory.hpp"
@@ -22,7 +22,7 @@ using reference::State;
 
 namespace {
 
-// A soft block of 27 particles, disturbed, clamped at one corner, under gravity.
+// A soft block of 27 particles under gravity, disturbed and clamped at one corner.
 Scene softBlock() {
     Scene scene = test::block(2, 0.1f, 1e4f);
     test::disturb(scene, 0.005f, 0.2f);
@@ -30,8 +30,8 @@ Scene softBlock() {
     return scene;
 }
 
-// A fixed particle at the origin and one of 1 kg on a spring of 100 N/m, pulled 0.1 m out of its rest length
-// of 1 m.
+// A fixed particle at the origin and one of 1 kg on a spring of 128 N/m, stretched by 0.125 m from its rest
+// length of 1 m.
 Scene oscillator() {
     Scene scene{.name = "oscillator"};
     scene.gravity = {0, 0, 0};
@@ -63,7 +63,7 @@ std::pair<Vector3d, Vector3d> momentaOf(const Scene& scene, const State& state) 
     return {linear, angular};
 }
 
-// The sentence of an std::invalid_argument, or nothing.
+// Message of the std::invalid_argument, or "".
 template <typename Action> std::string complaintOf(const Action& action) {
     try {
         action();
@@ -101,7 +101,7 @@ TEST(Verlet, KeepsEnergyToTheSquareOfItsStep) {
         }
     }
     EXPECT_LE(drifts[1], 1e-3 * scale);
-    EXPECT_NEAR(drifts[0] / drifts[1], 4, 0.6); // bounded and of order 2: no drift adds to it
+    EXPECT_NEAR(drifts[0] / drifts[1], 4, 0.6); // bounded and of order 2, without additional drift
 }
 
 TEST(Verlet, KeepsMomentumAndAngularMomentum) {
@@ -126,7 +126,7 @@ TEST(Trajectory, OfAnOscillatorIsACosine) {
     }
 }
 
-// A third as much again as what halving h moved the answer by is what still lacks, for order 2.
+// For order 2, the remaining error is a third of the change by halving h.
 TEST(Trajectory, IsAsCloseToTheLimitAsItSays) {
     const Scene scene = softBlock();
     const reference::Trajectory truth = reference::trueTrajectory(scene, {.frames = 12});
@@ -179,7 +179,7 @@ TEST(Trajectory, RefusesWhatIsNotASpringByName) {
     EXPECT_NE(complaint(oscillator(), {.perturbation = -1}).find("perturbation"), std::string::npos);
 }
 
-// Whatever has no part in the equations of motion would make the truth another scene's.
+// A scene element without a part in the equations of motion would make the result that of another scene.
 TEST(References, RefuseByNameWhatTheyLeaveOut) {
     const auto with = [](auto&& add) {
         Scene scene = oscillator();
@@ -208,7 +208,7 @@ TEST(References, RefuseByNameWhatTheyLeaveOut) {
         EXPECT_TRUE(isRefused(complaintOf([&] { reference::trueTrajectory(scene, {}); })));
         EXPECT_TRUE(isRefused(complaintOf([&] { reference::stepVerlet(scene, 1e-4, 1, state); })));
         EXPECT_TRUE(isRefused(complaintOf([&] { reference::stepImplicitEuler(scene, 0.01, state); })));
-        if (!isDamping) { // which has no part in a state at rest
+        if (!isDamping) { // damping has no effect on a state at rest
             EXPECT_TRUE(isRefused(complaintOf([&] { reference::findEquilibrium(scene, state); })));
         }
         EXPECT_EQ(isRefused(complaintOf([&] { reference::energy(scene, state); })), !hasEnergy);
@@ -216,7 +216,7 @@ TEST(References, RefuseByNameWhatTheyLeaveOut) {
 }
 
 TEST(Trajectory, SaysWhereNoStepIsShortEnough) {
-    // Rounding alone moves the answer by more.
+    // Rounding alone changes the result by more than this tolerance.
     EXPECT_THROW(reference::trueTrajectory(softBlock(), {.frames = 6, .tolerance = 1e-17}),
                  std::runtime_error);
 }
@@ -266,7 +266,9 @@ TEST(Newton, ConvergesQuadratically) {
     EXPECT_LT(report.residual(), 1e-10);
     const std::vector<double>& g = report.gradients;
     ASSERT_GE(g.size(), 4u);
-    // |grad| squares from one iteration to the next while rounding is far away: the exponent is 2.
+    //
+    // grad
+    // is squared from one iteration to the next, as long as rounding is negligible: the exponent is 2.
     double exponent = 0;
     for (std::size_t k = 2; k < g.size(); ++k) {
         if (g[k] > 1e-10 * g[0]) exponent = std::log(g[k] / g[k - 1]) / std::log(g[k - 1] / g[k - 2]);
@@ -337,11 +339,11 @@ TEST(ImplicitEuler, RefusesWhatItHasNoEnergyFor) {
               std::string::npos);
 }
 
-// N masses m under one another: the n-th spring from below carries n m g.
+// N masses m below each other: the n-th spring from below carries n m g.
 TEST(Equilibrium, OfAHangingChainCarriesItsWeight) {
     Scene scene = test::chain(21, {1.0f / 128});
     scene.fixed = {{0}};
-    scene.damping = 1;                                       // has no part in it
+    scene.damping = 1;                                       // has no effect
     const State state = reference::staticEquilibrium(scene); // from a horizontal start
     double load = 0;
     for (std::size_t i = 20; i > 0; --i) {

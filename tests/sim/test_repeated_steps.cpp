@@ -1,4 +1,4 @@
-// The time between a step that lacked lists of contacts and its repetition, and mistakes of hosts.
+// Tests of the time between a step that lacked contact lists and its repetition, and of host mistakes.
 #include "sim/calm_cases.hpp"
 #include "sim/hash.hpp"
 #include "sim/material.hpp"
@@ -13,7 +13,7 @@
 namespace sinew::sim {
 namespace {
 
-// Steps one by one, for what happens between a step that lacked lists and its repetition.
+// Runs single steps, to test the time between a step that lacked lists and its repetition.
 class ByHand {
 public:
     ByHand(const Case& one, bool repeats)
@@ -33,7 +33,7 @@ public:
         submit([&](VkCommandBuffer commands) { simulation.record(commands, step); });
         return simulation.status(frame);
     }
-    // The first step that lacks lists, which was recorded, and the one behind it.
+    // Runs until the first step that lacks lists, and one step more; returns the frame of the first.
     std::uint64_t untilBroken() {
         std::uint64_t frame = 0;
         while (frame < one_.steps && !step(frame).lacksLists) ++frame;
@@ -86,8 +86,8 @@ double farthest(const ByHand& a, const ByHand& b) {
     return most;
 }
 
-// Before the repetition, the state that is saved, seen or taken over is that before the step, on the host as
-// well.
+// Before the repetition, a saved, read or taken-over state is that before the step, on the device and on the
+// host.
 TEST(RepeatedSteps, AreSavedAndTakenOverAsBeforeTheOneThatLackedLists) {
     const Case one = ledByTheHost();
     ByHand plain(one, false), calm(one, true);
@@ -98,7 +98,7 @@ TEST(RepeatedSteps, AreSavedAndTakenOverAsBeforeTheOneThatLackedLists) {
     EXPECT_TRUE(areSame(calm.simulation.pokes()[0].poke.pose.position,
                         plain.simulation.pokes()[0].poke.pose.position));
 
-    ByHand ofCalm(one, false), ofPlain(one, false); // those that take over
+    ByHand ofCalm(one, false), ofPlain(one, false); // simulations that take over
     ofCalm.submit([&](VkCommandBuffer c) { ofCalm.simulation.recordTakeOver(c, calm.simulation); });
     ofPlain.submit([&](VkCommandBuffer c) { ofPlain.simulation.recordTakeOver(c, plain.simulation); });
 
@@ -119,7 +119,7 @@ TEST(RepeatedSteps, AreSavedAndTakenOverAsBeforeTheOneThatLackedLists) {
     EXPECT_EQ(goOn(ofCalm), goOn(ofPlain));
 }
 
-// The hand that took hold behind the step that lacked lists holds something else in its repetition.
+// A grab began after the step that lacked lists. In the repetition it takes another particle.
 TEST(RepeatedSteps, TakeHoldOfWhatTheRepetitionSays) {
     Case one = landing();
     one.settings.grabs = 1;
@@ -137,7 +137,7 @@ TEST(RepeatedSteps, TakeHoldOfWhatTheRepetitionSays) {
     EXPECT_EQ(calm.hash(), plain.hash());
 }
 
-// A step that may not be repeated, recorded while one is in flight that may, is taken once.
+// A step without repetition is executed once, although it was recorded while a repeatable one was in flight.
 TEST(RepeatedSteps, AreNotDoubledWhereTheHostNoLongerRepeats) {
     const Case one = landing();
     ByHand plain(one, false), calm(one, true);
@@ -154,7 +154,7 @@ TEST(RepeatedSteps, AreNotDoubledWhereTheHostNoLongerRepeats) {
     EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{});
 }
 
-// A host may record earlier frames first, and comes to the one that lacked lists in time.
+// The host may first repeat earlier frames; it then reaches the step that lacked lists in time.
 TEST(RepeatedSteps, MayBeginBeforeTheOneThatLackedLists) {
     const Case one = landing();
     ByHand plain(one, false), calm(one, true);
@@ -167,7 +167,8 @@ TEST(RepeatedSteps, MayBeginBeforeTheOneThatLackedLists) {
     EXPECT_EQ(calm.hash(), plain.hash());
 }
 
-// One that asks for steps that may be repeated and repeats none is told; without asking, steps go on.
+// A host that requests repeatable steps and repeats none gets a complaint. Without the request, steps
+// continue.
 TEST(RepeatedSteps, ThatNobodyRepeatsAreSaid) {
     const Case one = landing();
     ByHand plain(one, false), calm(one, true);
@@ -188,7 +189,7 @@ TEST(RepeatedSteps, ThatNobodyRepeatsAreSaid) {
     EXPECT_EQ(calm.hash(), plain.hash());
 }
 
-// A step that goes on from the wrong state asks for no room.
+// A step that runs from the wrong state must not request capacity.
 TEST(RepeatedSteps, BehindOneThatLackedListsAskForNoRoom) {
     Case one = collision();
     one.settings.contactRoom = 1;
@@ -210,7 +211,7 @@ TEST(RepeatedSteps, BehindOneThatLackedListsAskForNoRoom) {
     EXPECT_LT(farthest(calm, plain), 1e-5) << "the undone step had longer substeps";
 }
 
-// Steps behind the one that lacked lists were longer, and left positions as such steps do.
+// Steps after the one that lacked lists had a larger dt, and left positions accordingly.
 TEST(RepeatedSteps, BehindWhichStepsWereLongerAreSavedAndTakenOver) {
     const Case one = collision();
     ByHand plain(one, false), calm(one, true), other(one, true);
@@ -231,7 +232,7 @@ TEST(RepeatedSteps, BehindWhichStepsWereLongerAreSavedAndTakenOver) {
     EXPECT_LT(farthest(other, plain), 1e-5) << "what took over";
 }
 
-// One that took the place of the step that lacked lists, and goes on from the wrong state.
+// A step in place of the one that lacked lists runs from the wrong state, and must not request capacity.
 TEST(RepeatedSteps, ThatNobodyRepeatsAskForNoRoom) {
     Case one = collision();
     one.settings.contactRoom = 1;
@@ -250,8 +251,8 @@ TEST(RepeatedSteps, ThatNobodyRepeatsAskForNoRoom) {
     EXPECT_NE(said[0].find("was not repeated"), std::string::npos) << said[0];
 }
 
-// Another material behind a step in flight that may be repeated is said; once all came back it is not, and
-// the repetition has that material.
+// A change of material with a repeatable step in flight gives a complaint. After all steps have finished
+// there is none, and the repetition uses the new material.
 TEST(RepeatedSteps, AreSettledBeforeTheMaterialChanges) {
     const Case one = landing();
     ByHand plain(one, false), calm(one, true);

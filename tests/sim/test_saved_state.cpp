@@ -1,4 +1,4 @@
-// A state that was saved is gone back to with every bit, whatever has happened since.
+// Tests that loading a saved state restores every bit, whatever happened since.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/runner.hpp"
@@ -11,7 +11,7 @@ using namespace sinew::sim;
 
 namespace {
 
-// Runs on from a saved state twice: the same bits, and those of a run that never saved.
+// Continues from a saved state twice; expects equal bits, which are also those of a run without saving.
 void expectTheSameBits(const Scene& scene, const Settings& settings, int before, int after) {
     test::Runner runner(scene, settings), other(scene, settings);
     runner.run(before);

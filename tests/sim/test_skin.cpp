@@ -1,4 +1,4 @@
-// Skins on the device: vertices in lattice cells, vertices on particles, smooth normals.
+// Tests of skins on the device: vertices in lattice cells, vertices on particles, smooth normals.
 #include "sim/bodies.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// As the header of Simulation says: position and normal, stride 32.
+// The layout documented in simulation.hpp: position and normal, stride 32.
 struct Vertex {
     std::array<float, 4> position, normal;
 };
@@ -27,7 +27,7 @@ std::vector<Vertex> skinOf(test::Runner& runner) {
     return test::queue().download<Vertex>(runner.simulation().skinVertices());
 }
 
-// A 4^3 lattice of the unit cube whose cells lie in a ball around its centre, without links.
+// A unit cube of 8^3 lattice cells without links, filled with a ball around its centre.
 Scene ballOfCells() {
     Scene scene;
     Lattice lattice{.cells = {8, 8, 8}, .spacing = 0.125f, .fill = std::vector<float>(512, 0)};
@@ -42,7 +42,7 @@ Scene ballOfCells() {
     return scene;
 }
 
-// One cell with vertices in it, the corner order of CellEmbedding.
+// One cell with vertices in it, in the corner order of CellEmbedding.
 Scene cell(const std::vector<Vec3>& weights) {
     Scene scene;
     scene.gravity = {0, 0, 0};
@@ -130,7 +130,7 @@ TEST(SkinNormals, AreThoseOfTheTrianglesByTheirAngles) {
     }
 }
 
-// As rounding may do to what is hardly more than a point: it says the opposite of all others around a vertex.
+// Rounding may invert a triangle that is nearly a point; its normal then opposes all others around a vertex.
 TEST(SkinNormals, AreNotThoseOfATriangleThatRoundingTurnedOver) {
     const Vec3 corner{0.5f, 0.5f, 0.5f};
     Scene scene = cell(
@@ -138,7 +138,7 @@ TEST(SkinNormals, AreNotThoseOfATriangleThatRoundingTurnedOver) {
     scene.skins[0].triangles = {{0, 1, 2}, {0, 4, 3}};
     test::Runner runner(scene);
     EXPECT_GT(skinOf(runner)[0].normal[2], 0.9999f);
-    scene.skins[0].triangles = {{0, 4, 3}}; // alone it says what it can
+    scene.skins[0].triangles = {{0, 4, 3}}; // alone, it gives its normal
     test::Runner alone(scene);
     EXPECT_LT(skinOf(alone)[0].normal[2], -0.9999f);
 }

@@ -1,4 +1,5 @@
-// Bodies at rest sleep, stay where they are to the last bit and cost nothing; what must wake them does.
+// Tests of sleep: bodies at rest fall asleep, keep their positions exactly and cost nothing; every wake
+// condition works.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
@@ -26,7 +27,7 @@ namespace {
 constexpr float radius = test::ballRadius;
 using test::ballAt;
 
-// side^3 balls a little apart that fall a little way onto a floor, around (x, 0).
+// Adds side^3 balls around (x, 0), slightly apart, that fall a short way onto a floor.
 void addHeap(Scene& scene, std::uint32_t side, float x) {
     const float pitch = 2.3f * radius;
     test::addBalls(scene, side, pitch, 0.1f * radius,
@@ -43,7 +44,7 @@ Scene heap(std::uint32_t side = 5) {
 
 const Settings sleeping{.substeps = 16, .sleeps = true};
 
-// Steps until as many sleep, at most `most`; how many that took, or -1.
+// Number of steps until `sleepers` particles sleep, at most `most`; -1 if they do not.
 int stepsUntilAsleep(test::Runner& runner, std::uint32_t sleepers, int most = 600) {
     for (int step = 1; step <= most; ++step) {
         const Status status = runner.run(1);
@@ -64,7 +65,7 @@ double farthest(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) 
     return most;
 }
 
-// Groups that the indirect dispatches of the next step would run, and those that direct ones always run.
+// Work groups that the indirect dispatches of the next step would run, and those that direct ones always run.
 struct Groups {
     std::uint64_t indirect = 0, direct = 0;
 };
@@ -103,7 +104,7 @@ TEST(Sleep, ComesOverAHeapThatThenStaysWhereItIsBitForBit) {
     EXPECT_EQ(farthest(runner.positions(), x), 0);
 }
 
-// With a margin so small that the last substep before sleep makes lists, too.
+// One margin is so small that even the last substep before sleep builds lists.
 TEST(Sleep, CostsNoGroupButThoseOfAFewSmallPasses) {
     for (const float margin : {0.5f, 1e-7f}) {
         Settings settings = sleeping;
@@ -136,15 +137,15 @@ TEST(Sleep, EndsInTheSameBitsForAnyOrderAndMarginAndForm) {
     EXPECT_EQ(hash(loads), hash(sleeping));
 }
 
-// Until somebody sleeps nothing differs.
+// Before any particle sleeps, both runs are equal.
 TEST(Sleep, ChangesNoBitOfWhatIsAwake) {
     Settings never = sleeping;
     never.sleeps = false;
     EXPECT_EQ(test::hashOfRun(heap(), sleeping, 30), test::hashOfRun(heap(), never, 30));
 }
 
-// What rests without gravity stays where it is to the bit, asleep or not: from the blow on, which goes from
-// ball to ball, all is as if nobody had slept.
+// Without gravity, resting bodies keep their positions exactly, asleep or not. After the impact, which passes
+// from ball to ball, the motion must equal that without sleep.
 TEST(Sleep, OfACloudThatIsStruckEndsInTheBitsOfOneThatNeverSlept) {
     for (const float restitution : {0.0f, 0.5f}) {
         Scene scene = test::weightless();
@@ -172,7 +173,7 @@ TEST(Sleep, OfACloudThatIsStruckEndsInTheBitsOfOneThatNeverSlept) {
     }
 }
 
-// A heap, asleep, and a ball of five times the mass of one of its own from 1.6 m, which throws it apart.
+// A ball of five times the mass of a heap's balls falls from 1.6 m and scatters the sleeping heap.
 TEST(Sleep, EndsWhenABallFallsOntoAHeapWhichThenMovesAsIfItHadNeverSlept) {
     Settings never = sleeping;
     never.sleeps = false;
@@ -189,7 +190,7 @@ TEST(Sleep, EndsWhenABallFallsOntoAHeapWhichThenMovesAsIfItHadNeverSlept) {
     scene.particles.push_back(ballAt({0.01f, static_cast<float>(top) + 1.6f, 0.005f}, {}, 5));
     test::Runner slept(scene, sleeping), awake(scene, never);
     std::uint32_t sleepers = 0;
-    int since = -1; // steps that it has been awake for
+    int since = -1; // number of steps awake
     double moved = 0, apart = 0, deep = 0, deepAwake = 0;
     for (int step = 0; step < 60 && since < 6; ++step) {
         const Status status = slept.run(1);
@@ -285,7 +286,7 @@ TEST(Sleep, EndsWithTheAnchorThatMoves) {
     for (std::size_t i = 0; i + 1 < after.size(); ++i) EXPECT_EQ(after[i], before[i]);
 }
 
-// A ball far away on a plate that stays; one on a plate that sinks after four seconds.
+// A ball on a distant fixed plate, and one on a plate that sinks after four seconds.
 TEST(Sleep, EndsWithTheColliderThatMovesBelowIt) {
     Scene scene;
     scene.particles = {ballAt({0, 0.16f, 0}), ballAt({0, 0.2601f, 0}), ballAt({3, 0.16f, 0})};
@@ -332,7 +333,7 @@ TEST(Sleep, ComesOverALatticeOnAFloorAndEndsWhenABallHitsIt) {
 
 namespace {
 
-// `layers` sheets over each other on a table of triangles, where they lie at rest.
+// `layers` sheets at rest above each other on a table of triangles.
 Scene clothOnTable(std::uint32_t layers) {
     Scene scene;
     addMeshCollider(scene, {.vertices = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}},
@@ -380,8 +381,8 @@ TEST(Sleep, ComesOverClothOnAMeshAndEndsWhenABallFallsOntoIt) {
     for (std::size_t i = 4; i + 1 < x.size(); ++i) EXPECT_GE(x[i].y(), 0.0195) << "particle " << i;
 }
 
-// Wherever its particles lie: in most places, contacts of sheets with each other go on moving them by
-// hundredths of a millimetre.
+// Tests several placements: for most, contacts between the sheets keep moving them by hundredths of a
+// millimetre.
 TEST(Sleep, ComesOverClothWhereverItLies) {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> nudge(-4, 4);
@@ -398,7 +399,8 @@ TEST(Sleep, ComesOverClothWhereverItLies) {
     }
 }
 
-// Lists are made again for a ball that falls beside it: what sleeps must stay listed with what it lies on.
+// A ball that falls beside the cloth causes new lists. Sleeping particles must stay listed with the faces
+// below them.
 TEST(Sleep, OfClothOnAMeshEndsByWishWhereItCameToRest) {
     Scene scene = clothOnTable(2);
     const std::uint32_t cloth = countOf(scene) - 4;

@@ -1,4 +1,4 @@
-// Steady motion that moves a particle by less than the distance of two float32 numbers in a substep.
+// Tests of steady motion by less than the spacing of float32 numbers in a substep.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/rounding.hpp"
@@ -26,7 +26,7 @@ protected:
     Settings settings(std::uint32_t substeps) const { return {.solver = GetParam(), .substeps = substeps}; }
 };
 
-// Without gravity, one particle for each speed, along x and z, at distance x from the origin along all axes.
+// One particle for each speed, along x and z, at distance x from the origin along all axes, without gravity.
 Scene freeParticles(float x, float radius = 0) {
     Scene scene{.name = "slow", .gravity = {}};
     for (std::size_t i = 0; i < std::size(speeds); ++i)
@@ -36,7 +36,8 @@ Scene freeParticles(float x, float radius = 0) {
     return scene;
 }
 
-// The way of each free particle is speed x duration along both axes, but for the rounding of where it ends.
+// Expects each free particle to move by speed x duration along both axes, up to the rounding of its final
+// position.
 void expectWays(const Scene& scene, const Settings& settings, const std::string& what) {
     test::Runner runner(scene, settings);
     runner.run(steps);
@@ -49,7 +50,7 @@ void expectWays(const Scene& scene, const Settings& settings, const std::string&
     }
 }
 
-// The way of the centre of mass along x [m] from where it begins.
+// Displacement of the centre of mass along x [m].
 double meanWay(const Scene& scene, const test::Runner& runner) {
     double way = 0;
     const std::vector<Eigen::Vector3d> x = runner.positions();
@@ -68,7 +69,7 @@ Scene shifted(Scene scene, float x) {
     return scene;
 }
 
-// The way [m] of a body that moves along x as a whole.
+// Displacement [m] of a body that moves along x as a whole.
 double wayOf(const Scene& body, float speed, const Settings& settings) {
     const Scene scene = moving(body, speed);
     test::Runner runner(scene, settings);
@@ -76,7 +77,7 @@ double wayOf(const Scene& body, float speed, const Settings& settings) {
     return meanWay(scene, runner);
 }
 
-// Angle [rad] by which particles have turned about the axis y through their centre, if it is small.
+// Small angle [rad] by which particles have rotated about the y axis through their centre.
 double turnOf(const Scene& scene, const test::Runner& runner) {
     const std::vector<Eigen::Vector3d> x = runner.positions();
     Eigen::Vector3d begin = Eigen::Vector3d::Zero(), end = begin;
@@ -217,7 +218,7 @@ TEST_P(SlowMotion, BeginsAnewWithTheSameBits) {
     EXPECT_EQ(runner.stateHash(), first);
 }
 
-// The remainders of other positions are none of theirs.
+// Remainders are valid only for the positions of their own solver.
 TEST_P(SlowMotion, TakesNoRemaindersOverFromAnotherSolver) {
     const Scene scene = freeParticles(100);
     const Solver other = GetParam() == Solver::split ? Solver::gaussSeidel : Solver::split;
@@ -237,7 +238,7 @@ TEST_P(SlowMotion, TakesNoRemaindersOverFromAnotherSolver) {
     EXPECT_EQ(to.stateHash(), anew.stateHash());
 }
 
-// The state is the public one then, in which a number that is not finite has left nothing.
+// The state is then restored from the public one, in which the non-finite number left no trace.
 TEST_P(SlowMotion, OutlastsAStepThatIsUndone) {
     Scene scene = freeParticles(15);
     test::Runner runner(scene, settings(64));
@@ -276,7 +277,7 @@ TEST_F(SlowMotionOfSplit, IsExactWhereParticlesMayTouchFacesAndPlanes) {
     }
 }
 
-// Two particles, a particle and a sheet, and two sheets whose edges cross; the first moves.
+// Two particles, a particle and a sheet, and two sheets with crossing edges; the first of each moves.
 TEST_F(SlowMotionOfSplit, HasTheMomentumOfBodiesThatMeet) {
     const auto particle = [](Scene& scene, float x, float speed) {
         scene.particles.push_back(
@@ -374,7 +375,7 @@ TEST(Remainders, AreKeptWhereALostRoundingShows) {
         return keepsRemainders(scene, substeps);
     };
     EXPECT_TRUE(keeps(1, 32, 0));
-    EXPECT_FALSE(keeps(1, 4, 0)); // 1.4 % of 1 mm/s at most
+    EXPECT_FALSE(keeps(1, 4, 0)); // at most 1.4 % of 1 mm/s
     EXPECT_FALSE(keeps(0.4f, 64, 0));
     EXPECT_TRUE(keeps(15, 4, -9.81f));
     EXPECT_FALSE(keeps(1.5f, 256, -9.81f));

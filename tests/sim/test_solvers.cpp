@@ -1,4 +1,5 @@
-// Steps on the device against the same steps in double (reference R3): what float32 and the GPU add.
+// Compares steps on the device with the same steps in double (reference R3), to bound the error of float32
+// and the GPU.
 #include "sim/bodies.hpp"
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
@@ -19,7 +20,7 @@ namespace {
 constexpr float frame = 1.0f / 60;
 constexpr std::uint32_t sizes[] = {1, 2, 63, 64, 65, 129};
 
-// The largest difference after these steps, relative to the body's size; velocities count as what they move
+// Largest difference after these steps, relative to the body's size; velocities count with their displacement
 // in a frame.
 double difference(const Scene& scene, const Settings& settings, const std::vector<float>& steps) {
     test::Runner runner(scene, settings);
@@ -38,7 +39,7 @@ Scene disturbed(Scene scene, bool isInRoom) {
     return scene;
 }
 
-// A hub with 40 rigid spokes, alone or fixed.
+// A hub with 40 rigid spokes, free or fixed.
 Scene star(bool isFixed) {
     Scene scene{.name = "star"};
     scene.particles.push_back({.position = {0, 1, 0}, .inverseMass = 0.1f});
@@ -51,7 +52,7 @@ Scene star(bool isFixed) {
     return scene;
 }
 
-// Bodies of all kinds and particles without any link, in one scene.
+// Bodies of all kinds and particles without links in one scene.
 Scene mixture() {
     Scene scene = test::block(2, 0.1f, 1e5f);
     scene.particles.push_back({.position = {0.5f, 0.5f, 0.5f}});
@@ -160,9 +161,9 @@ TEST_P(SeveralSteps, OfChangingLengthAgreeWithDouble) {
     EXPECT_LE(difference(disturbed(test::sheet(8, 1e-4f), true), settings, steps), 1e-5);
 }
 
-// Rounding is 1e-7 of the size a step; colliding and rigidly linked particles amplify it from step to step,
-// by less than 100 in these. (A warm start damps so little that the sheets, which start in tatters, amplify
-// it by 1000: in double a difference of 1e-7 grows as much.)
+// Rounding is 1e-7 of the size a step. Colliding and rigidly linked particles amplify it over the steps by
+// less than 100 here. (A warm start damps so little that the torn sheets amplify it by 1000; a difference of
+// 1e-7 grows as much in double.)
 TEST_P(SeveralSteps, KeepCloseToDouble) {
     const Settings settings{.solver = GetParam(), .substeps = 4, .warmStart = 0};
     // A sweep in colors rounds a position once a color, not once a substep.

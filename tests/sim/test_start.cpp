@@ -1,4 +1,4 @@
-// How bodies begin: turned, moving, spinning (sim/start.hpp).
+// Tests of the initial rotation, velocity and spin of bodies (sim/start.hpp).
 #include "sim/start.hpp"
 
 #include "sim/bodies.hpp"
@@ -26,7 +26,7 @@ struct Sums {
     Vector3d center = Vector3d::Zero(), momentum = Vector3d::Zero(), angular = Vector3d::Zero();
 };
 
-// Angular momentum is about the centre of mass.
+// The angular momentum is about the centre of mass.
 Sums sumsOf(const Scene& scene, const std::vector<Vector3d>& x, const std::vector<Vector3d>& v) {
     Sums sums;
     for (std::size_t i = 0; i < x.size(); ++i) {

@@ -1,4 +1,4 @@
-// What a step finds out about itself: a state that is no longer finite is reported and never published.
+// Tests of the status of a step: a state that is not finite is reported and never published.
 #include "sim/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -19,7 +19,7 @@ protected:
     Settings settings() const { return {.solver = GetParam(), .substeps = 4}; }
 };
 
-// 300 free particles, two of which leave what a float can hold within a step of 0.1 s.
+// 300 free particles, two of which exceed the range of float within a step of 0.1 s.
 Scene absurdParticles() {
     Scene scene = test::chain(300);
     scene.distances.clear();
@@ -122,7 +122,7 @@ TEST_P(StatusOf, AStepThatHasNotFinishedIsToldFromOneThatHas) {
     Simulation simulation(test::device(), test::chain(6), settings());
     EXPECT_FALSE(simulation.status(0).isFinished) << "nothing ran";
     vk::Queue& queue = test::queue();
-    for (int round = 0; round < 2; ++round) { // after a reset frames count anew
+    for (int round = 0; round < 2; ++round) { // frames count from 0 again after a reset
         VkCommandBuffer commands = queue.begin();
         simulation.recordReset(commands);
         queue.wait(queue.submit(commands));
@@ -136,7 +136,7 @@ TEST_P(StatusOf, AStepThatHasNotFinishedIsToldFromOneThatHas) {
             EXPECT_FALSE(simulation.status(frame).isUndone);
             EXPECT_EQ(simulation.oldestInFlight(), std::nullopt);
             EXPECT_FALSE(simulation.status(frame + Simulation::framesInFlight).isFinished) << "not recorded";
-            const std::uint64_t older = frame - Simulation::framesInFlight; // of frame 0: of none
+            const std::uint64_t older = frame - Simulation::framesInFlight; // frame 0 has none
             EXPECT_FALSE(simulation.status(older).isFinished) << "its place was taken";
         }
     }

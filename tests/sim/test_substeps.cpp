@@ -1,5 +1,5 @@
-// The number of substeps follows from stiffness, mass, frame time and tolerance; what a report says of
-// stiffness is what a loaded body shows.
+// Tests of the number of substeps, which follows from stiffness, mass, frame time and tolerance, and of the
+// reported stiffness, which a loaded body must show.
 #include "sim/substeps.hpp"
 
 #include "sim/bodies.hpp"
@@ -19,7 +19,7 @@ using namespace sinew::sim;
 
 namespace {
 
-// A fixed particle, and `count` of 0.01 kg that hang from it one below another, 0.1 m apart.
+// A fixed particle and `count` particles of 0.01 kg that hang below it, 0.1 m apart.
 Scene dampedChain(std::uint32_t count, float compliance) {
     Scene scene = test::hangingChain(count, 0.1f, 0.01f, compliance);
     scene.damping = 20;
@@ -36,8 +36,8 @@ double stretchOf(const Scene& scene, const Settings& settings) {
 } // namespace
 
 TEST(Substeps, OfSplitAreThoseOfItsFormula) {
-    // k = 1e4 N/m, two links a particle of 0.01 kg: kappa = 2 / (2 x 2 x 100), k h^2 <= kappa: n = dt sqrt(k
-    // / kappa).
+    // k = 1e4 N/m, two links for a particle of 0.01 kg: kappa = 2 / (2 x 2 x 100). k h^2 <= kappa gives n =
+    // dt sqrt(k / kappa).
     const Scene scene = dampedChain(5, 1e-4f);
     const double exact = double{scene.dt} * std::sqrt(1e4 / 0.005);
     for (const double tolerance : {1e-3, 0.05, 0.5}) {
@@ -49,7 +49,7 @@ TEST(Substeps, OfSplitAreThoseOfItsFormula) {
 
 namespace {
 
-// Balls of 1 kg and 0.05 m on each other, on one that never moves.
+// A column of balls of 1 kg and 0.05 m on a fixed one.
 Scene columnOf(std::uint32_t count) {
     Scene scene;
     for (std::uint32_t i = 0; i <= count; ++i)
@@ -61,8 +61,8 @@ Scene columnOf(std::uint32_t count) {
 
 } // namespace
 
-// n = dt sqrt(F D / d): the lowest contact bears all but nothing below it moves, the next all but one between
-// two that do.
+// n = dt sqrt(F D / d). The lowest contact carries all balls, on a fixed one; the next carries all but one,
+// between two moving ones.
 TEST(Substeps, OfAColumnPressItInByNoMoreThanOnePercentOfARadius) {
     for (const std::uint32_t count : {40u, 200u}) {
         const Scene scene = columnOf(count);
@@ -83,7 +83,7 @@ TEST(Substeps, OfAColumnPressItInByNoMoreThanOnePercentOfARadius) {
     EXPECT_EQ(chooseSubsteps(weightless, {}).substeps, 16u);
 }
 
-// Likewise of sheets that touch by their triangles; one that falls on a mesh rests on it as well.
+// Sheets in contact by their triangles, and a sheet that falls onto a mesh and rests there.
 TEST(Substeps, OfSheetsOnEachOtherRegardWhatLiesOnThem) {
     Scene scene;
     constexpr std::uint32_t count = 20;
@@ -106,7 +106,7 @@ TEST(Substeps, OfSheetsOnEachOtherRegardWhatLiesOnThem) {
     EXPECT_EQ(chooseSubsteps(one, {}).substeps, 16u) << "at least, where something touches a face";
 }
 
-// What a body weighs rests on its own links, and on contacts only where it stands on another.
+// A body's weight rests on its own links, and on contacts only where it stands on another body.
 TEST(Substeps, OfABodyThatTouchesNoOtherDoNotRegardContacts) {
     Scene scene = test::block(6, 0.1f, 1e4f);
     const std::uint32_t without = chooseSubsteps(scene, {}).substeps;
@@ -155,7 +155,7 @@ TEST(Substeps, ReportTheStiffnessThatALoadedChainShows) {
         const Settings settings{.substeps = substeps};
         const StiffnessReport report = inspectStiffness(scene, settings);
         EXPECT_EQ(report.clamped, substeps < 23 ? 4u : 0u) << substeps;
-        // every link has an end with two links, and so the same clamp; loads of 4, 3, 2 and 1 weight
+        // Every link has an end with two links, and so the same clamp; the loads are 4, 3, 2 and 1 weights.
         const double h = double{scene.dt} / substeps, weight = 0.01 * 9.81;
         const double inner = std::min(1e4, 0.005 / (h * h));
         const double predicted = weight * (4 + 3 + 2 + 1) / inner;
@@ -164,8 +164,8 @@ TEST(Substeps, ReportTheStiffnessThatALoadedChainShows) {
     }
 }
 
-// Masses between two springs take half of each correction, whatever the substeps: the chain sinks
-// nearly twice too far, which no number of substeps may be said to mend.
+// Masses between two springs take half of each correction for any number of substeps. The chain extends
+// nearly twice too far, and the report must not advise more substeps.
 TEST(Substeps, AreNotSaidToMendWhatAveragingLeaves) {
     const Scene scene = dampedChain(20, 1e-3f);
     const double asked = 0.01 * 9.81 * (20 * 21 / 2) * 1e-3;
@@ -186,8 +186,8 @@ TEST(Substeps, AreNotSaidToMendWhatAveragingLeaves) {
     EXPECT_GT(inspectStiffness(scene, weighted).neededSubsteps, 0u);
 }
 
-// The model is of one link that others pull back: a chain of few masses is at least as stiff as it says, and
-// not much stiffer.
+// The model is one link that others pull back: a short chain is at least as stiff as reported, and not much
+// stiffer.
 TEST(Substeps, OfMoreSweepsAreAsStiffAsReported) {
     const Scene scene = dampedChain(4, 1e-4f);
     const double asked = 0.01 * 9.81 * (4 + 3 + 2 + 1) * 1e-4;
@@ -206,7 +206,7 @@ TEST(Substeps, OfMoreSweepsAreAsStiffAsReported) {
     }
 }
 
-// Each body has figures of its own, which add up to those of the scene.
+// Each body has its own figures, which add up to those of the scene.
 TEST(Substeps, ReportTheStiffnessOfEachBody) {
     Scene scene = test::block(4, 0.05f, 1e7f);
     const auto firstParticle = static_cast<std::uint32_t>(scene.particles.size());
@@ -229,10 +229,10 @@ TEST(Substeps, ReportTheStiffnessOfEachBody) {
     EXPECT_LT(2 * report.soft, report.elastic) << "half of the scene is not the measure";
 }
 
-// What the iterations leave of a tolerance is what the substeps have.
+// Substeps must meet the part of the tolerance that the iterations leave.
 TEST(Substeps, GrowWhereAveragingLeavesLessOfTheTolerance) {
     const Scene scene = dampedChain(5, 1e-4f);
-    // A sweep does s r of what is left, s = 1/2 and r = 1 / (1 + c h^2); n of them all but 0.05 where
+    // A sweep keeps s r of the remaining error, s = 1/2 and r = 1 / (1 + c h^2). n sweeps leave 0.05 of it if
     // 1 - s r is the n-th root of 0.05.
     const auto excess = [](double n) { return 0.5 / (1 - std::pow(0.05, 1 / n)) - 1; };
     const Settings few{.solver = Solver::jacobi, .iterations = 5},
@@ -260,8 +260,7 @@ TEST(Substeps, HoldWhatHangsOnRigidLinks) {
 
 namespace {
 
-// The largest strain of a link of a rigid body, at the chosen number of substeps, some time after it is
-// let go.
+// Largest strain of a link of a rigid body some time after its release, with the chosen number of substeps.
 double strainAtRest(Scene scene, double seconds = 4) {
     scene.damping = 2;
     test::Runner runner(scene, {});
@@ -350,7 +349,7 @@ MeshCollider boxOfTriangles() {
     return box;
 }
 
-// A rigid sheet of 0.6 m that lies on a box of 0.2 m around the origin.
+// A rigid sheet of 0.6 m on a box of 0.2 m around the origin.
 Scene sheetAbove(float gap, float radius) {
     Scene scene;
     addCloth(scene,
@@ -397,7 +396,7 @@ TEST(Substeps, HoldRigidSheetsOverRoundThingsAndEdges) {
 
 TEST(Substeps, OfWhatHangsOnPinsAreTheSameBesideWhatIsCarried) {
     Scene hung = rigidCloth();
-    hung.fixed = {{0}, {30}, {31 * 15 + 15}}; // two corners, and one in the middle
+    hung.fixed = {{0}, {30}, {31 * 15 + 15}}; // two corners and one inner particle
     const SubstepChoice alone = chooseSubsteps(hung, {});
     ASSERT_EQ(alone.reason, SubstepReason::weight);
     for (const float x : {-0.01f, 0.0f, 0.01f})
@@ -445,7 +444,7 @@ TEST(Substeps, RegardMeshesThatComeBelow) {
     EXPECT_GT(onMesh, 3 * alone);
 }
 
-// No more than on the same shape as a collider, but for corners that none of these has.
+// At most the number for the same shape as a collider, except for corners, which these shapes lack.
 TEST(Substeps, AreThoseOfWeightOnRoundOrNarrowThings) {
     const auto substepsOn = [](const Collider& collider) {
         Scene scene = sheetAbove(0, 0);
@@ -463,7 +462,7 @@ TEST(Substeps, AreThoseOfWeightOnRoundOrNarrowThings) {
     EXPECT_LE(bar(0.016f), 1.3 * bar(0.05f)) << "a ridge has no corners";
 }
 
-// Pins hold a sheet above what is farther below than it may fall.
+// Pins hold a sheet above a box that lies deeper than it may fall.
 TEST(Substeps, RegardNothingThatPinsKeepAway) {
     Scene scene = sheetAbove(0.012f, 0.01f);
     for (const std::uint32_t corner : {0u, 20u, 420u, 440u}) scene.fixed.push_back({corner});
@@ -474,7 +473,7 @@ TEST(Substeps, RegardNothingThatPinsKeepAway) {
     EXPECT_EQ(chooseSubsteps(scene, {}).substeps, alone);
 }
 
-// A third of its thickness at the speed of a fall as deep as it reaches.
+// A substep moves at most a third of the thickness, at the speed of a fall through the sheet's own extent.
 TEST(Substeps, LetNoSheetFallThroughItself) {
     const auto sheetOf = [](float thickness, std::uint32_t count) {
         Scene scene;
@@ -492,12 +491,12 @@ TEST(Substeps, LetNoSheetFallThroughItself) {
             EXPECT_EQ(choice.reason, wanted > 16 ? SubstepReason::folds : SubstepReason::fewest);
         }
     Scene slow = sheetOf(0.002f, 31);
-    slow.damping = 9.81f; // falls by 1 m/s at most
+    slow.damping = 9.81f; // falls at 1 m/s at most
     EXPECT_NEAR(chooseSubsteps(slow, {}).substeps, double{slow.dt} / (0.35 * 0.002), 1);
     Scene pinned = sheetOf(0.002f, 31), rug = pinned;
     pinned.fixed = {{0}};
     EXPECT_NE(chooseSubsteps(pinned, {}).reason, SubstepReason::folds);
-    rug.planes = {{.offset = -0.002f}}; // by which it may fall
+    rug.planes = {{.offset = -0.002f}}; // the largest fall is 2 mm
     EXPECT_NEAR(chooseSubsteps(rug, {}).substeps,
                 std::max(16.0, double{rug.dt} * std::sqrt(2 * 9.81 * 0.002) / (0.35 * 0.002)), 1);
 }

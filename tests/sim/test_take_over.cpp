@@ -1,4 +1,4 @@
-// A simulation of other settings goes on where one of the same scene stands.
+// Tests of a simulation with other settings that takes over the state of one of the same scene.
 #include "sim/bodies.hpp"
 #include "sim/material.hpp"
 #include "sim/runner.hpp"
@@ -33,7 +33,7 @@ double farthest(const test::Runner& a, const test::Runner& b) {
     return most;
 }
 
-// The scene as it stands.
+// The scene with the current positions and velocities.
 Scene sceneAt(const Scene& scene, const test::Runner& runner) {
     Scene now = scene;
     const auto x = runner.positions(), v = runner.velocities();
@@ -54,7 +54,7 @@ TEST(TakeOver, ByAnotherSolverGoesOnAsASceneThatBeginsThere) {
             SCOPED_TRACE(::testing::PrintToString(before) + " to " + ::testing::PrintToString(after));
             test::Runner first(scene, settingsOf(before, 8)), second(scene, settingsOf(after, 12));
             first.run(15);
-            second.run(3); // of which nothing may be left
+            second.run(3); // must leave no trace
             second.takeOver(first);
             EXPECT_EQ(farthest(first, second), 0);
             test::Runner anew(sceneAt(scene, first), settingsOf(after, 12));
@@ -66,7 +66,7 @@ TEST(TakeOver, ByAnotherSolverGoesOnAsASceneThatBeginsThere) {
 }
 
 TEST(TakeOver, ByABodyOnAGridFindsItsSlots) {
-    for (const int boxes : {1, 2}) { // 1: their slots are computed, 2: looked up
+    for (const int boxes : {1, 2}) { // 1: computed slots, 2: listed slots
         Scene scene = test::block(4, 0.1f, 1e5f, 0.2f);
         if (boxes == 2)
             addLattice(scene,
@@ -83,7 +83,7 @@ TEST(TakeOver, ByABodyOnAGridFindsItsSlots) {
     }
 }
 
-// A sheet that falls by its two corners, smoothly: what it does next hardly depends on substeps.
+// A sheet falls smoothly by its two corners, so that its motion hardly depends on substeps.
 TEST(TakeOver, ByOtherSubstepsGoesOnWithoutAJolt) {
     const Scene scene = test::sheet(10, 1e-3f);
     for (const Solver solver : everySolver) {
@@ -116,7 +116,7 @@ TEST(TakeOver, BySubstepsThatAreTheSameHasTheSameBits) {
     }
 }
 
-// Forms differ in speed alone, and another device may be faster with others.
+// Forms differ only in speed; another device may be faster with other forms.
 TEST(TakeOver, ByOtherFormsHasTheSameBits) {
     Scene scene = test::block(4, 0.1f, 1e5f, 0.05f);
     scene.planes = {{.friction = 0.5f}};
@@ -140,7 +140,7 @@ TEST(TakeOver, ByOtherFormsHasTheSameBits) {
         }
 }
 
-// Of a sheet that a sphere passes through, which goes along its path by the clock of the state.
+// A sheet with a sphere that passes through it on a path, by the time of the state.
 TEST(TakeOver, OfAStateThatWasSavedGoesOnFromThat) {
     Scene scene = swingingSheet();
     scene.colliders = {
@@ -156,7 +156,7 @@ TEST(TakeOver, OfAStateThatWasSavedGoesOnFromThat) {
         first.run(20);
         const std::uint64_t after = first.stateHash();
         for (test::Runner* next : {&second, &other}) {
-            next->run(2); // of which nothing may be left
+            next->run(2); // must leave no trace
             next->takeOverByHost(first, &saved);
             EXPECT_EQ(next->stateHash(), same.stateHash());
         }
@@ -217,7 +217,7 @@ namespace {
 
 const std::string goesOn = "nothing was refused";
 
-// The refusal of a simulation of `to` that is to go on from one of `from`, or goesOn.
+// Message of the error if a simulation of `to` takes over from one of `from`, or goesOn.
 std::string refusedTakeOver(const Scene& from, const Scene& to, const Settings& before,
                             const Settings& after) {
     test::Runner first(from, before), second(to, after);
@@ -282,7 +282,7 @@ TEST(TakeOver, WithLessRoomForContactsIsRefused) {
     EXPECT_EQ(refusedTakeOver(scene, scene, after, before), goesOn);
 }
 
-// The ends of steps that went well are kept as they leave the ring of those in flight.
+// The results of completed steps are kept when they leave the ring of steps in flight.
 TEST(TakeOver, AfterMoreUndoneStepsThanAreInFlightGoesOnFromTheLastGoodOne) {
     Scene scene = test::particleAt({0, 1, 0});
     scene.colliders.push_back({.shape = ColliderShape::sphere,

@@ -1,4 +1,4 @@
-// Start-up measurement: the fastest of the forms tried is taken, whatever the clock says, and it changes no
+// Tests of the measurement at start: it takes the fastest of the tried forms for any clock, and changes no
 // bit.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
@@ -16,7 +16,7 @@ using namespace sinew::sim;
 
 namespace {
 
-// Runs what is recorded and answers with the next of these times, then with 1 ms.
+// Runs the recorded commands and returns the next of the given times, then 1 ms.
 class Clock {
 public:
     explicit Clock(std::function<double(std::size_t trial)> ms) : ms_(std::move(ms)) {}
@@ -25,7 +25,7 @@ public:
             const VkCommandBuffer commands = test::queue().begin();
             record(commands);
             test::queue().wait(test::queue().submit(commands));
-            constexpr std::size_t submissionsOfATrial = 6; // reset, one to warm up, four
+            constexpr std::size_t submissionsOfATrial = 6; // reset, warm-up, four measured
             return ms_(submissions_++ / submissionsOfATrial);
         };
     }

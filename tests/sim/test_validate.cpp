@@ -1,4 +1,4 @@
-// Every complaint about a scene names the item, the value and what is allowed.
+// Tests that every complaint about a scene names the item, the value and the allowed range.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
@@ -22,14 +22,14 @@ namespace {
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Two particles, a link, a plane, a body and a skin of each kind: one of everything.
+/// A scene with one of everything: two particles, a link, a plane, a body and a skin of each kind.
 Scene validScene() {
     Scene scene;
     for (int i = 0; i < 8; ++i)
         scene.particles.push_back(
             {{static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2)}});
     scene.distances.push_back({0, 1, 1, 0});
-    scene.fixed = {{3}, {3}}; // twice is the same as once
+    scene.fixed = {{3}, {3}}; // a duplicate is allowed
     scene.bends.push_back({0, 1, 2, 1});
     scene.attachments.push_back({.particle = 2});
     scene.tethers.push_back({0, 3, 1});
@@ -270,7 +270,7 @@ TEST(Validate, NamesItemValueAndRangeOfEachFault) {
         const std::vector<std::string> complaints = validate(scene, settings);
         ASSERT_FALSE(complaints.empty()) << fault.complaint;
         EXPECT_EQ(complaints.front().substr(0, std::string(fault.complaint).size()), fault.complaint);
-        EXPECT_LE(complaints.size(), 2u) << fault.complaint; // one fault, not an avalanche
+        EXPECT_LE(complaints.size(), 2u) << fault.complaint; // one fault gives few complaints
     }
 }
 
@@ -321,11 +321,11 @@ TEST(Validate, BoundsTheLinksOfOneParticle) {
               "start");
     const Settings cold{.solver = Solver::gaussSeidel, .substeps = 1, .warmStart = 0};
     EXPECT_EQ(firstComplaint(hub, cold), "");
-    hub.fixed = {{0}}; // gathers nothing
+    hub.fixed = {{0}}; // a fixed particle gathers nothing
     EXPECT_EQ(firstComplaint(hub, {.solver = Solver::gaussSeidel, .substeps = 1}), "");
 }
 
-// With the number that is chosen, not the largest that might be.
+// Uses the chosen number of substeps, not the largest possible one.
 TEST(Validate, BoundsTheSweepsOfOneStepOfAsManySubstepsAsItTakes) {
     Scene scene = test::hangingChain(3, 0.1f, 0.01f, 1e-3f);
     Settings settings{.solver = Solver::jacobi, .iterations = 250};
@@ -359,7 +359,7 @@ TEST(Validate, BoundsTheBendsOfOneParticle) {
                       "particle[0]: has more than 128 bends, the most that a particle may have"});
 }
 
-// Slots are counted by grid: what two of them hold would be written past the end.
+// Slots are counted by grid. Particles of two grids would be written past the end.
 TEST(Validate, RefusesGridsThatShareParticlesOrConstraints) {
     Scene scene;
     addLattice(scene, {.name = "a", .cells = {9, 9, 9}});
@@ -371,12 +371,12 @@ TEST(Validate, RefusesGridsThatShareParticlesOrConstraints) {
                       links =
                           "grid[2] \"a\": shares distance constraints with grid[0] \"a\", must have its own";
     EXPECT_EQ(validate(scene, {}), (std::vector{particles, links}));
-    std::swap(scene.grids[0], scene.grids[1]); // whatever stands between the two
+    std::swap(scene.grids[0], scene.grids[1]); // for any order of the two
     scene.grids[1].name = "c";
     EXPECT_EQ(firstComplaint(scene), "grid[2] \"a\": shares particles with grid[1] \"c\", must have its own");
 }
 
-// Each spoke of a hub that moves is a color of its own.
+// Each spoke of a moving hub is a color of its own.
 TEST(Validate, BoundsThePassesOfOneStep) {
     Scene hub;
     hub.particles.resize(62);
@@ -405,7 +405,7 @@ TEST(Validate, TakesEveryConstraintWithEverySolver) {
         EXPECT_EQ(firstComplaint(scene, {.solver = solver}), "");
 }
 
-// The number of passes follows from the number of substeps that the stiffness asks for.
+// The number of passes follows from the number of substeps that the stiffness requires.
 TEST(Validate, BoundsThePassesOfOneStepOfAsManySubstepsAsItTakes) {
     Scene hub;
     hub.particles.resize(62);

@@ -1,5 +1,5 @@
-// The volumes of cells in `split`: the same bits in every form of the kernel, momentum, one step against
-// double precision, and the double precision against its own energy. What cannot be computed is refused.
+// Tests of cell volumes in `split`: equal bits in every form of the kernel, momentum, one step against double
+// precision, and the double precision against its own energy. Scenes that cannot be computed are refused.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/constraints/agreement.hpp"
@@ -45,7 +45,7 @@ Scene body(std::array<std::uint32_t, 3> cells, Material material, std::vector<fl
     return scene;
 }
 
-// One body with volumes, one with recovery, one with neither, and cloth beside them.
+// One body with volumes, one with recovery, one with neither, and a cloth.
 Scene mixture() {
     Scene scene = test::sheet(5, 1e-4f);
     for (const Material material : {Material{0.45f, 0}, Material{0.25f, 1}, Material{}})
@@ -63,7 +63,7 @@ Scene disturbed(Scene scene, float distance, float speed) {
     return scene;
 }
 
-// Positions times `factor` along x, y, z.
+// The scene with positions scaled by `factor` along x, y, z.
 Scene scaled(Scene scene, Vec3 factor) {
     for (Particle& particle : scene.particles)
         particle.position = {factor.x * particle.position.x, factor.y * particle.position.y,
@@ -114,7 +114,7 @@ TEST(CellVolume, FormsGiveTheSameBits) {
                            {.usesTexels = false, .columns = 1, .chunk = 2},
                            {.columns = 1, .chunk = 1},
                            {.residentBytes = 32768},
-                           {.columns = 1, .chunk = 1, .residentBytes = 32768}}; // where bodies fit
+                           {.columns = 1, .chunk = 1, .residentBytes = 32768}}; // if the bodies fit
     ASSERT_TRUE(test::usesKernel(body({3, 3, 3}, {0.3f, 0}), "gather_node_volume", {.forms = forms[4]}));
     bool isInRoom = false;
     for (auto& [name, scene] : scenes()) {
@@ -130,8 +130,8 @@ TEST(CellVolume, FormsGiveTheSameBits) {
     }
 }
 
-// Mirrored cells fly apart: in 16 substeps of a frame the motion itself makes 180 times as much of a rounding
-// of where it starts (measured in double), so there a step is an eighth of a frame.
+// Mirrored cells fly apart. In 16 substeps a frame, the motion amplifies rounding of the start 180 times
+// (measured in double), so a step is an eighth of a frame there.
 TEST(CellVolume, AgreesWithDoubleAfterAStep) {
     for (auto& [name, scene] : scenes())
         for (const std::uint32_t substeps : {1u, 2u, 16u}) {
@@ -171,7 +171,7 @@ TEST(CellVolume, KeepsMomentumToRounding) {
 TEST(CellVolume, FeedsNoEnergyIntoAnyState) {
     for (auto& [name, scene] : scenes())
         for (const std::uint32_t substeps : {2u, 16u}) {
-            if (!scene.fixed.empty()) continue; // the mixture hangs
+            if (!scene.fixed.empty()) continue; // the mixture is held
             scene.gravity = {0, 0, 0};
             test::Runner runner(scene, {.substeps = substeps});
             reference::State state = reference::initialState(scene);
@@ -216,8 +216,8 @@ TEST(CellVolume, AsksForTheSubstepsItsStiffnessNeeds) {
         return chooseSubsteps(body({4, 4, 4}, {poissonRatio, 0}), {.substeps = 0, .tolerance = 0.05f}).wanted;
     };
     const double links = needed(0.25f);
-    // at one Young's modulus links soften by 1.25 / (1 + nu), and cells add lambda_v / mu / 3 to what they
-    // take
+    // At constant Young's modulus, links soften by 1.25 / (1 + nu), and cells add lambda_v / mu / 3 to the
+    // links' share.
     EXPECT_NEAR(needed(0.45f) / links, std::sqrt(1.25 / 1.45 * (1 + 8 / 3.0)), 0.2);
     EXPECT_NEAR(needed(0.49f) / links, std::sqrt(1.25 / 1.49 * (1 + 48 / 3.0)), 0.5);
     const Scene scene = body({4, 4, 4}, {0.49f, 0});
@@ -299,7 +299,7 @@ TEST(CellVolume, RefusesPoissonRatiosOutOfRangeAndBodiesFarAway) {
 
 TEST(CellVolumeReference, ForceIsTheSlopeOfItsEnergyAndTheHessianThatOfForce) {
     for (auto& [name, scene] : scenes()) {
-        scene.distances.clear(); // cells alone
+        scene.distances.clear(); // only cells remain
         for (Grid& grid : scene.grids) grid.distanceCount = 0;
         const reference::Problem problem(scene);
         const auto x = reference::initialState(scene).x;
@@ -322,7 +322,7 @@ TEST(CellVolumeReference, SmallStrainsStoreHalfOfLambdaTimesTheDilatationSquared
     const Scene scene = body({2, 3, 2}, {0.4f, 0});
     const double strain[] = {1e-4, -3e-4, 5e-4}, dilatation = 3e-4;
     const Scene strained = [&] {
-        Scene links = scene; // less its links
+        Scene links = scene; // without its links
         links.distances.clear();
         links.grids[0].distanceCount = 0;
         return links;

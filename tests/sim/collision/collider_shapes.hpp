@@ -1,4 +1,4 @@
-// Colliders in double, for tests: how far a point is from one, by means other than those of the kernel.
+// Distances to colliders in double, computed by formulas that differ from the kernel's.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -17,7 +17,7 @@ inline sim::Quaternion turnedBy(double degrees, const Eigen::Vector3d& axis) {
             static_cast<float>(q.w())};
 }
 
-/// From the surface, below 0 inside [m].
+/// Distance from the collider's surface; negative inside [m].
 inline double gapOf(const sim::Collider& collider, const sim::Pose& pose, const Eigen::Vector3d& x) {
     const Eigen::Vector3d middle(double{pose.position.x}, double{pose.position.y}, double{pose.position.z});
     const Eigen::Vector3d s = toRotation(pose.rotation).conjugate() * (x - middle);

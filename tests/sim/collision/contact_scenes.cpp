@@ -1,4 +1,4 @@
-// Equal balls: a pair's reach is one number.
+// All balls have one radius, so every pair has the same reach.
 #include "sim/collision/contact_scenes.hpp"
 
 #include <algorithm>

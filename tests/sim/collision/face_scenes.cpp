@@ -1,4 +1,3 @@
-// See the header.
 #include "sim/collision/face_scenes.hpp"
 
 #include <Eigen/Geometry>
@@ -14,7 +13,7 @@ namespace sinew::test {
 
 namespace {
 
-// A ball of triangles, `rings` from pole to pole.
+// A sphere of triangles with `rings` rings from pole to pole.
 MeshCollider sphere(float size, std::uint32_t rings) {
     MeshCollider mesh{.name = "ball", .thickness = 0.005f};
     const std::uint32_t around = 2 * rings;
@@ -25,7 +24,7 @@ MeshCollider sphere(float size, std::uint32_t rings) {
                                      size * static_cast<float>(std::cos(theta)),
                                      size * static_cast<float>(std::sin(theta) * std::sin(phi))});
         }
-    for (std::uint32_t r = 0; r < rings; ++r) // triangles at the poles have no area: a case of their own
+    for (std::uint32_t r = 0; r < rings; ++r) // triangles at the poles have zero area, which is tested, too
         for (std::uint32_t s = 0; s < around; ++s) {
             const std::uint32_t a = r * around + s, b = r * around + (s + 1) % around;
             mesh.triangles.push_back({a, b, b + around});
@@ -34,7 +33,7 @@ MeshCollider sphere(float size, std::uint32_t rings) {
     return mesh;
 }
 
-// Whether segment a b passes through the inside of a triangle.
+// Whether the segment from a to b passes through the interior of a triangle.
 bool passes(const Vector3d& a, const Vector3d& b, const std::array<Vector3d, 3>& x) {
     const Vector3d n = (x[1] - x[0]).cross(x[2] - x[0]);
     const double ha = n.dot(a - x[0]), hb = n.dot(b - x[0]);
@@ -45,7 +44,7 @@ bool passes(const Vector3d& a, const Vector3d& b, const std::array<Vector3d, 3>&
     return true;
 }
 
-// A cube of `side` around the origin, with two triangles a face.
+// A cube of `side` around the origin with two triangles on each face.
 MeshCollider box(float side) {
     MeshCollider mesh{.name = "box", .thickness = 0.01f};
     for (int k = 0; k < 8; ++k) {
@@ -57,7 +56,7 @@ MeshCollider box(float side) {
     return mesh;
 }
 
-// Turned so that a ridge of the box is uppermost, and a little about y.
+// Rotates the box so that an edge is at the top, and by 0.3 rad about y.
 void stand(MeshCollider& mesh) {
     const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.3, Vector3d::UnitY()) *
                                   Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitX()))
@@ -96,7 +95,7 @@ Scene fallingFold() {
                      .membraneStiffness = 500,
                      .bendingStiffness = 2e-5f,
                      .thickness = 0.01f});
-    for (Particle& particle : scene.particles) // it leans, so that it does not stand on its edge
+    for (Particle& particle : scene.particles) // the sheet leans, so that it does not balance on its edge
         particle.position.z += 0.03f * std::sin(7 * particle.position.y);
     scene.contacts.friction = 0.2f;
     scene.damping = 1;

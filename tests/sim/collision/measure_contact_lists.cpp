@@ -1,7 +1,7 @@
-// ms by the clock and of processor time that building the grid, finding candidates and sorting them cost, for
-// particles on a lattice and in random places. Everybody moves farther than the margin from update to update,
-// so that each makes its lists anew. With LP_NUM_THREADS=0 a software device computes on one thread and
-// steadily.
+// Prints the wall time and processor time [ms] of building the grid, finding candidates and sorting them, for
+// particles on a lattice and in random places. All particles move farther than the margin between updates, so
+// that each update makes new lists. LP_NUM_THREADS=0 makes a software device compute on one thread, with
+// steadier results.
 #include "layout.h"
 #include "sim/collision/contact_lists.hpp"
 #include "sim/gpu_executor.hpp"
@@ -50,7 +50,7 @@ Duration operator-(Duration a, Duration b) {
 Duration shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side, bool isRandom, Part part) {
     ProgramBuilder builder(false);
     builder.program().status = builder.scratch<layout::StatusWords>("status", 1);
-    constexpr float radius = 0.4f * spacing, margin = 0.2f * spacing; // cells as large as the spacing
+    constexpr float radius = 0.4f * spacing, margin = 0.2f * spacing; // grid cells of one spacing
     const auto a = cloud(side, isRandom, 0), b = cloud(side, isRandom, 2 * margin);
     std::vector<float> radii(a.size(), -1);
     std::fill_n(radii.begin(), side * side * side, radius);
@@ -65,7 +65,7 @@ Duration shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side
         const collision::hash_grid::Moved moved{positions, velocities, parameters};
         collision::hash_grid::addWatch(builder, lists.grid, moved);
         collision::contact_lists::addBuild(builder, lists, moved);
-        if (part == Part::find) builder.fill(lists.pooled.chains, 0); // as sorting leaves them
+        if (part == Part::find) builder.fill(lists.pooled.chains, 0); // sorting clears them, too
         if (part != Part::build) collision::contact_lists::addLists(builder, lists, moved);
     }
     StepProgram program = builder.finish();

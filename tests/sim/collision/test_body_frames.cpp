@@ -1,4 +1,4 @@
-// Frames of bodies: lists of contacts last while bodies move as one, and no pair is ever missed for it.
+// Tests of body frames: contact lists stay valid while a body moves as a whole, and no pair is ever missed.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/program.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr float spacing = 0.05f;
 
-// A box of voxels whose corner is at `origin`.
+// Adds a box of voxels with its corner at `origin`.
 void addBox(Scene& scene, Vec3 origin, std::array<std::uint32_t, 3> cells, const Start& how) {
     const std::size_t first = scene.bodies.size();
     addLattice(scene, {.origin = origin,
@@ -32,7 +32,7 @@ Settings settingsWith(float margin = 0.5f, bool isReversed = false) {
     return {.substeps = 16, .contactMargin = margin, .contactRoom = 200, .isReversed = isReversed};
 }
 
-// How often the lists that are found in that grid were made in so many steps.
+// Number of times that the lists of a hash grid were built in `steps` steps.
 std::uint32_t buildsIn(const Scene& scene, int steps, const std::string& grid = "grid") {
     test::Runner runner(scene, settingsWith());
     const Status status = runner.run(steps);
@@ -64,7 +64,7 @@ TEST(BodyFrames, KeepListsOfWhatFallsFliesAndTurns) {
     }
 }
 
-// Edges of a coarse sheet, which moves by many margins.
+// Edges of a coarse sheet that moves by many margins.
 TEST(BodyFrames, KeepListsOfEdgesOfWhatFallsFliesAndTurns) {
     const std::pair<const char*, Start> cases[] = {{"falls", {}},
                                                    {"flies", {.velocity = {30, 10, -20}}},
@@ -80,7 +80,7 @@ TEST(BodyFrames, KeepListsOfEdgesOfWhatFallsFliesAndTurns) {
     }
 }
 
-// A body that swings about an edge that is held: the particles of that edge share its frame.
+// A body that swings about a fixed edge, whose particles share its frame.
 TEST(BodyFrames, KeepListsOfWhatSwings) {
     Scene scene;
     addBox(scene, {0, 0, 0}, {8, 2, 3}, {});
@@ -102,7 +102,7 @@ TEST(BodyFrames, KeepListsOfBodiesThatFallApartFromEachOther) {
     EXPECT_LE(builds, 20u);
 }
 
-// More bodies than there are frames share one with all that is loose.
+// The bodies beyond the number of frames share one frame with the loose particles.
 TEST(BodyFrames, ServeMoreBodiesThanThereAreFrames) {
     Scene scene;
     for (int b = 0; b < FRAME_MOST_BODIES + 20; ++b)
@@ -111,7 +111,7 @@ TEST(BodyFrames, ServeMoreBodiesThanThereAreFrames) {
     EXPECT_LE(buildsIn(scene, 10), 10u);
 }
 
-// Bodies meet, turn and part again: bits do not depend on when lists are made.
+// Bodies meet, rotate and part again. The result must not depend on when lists are built.
 TEST(BodyFrames, MissNoPair) {
     Scene scene;
     addBox(scene, {0, 0.1f, 0}, {4, 4, 4}, {.velocity = {4, 0, 0}, .spin = {3, 6, -4}});
@@ -130,13 +130,13 @@ TEST(BodyFrames, MissNoPair) {
     EXPECT_EQ(test::hashOfRun(scene, settingsWith(0.5f, true), 60), hash);
 }
 
-// Two boxes that fly at each other go through each other's whole length in a substep, the first of a step or
-// another.
+// Two boxes fly at each other and pass through each other's full length in one substep, at each phase of a
+// step.
 TEST(BodyFrames, MissNoPairThatPassesInASubstep) {
     for (int phase = 0; phase < 16; ++phase) {
         Scene scene;
         scene.gravity = {};
-        const float apart = 2.2f + 0.105f * static_cast<float>(phase); // a substep is 0.42 m of it
+        const float apart = 2.2f + 0.105f * static_cast<float>(phase); // relative motion is 0.42 m a substep
         addBox(scene, {0, 0, 0}, {4, 4, 4}, {.velocity = {50, 0, 0}});
         const std::size_t second = scene.particles.size();
         addBox(scene, {apart, 0.01f, 0.02f}, {4, 4, 4}, {.velocity = {-50, 0, 0}});
@@ -149,7 +149,7 @@ TEST(BodyFrames, MissNoPairThatPassesInASubstep) {
     }
 }
 
-// Sheets fold, flutter and meet themselves and others.
+// Sheets fold, flutter and meet themselves and each other.
 TEST(BodyFrames, MissNoPairOfSheets) {
     Scene scene;
     addCloth(scene, {.origin = {-0.3f, 0.6f, -0.3f},

@@ -1,4 +1,4 @@
-// Colliders on paths: where they are, and how they push, carry and throw.
+// Tests of colliders on paths: their poses, and how they push, carry and throw.
 #include "sim/collision/collider_paths.hpp"
 #include "sim/collision/collider_shapes.hpp"
 #include "sim/compile.hpp"
@@ -42,7 +42,7 @@ double degreesAt(const Collider& collider, double time) {
            std::numbers::pi;
 }
 
-// What a path leaves of a simulation that had too little room for contacts.
+// A scene whose contacts outgrow a small capacity while colliders move on paths.
 Scene crowd() {
     Scene scene;
     for (int i = 0; i < 27; ++i)
@@ -98,7 +98,8 @@ TEST(ColliderPaths, GoOnWhereTheLastStepEnded) {
     EXPECT_EQ(paths.poses()[0].position.x, 0);
 }
 
-// A belt: friction gives the particle the box's speed, within v^2 / (2 mu g), and then carries it.
+// A conveyor belt: friction accelerates the particle to the box's speed within v^2 / (2 mu g) and then
+// carries it.
 TEST_P(Moving, ABoxCarriesWhatLiesOnIt) {
     constexpr double speed = 1, friction = 0.5;
     Scene scene = test::particleAt({0, 0, 0});
@@ -115,7 +116,7 @@ TEST_P(Moving, ABoxCarriesWhatLiesOnIt) {
     EXPECT_NEAR(runner.positions()[0].y(), 0, 1e-6);
 }
 
-// A turntable carries a particle where friction holds omega^2 r, and loses it where it does not.
+// A turntable carries a particle if friction supplies omega^2 r; a particle farther out slides off.
 TEST_P(Moving, ATurningBoxCarriesWhatFrictionHolds) {
     constexpr double omega = std::numbers::pi; // one turn in 2 s
     Scene scene = test::particleAt({0.3f, 0, 0}, {0, 0, static_cast<float>(-0.3 * omega)});
@@ -135,7 +136,7 @@ TEST_P(Moving, ATurningBoxCarriesWhatFrictionHolds) {
     EXPECT_GE(runner.positions()[1].norm(), 1.0);
 }
 
-// v = (1 + e) u for what is at rest, in any direction that the surface has.
+// A particle at rest leaves with v = (1 + e) u for every direction of the surface.
 TEST_P(Moving, ASurfaceThatComesThrowsWithItsRestitution) {
     Scene scene = test::particleAt({0.5f, 0, 0});
     scene.gravity = {0, 0, 0};
@@ -166,8 +167,8 @@ TEST_P(Moving, NothingStandsStillInAPlateThatPassesFast) {
     }
 }
 
-// No particle inside; and a body that was at rest leaves with what the sphere gave it, all its momentum along
-// the way of the sphere: what is across comes from asymmetry and stays small.
+// No particle may be inside. The body, at rest before, leaves with all of its momentum along the sphere's
+// path; the momentum across comes from asymmetry and must stay small.
 TEST_P(Moving, ASpherePushesABodyThatItDoesNotEnter) {
     Scene scene = test::block(5, 0.1f, 2e5f);
     for (Particle& particle : scene.particles) {
@@ -218,12 +219,12 @@ TEST_P(Moving, BeginsAnewWithAReset) {
     EXPECT_EQ(test::hashOfRun(scene, reversed, 30), hash);
 }
 
-// A simulation with more room goes on with the colliders of the last step that was not undone.
+// A simulation with larger capacity takes over the collider poses of the last step that was not undone.
 TEST(MovingColliders, AreTakenOverWhereTheLastWholeStepLeftThem) {
     const Scene scene = crowd();
     constexpr int steps = 50;
     const std::uint64_t hash = test::hashOfRun(scene, {.substeps = 8, .contactRoom = 64}, steps);
-    const auto run = // longer lists, the same bits
+    const auto run = // longer lists must give the same bits
         test::runGrowing(scene, {.substeps = 8, .contactMargin = 5}, steps);
     EXPECT_GE(run.growths, 1);
     EXPECT_EQ(run.hash, hash);

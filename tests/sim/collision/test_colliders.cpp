@@ -1,5 +1,5 @@
-// Spheres, capsules and boxes that stand still, on the device: rest, restitution and friction (analytic cases
-// 16 to 18 on their surfaces), what is fast, and what begins inside.
+// Tests of static spheres, capsules and boxes on the device: rest, restitution and friction (analytic cases
+// 16 to 18 on their surfaces), fast particles, and particles that start inside.
 #include "sim/bodies.hpp"
 #include "sim/collision/collider_shapes.hpp"
 #include "sim/compile.hpp"
@@ -40,7 +40,7 @@ Collider sphere(double radius, const Vector3d& center) {
             .pose = {.position = test::toFloats(center)}};
 }
 
-// Lies along x.
+// A capsule along x.
 Collider capsule(double radius, double halfLength, const Vector3d& center) {
     return {.shape = ColliderShape::capsule,
             .radius = static_cast<float>(radius),
@@ -55,13 +55,13 @@ Collider box(const Vector3d& halfExtents, const Vector3d& center, double degrees
             .pose = {.position = test::toFloats(center), .rotation = test::turnedBy(degrees, axis)}};
 }
 
-// One of each side by side, 10 m apart, with their highest points on the x axis.
+// One collider of each kind, 10 m apart, with their highest points on the x axis.
 std::vector<Collider> sideBySide() {
     return {sphere(0.3, {0, -0.3, 0}), capsule(0.2, 0.5, {10, -0.2, 0}), box({1, 0.1, 0.5}, {20, -0.1, 0}),
             box({0.2, 0.4, 1}, {30, -0.2, 0}, 90)};
 }
 
-// A particle above each of them.
+// A particle above each collider.
 Scene above(const std::vector<Collider>& colliders, float height, float speed = 0) {
     Scene scene;
     for (std::size_t c = 0; c < colliders.size(); ++c)
@@ -71,7 +71,7 @@ Scene above(const std::vector<Collider>& colliders, float height, float speed = 
     return scene;
 }
 
-// A long box whose upper side falls towards +x at `degrees`, with friction 0.5; the origin is on that side.
+// A long box whose top slopes down towards +x by `degrees`, with friction 0.5; the origin lies on its top.
 Collider incline(double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     Collider collider = box({8, 0.2, 1}, {-0.2 * std::sin(angle), -0.2 * std::cos(angle), 0}, -degrees);
@@ -92,7 +92,7 @@ TEST_P(Collided, StopsAFallingParticleAtItsOffset) {
         EXPECT_LE(v.norm(), g / 600) << "at most what gravity adds in a substep";
 }
 
-// Case 16: rebound to e^2 h_0, at 600 substeps a second.
+// Case 16: the rebound height is e^2 h_0, with 600 substeps a second.
 TEST_P(Collided, ReboundsToTheHeightOfItsRestitution) {
     for (const double restitution : {0.0, 0.5, 1.0}) {
         Scene scene = above(sideBySide(), 1);
@@ -114,8 +114,8 @@ TEST_P(Collided, ReboundsToTheHeightOfItsRestitution) {
     }
 }
 
-// Without gravity: of the speed along the normal where it hits, e is left, and all of the rest. Up to a
-// radius a substep.
+// Without gravity, an impact keeps e times the normal velocity and all of the tangential velocity, for speeds
+// up to a radius a substep.
 TEST_P(Collided, KeepsNoMoreOfAnImpactThanItsRestitution) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> off(-0.19f, 0.19f);
@@ -137,7 +137,7 @@ TEST_P(Collided, KeepsNoMoreOfAnImpactThanItsRestitution) {
     }
 }
 
-// Case 17: sticks up to atan 0.5 = 26.57 degrees, within one degree.
+// Case 17: friction holds up to atan 0.5 = 26.57 degrees, within one degree.
 TEST_P(Collided, SticksOnAnInclineBelowTheFrictionAngle) {
     Scene scene = particleAt({0, 0, 0});
     scene.colliders = {incline(25.6)};
@@ -173,7 +173,7 @@ TEST_P(Collided, HoldsFasterWhatRestsThanWhatSlides) {
     }
 }
 
-// On a sphere the slope is that of the tangent: it sticks up to the friction angle from the top.
+// A sphere's slope is that of its tangent, so friction holds up to the friction angle from the top.
 TEST_P(Collided, SticksOnASphereAsFarAsFrictionHolds) {
     for (const double degrees : {25.6, 27.5}) {
         const double angle = degrees * std::numbers::pi / 180;
@@ -191,7 +191,7 @@ TEST_P(Collided, SticksOnASphereAsFarAsFrictionHolds) {
     }
 }
 
-// Without friction a particle leaves a sphere where cos = 2/3 + v0^2 / (3 g R).
+// Without friction, a particle leaves the sphere where cos = 2/3 + v0^2 / (3 g R).
 TEST_P(Collided, LeavesASphereAtTwoThirdsOfItsHeight) {
     constexpr double radius = 1, speed = 0.3;
     Scene scene = particleAt({0, radius, 0}, {speed, 0, 0});
@@ -221,7 +221,8 @@ TEST_P(Collided, SlidesToAStopWhereFrictionSays) {
     }
 }
 
-// Each pushes it out, and the last takes back what the others have pushed: no speed may come of that.
+// Each collider pushes the particle out, and the last one reverses the pushes of the others. No velocity may
+// result.
 TEST_P(Collided, StandsStillBetweenWhatHoldsIt) {
     const Collider below = box({1, 0.5, 1}, {0, -0.49, 0}), above = box({1, 0.5, 1}, {0, 0.48, 0});
     const std::vector<std::vector<Collider>> pairs{
@@ -229,11 +230,11 @@ TEST_P(Collided, StandsStillBetweenWhatHoldsIt) {
         {above, below},
         {sphere(0.5, {0, 0.48, 0}), sphere(0.5, {0, -0.49, 0})},
         {capsule(0.5, 0.2, {0, 0.48, 0}), below},
-        {above, box({1, 0.5, 1}, {0, -0.49, 0}, 1)}}; // a wedge of one degree
+        {above, box({1, 0.5, 1}, {0, -0.49, 0}, 1)}}; // forms a wedge of one degree
     for (const double gravity : {0.0, g})
         for (const float friction : {0.0f, 0.5f})
             for (std::size_t c = 0; c < pairs.size(); ++c) {
-                if (c == 4 && friction == 0) continue; // slips out
+                if (c == 4 && friction == 0) continue; // would slip out
                 Scene scene = particleAt({0, 0, 0});
                 scene.gravity = {0, static_cast<float>(-gravity), 0};
                 scene.colliders = pairs[c];
@@ -280,8 +281,8 @@ TEST_P(Collided, KeepsMomentumAlongASurfaceWithoutFriction) {
     EXPECT_NEAR(runner.velocities()[0].z(), 0.5, 2e-6);
 }
 
-// The way that is left to a particle never leads through a collider: thin plates, edges, ends of capsules, at
-// 10 to 1000 m/s and one substep a frame.
+// The free path of a particle never leads through a collider: thin plates, edges and capsule ends at 10 to
+// 1000 m/s, with one substep a frame.
 TEST_P(Collided, LetsNothingFastThrough) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> unit(-1, 1), decade(1, 3);
@@ -319,7 +320,7 @@ TEST_P(Collided, LetsNothingFastThrough) {
     EXPECT_GE(stopped, 60) << "of 240 shots must hit something";
 }
 
-// The middle, where no side is nearest, included.
+// Starts include the centre, where no side is nearest.
 TEST_P(Collided, LetsGoOfWhatBeganInsideWithoutThrowingIt) {
     const std::vector<std::pair<Collider, Vector3d>> starts{
         {sphere(0.2, {0, 0, 0}), {0, 0, 0}},
@@ -344,7 +345,7 @@ TEST_P(Collided, LetsGoOfWhatBeganInsideWithoutThrowingIt) {
 
 TEST_P(Collided, StandsOnAnEdgeAndACornerOrFallsBesideThem) {
     const double s = std::sqrt(0.5);
-    // an edge up, and a corner up
+    // One box has an edge at the top, the other a corner.
     const std::vector<Collider> colliders{
         box({0.2, 0.2, 0.5}, {0, -0.2 / s, 0}, 45),
         box({0.2, 0.2, 0.2}, {0, -0.2 * std::sqrt(3.0), 0}, 54.735610317, {1, 0, -1})};
@@ -361,7 +362,8 @@ TEST_P(Collided, StandsOnAnEdgeAndACornerOrFallsBesideThem) {
     }
 }
 
-// In a trough of two boxes that overlap, and under a sphere: no more than the depth of a substep's fall.
+// A particle in the trough of two overlapping boxes, and one under a sphere, may sink by the fall of one
+// substep.
 TEST_P(Collided, HoldsAParticleInATrough) {
     Scene scene = particleAt({0.05, 0.5, 0}, {0.5, 0, 0});
     scene.colliders = {box({1, 0.05, 1}, {0.6, 0.5, 0}, 40), box({1, 0.05, 1}, {-0.6, 0.5, 0}, -40)};
@@ -399,8 +401,8 @@ TEST_P(Collided, HasTheSameBitsInReversedOrder) {
     }
 }
 
-// A soft cube on a tilted box: sticks below the angle of friction, slides above it. Averaged corrections
-// leave `jacobi` a cube that creeps on any ground: on a plane 9e-3 m/s at 25.5 degrees were seen.
+// A soft cube on a tilted box sticks below the friction angle and slides above it. Averaged corrections make
+// the cube of `jacobi` creep on any ground: on a plane, 9e-3 m/s were measured at 25.5 degrees.
 TEST_P(Collided, HoldsABodyOnAnInclineBelowTheFrictionAngle) {
     for (const double degrees : {20.0, 35.0}) {
         Scene scene = test::block(3, 0.05f, 1e6f);
@@ -439,7 +441,8 @@ TEST(Colliders, AreNoPassOfASceneWithoutThem) {
     }
 }
 
-// What stands still is placed once, and what never rebounds keeps nothing.
+// Static colliders need no pass that places them, and colliders without restitution no pass that stores
+// speeds.
 TEST(Colliders, CompileToWhatTheyNeed) {
     Scene scene = test::particleAt({0, 0, 0});
     scene.colliders = {sphere(0.1, {0, -1, 0})};
@@ -453,7 +456,7 @@ TEST(Colliders, CompileToWhatTheyNeed) {
     EXPECT_TRUE(test::usesKernel(scene, "place_colliders"));
 }
 
-// A body that stays in shared memory through a step would miss what comes between substeps.
+// A body that stays in shared memory for a step would miss the collider passes between substeps.
 TEST(Colliders, KeepBodiesOutOfSharedMemory) {
     Scene scene = test::block(3, 0.1f, 1e5f);
     const Settings settings{.forms = {.residentBytes = 16384}};
@@ -463,7 +466,7 @@ TEST(Colliders, KeepBodiesOutOfSharedMemory) {
     EXPECT_TRUE(test::usesKernel(scene, "solve_colliders", settings));
 }
 
-// `split` has other passes where particles touch each other: colliders still have the last word.
+// `split` uses other passes where particles touch each other; colliders must still be applied last.
 TEST(Colliders, KeepOutParticlesThatTouchEachOther) {
     Scene scene;
     for (int i = 0; i < 64; ++i)
@@ -477,7 +480,7 @@ TEST(Colliders, KeepOutParticlesThatTouchEachOther) {
                        box({0.02, 0.5, 0.5}, {0.4, 0, 0}, 20)};
     for (Collider& collider : scene.colliders) collider.friction = 0.3f;
     for (const float restitution : {0.0f, 0.5f}) {
-        scene.contacts.restitution = restitution; // changes v by what is no way
+        scene.contacts.restitution = restitution; // restitution changes v without a displacement
         test::Runner runner(scene, {.substeps = 8});
         for (int step = 0; step < 60; ++step) {
             ASSERT_EQ(runner.run(1).nonFinite, 0u);
@@ -489,8 +492,8 @@ TEST(Colliders, KeepOutParticlesThatTouchEachOther) {
     }
 }
 
-// As scenes/cloth_on_sphere.toml, coarser: neither particles nor the middles of triangles go in, by more than
-// a hundredth of the radius, and friction holds what has come to rest.
+// A coarser form of scenes/cloth_on_sphere.toml. Particles and centres of triangles penetrate by at most a
+// hundredth of the radius, and friction holds the cloth at rest.
 TEST(ClothOnASphere, ComesToRestOutsideIt) {
     constexpr double radius = 0.22;
     Scene scene;

@@ -1,5 +1,5 @@
-// Candidate lists on the device against brute force, on clouds of every kind: each pair once for both
-// partners, sorted, nothing else, in any order of invocations; and what happens where a list is too short.
+// Compares candidate lists on the device with brute force, on many kinds of point clouds. Both partners list
+// each pair once, sorted, for any order of invocations. Also tests lists whose capacity is too small.
 #include "layout.h"
 #include "sim/collision/contact_lists.hpp"
 #include "sim/gpu_executor.hpp"
@@ -21,21 +21,22 @@ namespace {
 
 using Neighbours = std::vector<std::vector<std::uint32_t>>;
 
-// What two lists of neighbours may differ by: pairs whose distance is the reach, to float's rounding.
+// Bounds of neighbour lists: pairs that must be listed, and pairs that may be, because their distance equals
+// the reach within float rounding.
 struct Expected {
     Neighbours sure, possible;
 };
 
 struct Cloud {
-    std::vector<float> radii; // whole work groups; below 0 = nobody
+    std::vector<float> radii; // padded to work groups; below 0 = no particle
     float margin = 0;
     std::uint32_t capacity = 256;
     bool isReversed = false, usesTexels = true;
     lists::Exclusions exclusions;
-    float h = 1; // of the substep that brought particles where they are [s]
+    float h = 1; // length of the last substep [s]
 };
 
-// A program that does nothing but keep the lists of a cloud.
+// A program that only updates the lists of a cloud.
 class Device {
 public:
     explicit Device(const Cloud& cloud) : count_(cloud.radii.size()), builder_(cloud.isReversed) {
@@ -119,7 +120,7 @@ Expected bruteForce(const Cloud& cloud, const std::vector<layout::vec4>& x, floa
     return expected;
 }
 
-// Sorted ranges: everything sure is there, everything there is possible, nothing twice.
+// Expects sorted lists without duplicates that contain all sure pairs and only possible ones.
 void expectBetween(const Expected& expected, const Neighbours& found) {
     for (std::size_t i = 0; i < found.size(); ++i) {
         ASSERT_TRUE(std::is_sorted(found[i].begin(), found[i].end(), std::less_equal<>()))
@@ -137,7 +138,7 @@ void expectMutual(const Neighbours& found) {
             ASSERT_TRUE(std::ranges::binary_search(found[j], i)) << j << " does not know " << i;
 }
 
-// Places of `count` particles, the rest nowhere in particular: a configuration of one kind.
+// Places the particles of one kind of configuration.
 using Placing = std::function<layout::vec4(std::mt19937&, std::uint32_t)>;
 
 float uniform(std::mt19937& random, float low, float high) {
@@ -154,7 +155,7 @@ struct NamedPlacing {
     Placing place;
 };
 
-// Radii are around 0.05 m, cells around 0.13 m.
+// Radii are about 0.05 m, grid cells about 0.13 m.
 std::vector<NamedPlacing> placings() {
     return {{"random", [](std::mt19937& r, std::uint32_t) { return within(r, {}, 0.4f); }},
             {"sparse", [](std::mt19937& r, std::uint32_t) { return within(r, {}, 30); }},
@@ -199,9 +200,9 @@ std::vector<float> radiiFor(std::mt19937& random, int kind, std::size_t count) {
     std::vector<float> radii(count, 0.05f);
     for (std::size_t i = 0; i < count; ++i) {
         if (kind == 1) radii[i] = uniform(random, 0.02f, 0.06f);
-        if (kind == 2 && random() % 40 == 0) radii[i] = uniform(random, 0.3f, 0.6f); // searched one by one
+        if (kind == 2 && random() % 40 == 0) radii[i] = uniform(random, 0.3f, 0.6f); // not in the grid
         if (kind == 2 && random() % 20 == 0) radii[i] = 0;
-        if (kind == 3 && random() % 3 == 0) radii[i] = -1; // nobody
+        if (kind == 3 && random() % 3 == 0) radii[i] = -1; // no particle
     }
     return radii;
 }
@@ -214,7 +215,7 @@ std::vector<layout::vec4> placed(std::mt19937& random, const Placing& place, std
 
 } // namespace
 
-// Hard case 26, too: far outside of where most are, at -0.0, on borders of cells.
+// Also hard case 26: particles far outside of the others, at -0.0, and on cell borders.
 TEST(ContactLists, EqualBruteForceOnTwelveHundredConfigurations) {
     std::mt19937 random(11);
     std::size_t pairs = 0, configurations = 0;
@@ -244,7 +245,7 @@ TEST(ContactLists, EqualBruteForceOnTwelveHundredConfigurations) {
     EXPECT_GT(pairs, 1'000'000u) << "clouds too thin to show anything";
 }
 
-// Everybody wanders: what touches is always listed, and lists are made again only when somebody has gone far.
+// While all particles wander, every contact is listed, and lists are rebuilt only after long displacements.
 TEST(ContactLists, HoldWhatTouchesWhileParticlesWanderAndAreRarelyMadeAgain) {
     std::mt19937 random(5);
     const Cloud cloud{.radii = radiiFor(random, 1, 256), .margin = 0.04f};
@@ -283,9 +284,9 @@ TEST(ContactLists, AreMadeAgainOnlyWhenSomebodyMovesFartherThanHalfTheMargin) {
 TEST(ContactLists, ThatLackRoomSayHowMuchTheyNeedOnAverage) {
     Cloud cloud{.radii = std::vector<float>(256, 0.05f), .margin = 0.01f};
     std::vector<layout::vec4> x(256);
-    // 64 in one place: 64 x 63 entries, 15.75 a particle
+    // 64 particles at one place have 64 x 63 entries, 15.75 a particle.
     for (std::uint32_t i = 0; i < 256; ++i) x[i].x = static_cast<float>(i < 64 ? 0 : i);
-    // The search ends where four times as much as there is room for was found.
+    // The count stops at four times the capacity.
     for (const auto& [capacity, needed] : {std::pair{1u, 5u}, {4u, 16u}, {15u, 16u}, {16u, 0u}, {17u, 0u}}) {
         cloud.capacity = capacity;
         Device device(cloud);
@@ -300,7 +301,7 @@ TEST(ContactLists, ThatLackRoomSayHowMuchTheyNeedOnAverage) {
     }
 }
 
-// A large particle among many small ones: its list is sorted in another way than short ones are.
+// A large particle among many small ones. Long lists are sorted by another algorithm than short ones.
 TEST(ContactLists, OfOneMayHaveUpToTwoThousand) {
     for (const std::uint32_t small : {1500u, 2048u, 2049u}) {
         Cloud cloud{.radii = std::vector<float>(2176, 0.001f), .margin = 0.0005f, .capacity = 8};
@@ -324,7 +325,7 @@ TEST(ContactLists, OfOneMayHaveUpToTwoThousand) {
     }
 }
 
-// Hard case 25: counting stops soon, nothing is overrun, and the same is said every time.
+// Hard case 25: counting stops early, no buffer overflows, and each run reports the same.
 TEST(ContactLists, OfTenThousandParticlesInOnePlaceStopCounting) {
     Cloud cloud{.radii = std::vector<float>(10112, 0.05f), .margin = 0.01f, .capacity = 16};
     for (const bool isReversed : {false, true}) {
@@ -369,7 +370,7 @@ bool isExcluded(const lists::Exclusions& exclusions, std::uint32_t i, std::uint3
 TEST(ExcludedPairs, AreLinksAndWhatIsNearAtRestWithinABody) {
     Scene scene = test::block(3, 0.1f, 1e5f); // 4^3 particles, links up to face diagonals
     const auto single = static_cast<std::uint32_t>(scene.particles.size());
-    scene.particles.push_back({.position = {0.02f, 0, 0}}); // in the body, but not of it
+    scene.particles.push_back({.position = {0.02f, 0, 0}}); // inside the body, but not part of it
     const std::vector<float> radii(scene.particles.size(), 0.09f);
     const StateLayout layout = orderedLayout(scene.particles.size());
     const lists::Exclusions excluded = lists::excludedPairs(scene, radii, layout);
@@ -409,7 +410,7 @@ TEST(HashGrid, KeepsItsCellsSmallWhereAFewParticlesAreLarge) {
 
 namespace {
 
-// The nearest that two came to each other on straight ways [m].
+// Smallest distance of two particles on straight paths [m].
 double nearest(const layout::vec4& xi, const layout::vec4& xj, const layout::vec4& vi,
                const layout::vec4& vj) {
     const auto vector = [](const layout::vec4& a) {
@@ -420,7 +421,7 @@ double nearest(const layout::vec4& xi, const layout::vec4& xj, const layout::vec
     return (d - t * way).norm();
 }
 
-// Up to a tenth of them fast enough to cross the cloud in a substep, of every radius.
+// Velocities of which about a tenth cross the cloud in a substep, for all radii.
 std::vector<layout::vec4> velocitiesOf(std::mt19937& random, std::size_t count, float most) {
     std::vector<layout::vec4> v(count);
     for (layout::vec4& one : v)
@@ -430,7 +431,8 @@ std::vector<layout::vec4> velocitiesOf(std::mt19937& random, std::size_t count, 
 
 } // namespace
 
-// With substeps of 1 s. Whoever touched another on the way is listed by both, whatever cells they end in.
+// Substeps last 1 s. Both particles list each other if they touched on the way, whatever grid cells they end
+// in.
 TEST(ContactLists, HoldWhatMetOnTheWayOfASubstep) {
     std::mt19937 random(17);
     std::size_t met = 0;

@@ -1,4 +1,4 @@
-// Edges of faces that touch other edges, on the device.
+// Tests of edge-edge contacts on the device.
 #include "layout.h"
 #include "sim/collision/face_scenes.hpp"
 #include "sim/compile.hpp"
@@ -45,9 +45,9 @@ Outcome outcomeOf(const Scene& scene, const Settings& settings, int steps) {
     return outcome;
 }
 
-// Two triangles of which an edge of each lies towards the other, across it: the lower one along x at the
-// height 0, the upper one along z at `height`; its corners of `mass` [kg] each, 0 = the lower ones never
-// move.
+// Two triangles, each with an edge that crosses one of the other: the lower edge lies along x at height 0,
+// the upper one along z at `height`. The corners of the lower triangle have `lowerMass` [kg]; with 0 they
+// never move.
 Scene crossedEdges(float lowerMass, float height, float speed) {
     Scene scene;
     scene.gravity = {};
@@ -72,7 +72,7 @@ Vector3d momentumOf(const Scene& scene, const std::vector<Vector3d>& v) {
     return sum;
 }
 
-// The upper one of the places at which the two edges of crossedEdges() cross, as seen from the lower one.
+// Relative velocity and position of the crossing points: upper edge minus lower edge.
 struct Apart {
     Vector3d speed, way; // [m/s], [m]
 };
@@ -84,7 +84,7 @@ Apart apart(const std::vector<Vector3d>& x, const std::vector<Vector3d>& v) {
     return {v[3] + t * (v[4] - v[3]) - v[0] - s * (v[1] - v[0]), x[3] + t * e - x[0] - s * d};
 }
 
-// Contacts between edges in the last substep; each stands at both.
+// Number of edge contacts of the last substep; both edges of a contact count.
 std::size_t edgesTouching(test::Runner& runner) {
     const auto read = [&]<typename T>(const char* label, T) {
         const auto& buffers = runner.simulation().program().buffers;
@@ -101,7 +101,7 @@ std::size_t edgesTouching(test::Runner& runner) {
 
 } // namespace
 
-// Inelastic, and with restitution: momentum is kept, and the two places part as Newton has it.
+// Restitution 0 and more: momentum is conserved, and the crossing points part by Newton's law of impact.
 TEST(EdgeContacts, PartAsRestitutionHasItAndKeepMomentum) {
     for (const float e : {0.0f, 0.5f, 1.0f}) {
         Scene scene = crossedEdges(2, 0.1f, 1);
@@ -116,8 +116,8 @@ TEST(EdgeContacts, PartAsRestitutionHasItAndKeepMomentum) {
     }
 }
 
-// A blow takes friction x as much along the edges as across them, for both meet the same masses, and all that
-// there is of it where it holds.
+// The tangential impulse of an impact is friction times its normal impulse, because both directions act on
+// equal masses. Static friction stops the sliding completely.
 TEST(EdgeContacts, SlideAndHoldByTheirFriction) {
     for (const float mass : {0.0f, 2.0f})
         for (const float holding : {0.0f, 3.0f}) {
@@ -129,7 +129,7 @@ TEST(EdgeContacts, SlideAndHoldByTheirFriction) {
             const Vector3d before = momentumOf(scene, runner.velocities());
             for (int step = 0; step < 8; ++step) ASSERT_EQ(runner.run(1).nonFinite, 0u);
             const auto x = runner.positions(), v = runner.velocities();
-            const Vector3d blow = v[3] + v[4] + v[5] - Vector3d(3, -3, 0); // each has 1 kg
+            const Vector3d blow = v[3] + v[4] + v[5] - Vector3d(3, -3, 0); // each corner has 1 kg
             const double along = apart(x, v).speed.x();
             std::printf(
                 "edges, lower corners of %.0f kg, static friction %.0f: %.5f of the blow, then %.5f m/s\n",
@@ -145,7 +145,7 @@ TEST(EdgeContacts, SlideAndHoldByTheirFriction) {
         }
 }
 
-// Up to 150 thicknesses a substep, upon an edge that moves and one that does not.
+// Speeds up to 150 thicknesses a substep, against moving and fixed edges.
 TEST(EdgeContacts, StopEdgesThatAreFasterThanTheirThickness) {
     for (const float mass : {0.0f, 100.0f})
         for (const float speed : {5.0f, 60.0f, 300.0f, 1000.0f}) {
@@ -159,8 +159,8 @@ TEST(EdgeContacts, StopEdgesThatAreFasterThanTheirThickness) {
         }
 }
 
-// What rests without gravity stays where it is to the bit, asleep or not: from the blow on all goes as if
-// nobody had slept.
+// Without gravity, resting bodies keep their positions exactly, asleep or not, so the motion after the impact
+// must equal that without sleep.
 TEST(EdgeContacts, WakeWhatTheyTouch) {
     Scene scene = crossedEdges(2, 0.8f, 1);
     scene.contacts.friction = 0.3f;
@@ -170,7 +170,7 @@ TEST(EdgeContacts, WakeWhatTheyTouch) {
         const Status status = slept.run(1);
         awake.run(1);
         slumbered = slumbered || status.sleeping == 3;
-        woke = woke || (slumbered && status.sleeping == 1); // but for the corner across
+        woke = woke || (slumbered && status.sleeping == 1); // the opposite corner sleeps on
         ASSERT_EQ(slept.positions(), awake.positions()) << "step " << step;
         ASSERT_EQ(slept.velocities(), awake.velocities()) << "step " << step;
     }
@@ -207,7 +207,7 @@ TEST(EdgeContacts, KeepTwoCoarseSheetsApartThatCross) {
     }
 }
 
-// Hard case 17: each end turns by so many turns while the two come nearer, and then all settles.
+// Hard case 17: the ends turn several times and move together, then the strip comes to rest.
 TEST(EdgeContacts, KeepATwistedStripOutOfItself) {
     const Scene scene = test::strip(0.01f);
     test::Runner runner(scene, {.substeps = 16, .contactRoom = 160});
@@ -245,12 +245,12 @@ TEST(EdgeContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
     EXPECT_EQ(hash(reversed), expected) << "reversed, without texels";
 }
 
-// Hard case 29, as for contacts between particles, where edges touch in many steps.
+// Hard case 29, in a scene where edges touch in many steps.
 TEST(EdgeContacts, ThatHaveNoRoomAreSaidAndRepeatedToTheSameBits) {
     const Scene scene = test::crossedSheets(0.1f);
     constexpr int steps = 25;
     const std::uint64_t hash = test::hashOfRun(scene, {.substeps = 8, .contactRoom = 96}, steps);
-    int touching = 0; // steps
+    int touching = 0; // number of steps
     const auto run = test::runGrowing(scene, {.substeps = 8}, steps, [&](test::Runner& runner) {
         touching += edgesTouching(runner) > 0 ? 1 : 0;
     });

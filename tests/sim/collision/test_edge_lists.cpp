@@ -1,6 +1,6 @@
-// Lists of edges on the device against brute force, on clouds of every kind: each pair once, in the list of
-// its owner, sorted, nothing else, in any order of invocations; what happens where a list is too short; and
-// which edges a scene has.
+// Compares lists of edge pairs on the device with brute force, on many kinds of clouds. The owner lists each
+// pair once, sorted, for any order of invocations. Also tests lists whose capacity is too small, and the
+// edges of scenes.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/collision/edge_contacts.hpp"
@@ -30,7 +30,7 @@ bool isLong(std::uint32_t e) {
     return e % 16 == 0;
 }
 
-// Between particles 2 e and 2 e + 1; every fifth never moves.
+// Edges between particles 2 e and 2 e + 1; every fifth never moves.
 std::vector<lists::Edge> edges() {
     std::vector<lists::Edge> result;
     for (std::uint32_t e = 0; e < edgeCount; ++e) {
@@ -44,7 +44,7 @@ struct State {
     std::vector<layout::vec4> x = std::vector<layout::vec4>(count), v = std::vector<layout::vec4>(count);
 };
 
-// A program that does nothing but keep lists of edges.
+// A program that only updates lists of edges.
 class Device {
 public:
     explicit Device(bool isReversed, bool usesTexels, std::uint32_t capacity = 256,
@@ -93,8 +93,7 @@ public:
             }
         return result;
     }
-    // The edges that have a link to one, by the pair that it stands for: none is lost, and none is there
-    // twice.
+    // For each edge, the partners found through the reverse links; every link must match its list entry.
     Neighbours linked() const {
         const auto ranges = read<layout::ListRange>(lists_.pooled.links->ranges);
         const auto elements = read<std::uint32_t>(lists_.pooled.links->elements);
@@ -135,7 +134,7 @@ Vector3d at(const layout::vec4& v) {
     return {double{v.x}, double{v.y}, double{v.z}};
 }
 
-// By alternating projections between the two, from several places: no formula of the kernel's.
+// Distance by alternating projections from several starts, without the kernel's formula.
 double distance(const std::array<Vector3d, 2>& one, const std::array<Vector3d, 2>& other) {
     const auto nearest = [](const Vector3d& p, const std::array<Vector3d, 2>& segment) {
         const Vector3d d = segment[1] - segment[0];
@@ -157,12 +156,14 @@ double distance(const std::array<Vector3d, 2>& one, const std::array<Vector3d, 2
     return least;
 }
 
-// What lists may differ by: pairs whose distance is the reach, to float's rounding of their size.
+// Bounds of the lists: pairs that must be listed, and pairs that may be, because their distance equals the
+// reach within float rounding.
 struct Expected {
     Neighbours sure = Neighbours(edgeCount), possible = Neighbours(edgeCount);
 };
 
-// Whether e has the pair in its list: it moves and f never does, or else half of all edges have it for each.
+// Whether e owns the pair: e moves and f never does, or else one of both by a rule that halves the pairs of
+// each edge.
 bool owns(const std::vector<lists::Edge>& all, std::uint32_t e, std::uint32_t f) {
     if (all[e].moves != all[f].moves) return all[e].moves;
     return (e + f) % 2 == 0 ? e < f : f < e;
@@ -205,7 +206,7 @@ layout::vec4 within(std::mt19937& random, const layout::vec4& center, float half
     return {center.x + x, center.y + y, center.z + z, 0};
 }
 
-// Of the middle of an edge.
+// Position of the middle of an edge.
 layout::vec4 placed(std::mt19937& random, int kind, std::uint32_t e) {
     const float n = static_cast<float>(e % 5);
     switch (kind) {
@@ -232,7 +233,7 @@ State stateOf(std::mt19937& random, int kind, float speed) {
         const layout::vec4 middle = placed(random, kind, e);
         layout::vec4 half = within(random, {}, isLong(e) ? 0.35f : 0.03f);
         if (e % 11 == 3) half = {};
-        if (e % 11 == 4) half = {0.03f, 0, 0, 0}; // many are parallel
+        if (e % 11 == 4) half = {0.03f, 0, 0, 0}; // many edges are parallel
         state.x[2 * e] = {middle.x - half.x, middle.y - half.y, middle.z - half.z, 0};
         state.x[2 * e + 1] = {middle.x + half.x, middle.y + half.y, middle.z + half.z, 0};
         const bool moves = e % 5 != 0;
@@ -254,7 +255,7 @@ TEST(EdgeLists, EqualBruteForceOnAThousandConfigurations) {
         for (int seed = 0; seed < 150; ++seed, ++configurations) {
             SCOPED_TRACE(testing::Message() << "kind " << kind << ", seed " << seed);
             State state = stateOf(random, kind, seed % 3 == 0 ? 0.0f : 8.0f);
-            for (layout::vec4& x : state.x) x.y += seed % 2 == 0 ? 0.0f : 0.125f; // all lists anew
+            for (layout::vec4& x : state.x) x.y += seed % 2 == 0 ? 0.0f : 0.125f; // forces new lists
             device.update(state);
             const Neighbours found = device.found();
             ASSERT_NO_FATAL_FAILURE(expectBetween(bruteForce(state, double{margin}), found));
@@ -272,7 +273,7 @@ TEST(EdgeLists, EqualBruteForceOnAThousandConfigurations) {
     EXPECT_GT(pairs, 250'000u) << "clouds too thin to show anything";
 }
 
-// Everybody wanders: what meets is always listed, and lists are made again only when somebody has gone far.
+// While all edges wander, every contact is listed, and lists are rebuilt only after long displacements.
 TEST(EdgeLists, HoldWhatMeetsWhileEdgesWanderAndAreRarelyMadeAgain) {
     std::mt19937 random(5);
     Device device(false, true);
@@ -338,7 +339,8 @@ TEST(ContactEdges, AreThoseOfFacesButForTheInsidesOfPlanesThatNeverMove) {
     for (const lists::Edge& edge : all) EXPECT_EQ(edge.moves, edge.ends[0] >= 4);
 }
 
-// At 0.1 m cells and a thickness of 0.12 m edges across one cell are near, those two away are not.
+// With cells of 0.1 m and a thickness of 0.12 m, edges one cell apart are near at rest and excluded, those
+// two cells apart are not.
 TEST(ContactEdges, OfABodyThatAreNearAtRestNeverTouch) {
     Scene scene;
     addCloth(scene, {.size = {5, 5}, .spacing = 0.1f, .thickness = 0.12f});

@@ -1,5 +1,5 @@
-// Particles that touch triangles, on the device: rest, momentum, fast particles, cloth on meshes, on itself
-// and in stacks, and the same bits whatever lists look like.
+// Tests of particle-triangle contacts on the device: rest, momentum, fast particles, cloth on meshes, on
+// itself and in stacks, and equal bits for any layout of the lists.
 #include "sim/bodies.hpp"
 #include "sim/collision/face_scenes.hpp"
 #include "sim/compile.hpp"
@@ -33,7 +33,7 @@ Particle ballAt(const Vec3& position, const Vec3& velocity = {}, float mass = 1)
     return {.position = position, .velocity = velocity, .inverseMass = 1 / mass, .radius = radius};
 }
 
-// A triangle in the plane y = 0 around the origin, its corners of `mass` [kg] each; 0 = they never move.
+// A triangle around the origin in the plane y = 0, with corners of `mass` [kg] each; 0 = fixed.
 Scene triangle(float mass) {
     Scene scene;
     const float w = mass > 0 ? 1 / mass : 0;
@@ -88,8 +88,8 @@ TEST(FaceContacts, CarryAParticleOnEitherSideOfAFixedTriangle) {
     }
 }
 
-// Inelastic, in the middle of the substep in which they meet: with D = w + sum b^2 w_k, the point's velocity
-// v becomes v (1 - w / D), and corner k gets v b_k w_k / D.
+// An inelastic impact in the middle of a substep. With D = w + sum b^2 w_k, the point's velocity v becomes v
+// (1 - w / D), and corner k gets v b_k w_k / D.
 TEST(FaceContacts, ShareAnImpulseAmongCornersByTheirWeights) {
     Scene scene = weightless(triangle(2));
     const std::array<double, 3> b{0.5, 0.3, 0.2};
@@ -105,7 +105,8 @@ TEST(FaceContacts, ShareAnImpulseAmongCornersByTheirWeights) {
     EXPECT_NEAR(v[3].y(), -(1 - 1 / D), 2e-3);
 }
 
-// A blow takes friction x as much along a face as across it, and all that there is of it where it holds.
+// The tangential impulse of an impact is friction times its normal impulse. Static friction stops the sliding
+// completely.
 TEST(FaceContacts, SlideAndHoldByTheirFriction) {
     for (const float mass : {0.0f, 2.0f})
         for (const float holding : {0.0f, 3.0f}) {
@@ -138,7 +139,7 @@ TEST(FaceContacts, SlideAndHoldByTheirFriction) {
         }
 }
 
-// A free sheet in a hail of particles, with friction.
+// A free sheet hit by many particles, with friction.
 TEST(FaceContacts, OfASheetInAHailKeepMomentum) {
     for (const float friction : {0.0f, 0.5f}) {
         Scene scene;
@@ -171,15 +172,14 @@ TEST(FaceContacts, OfASheetInAHailKeepMomentum) {
         std::printf("friction %.1f: momentum %.1e, angular %.1e m of all that was thrown; untouched %.0f\n",
                     double{friction}, linear, angular, through);
         EXPECT_LE(linear, 1e-6);
-        // Not exact: an impulse that moves positions too turns by itself x the way since, and links and
-        // friction do not act between the very places.
+        // Angular momentum is not exact: an impulse that also moves positions turns by itself times the path
+        // since then, and links and friction do not act between exactly these points.
         EXPECT_LE(angular, 2e-3);
         EXPECT_LE(through, 4);
     }
 }
 
-// Case 27: up to 100 thicknesses a substep, straight and aslant, upon a face that moves and one that does
-// not.
+// Case 27: up to 100 thicknesses a substep, perpendicular and oblique, against moving and fixed faces.
 TEST(FaceContacts, StopAParticleThatIsFasterThanTheirThickness) {
     for (const float mass : {0.0f, 100.0f})
         for (const float speed : {5.0f, 60.0f, 300.0f, 3000.0f})
@@ -200,8 +200,8 @@ TEST(FaceContacts, StopAParticleThatIsFasterThanTheirThickness) {
             }
 }
 
-// A flat floor is one however it is cut into triangles: without restitution what hits it stays there, and
-// does not slide, be it over a face, an edge or a corner.
+// A flat floor acts the same however it is triangulated: without restitution a particle stops where it hits,
+// on a face, an edge or a corner, and does not slide.
 TEST(FaceContacts, OfAFlatMeshStopWhatHitsItAnywhere) {
     Scene scene;
     scene.gravity = {};
@@ -217,7 +217,7 @@ TEST(FaceContacts, OfAFlatMeshStopWhatHitsItAnywhere) {
     }
     addMeshCollider(scene, floor);
     const std::size_t first = scene.particles.size();
-    for (int i = 0; i < 49; ++i) // 49 places of a cell and beyond, none near another
+    for (int i = 0; i < 49; ++i) // 49 places over a cell and beyond, far apart
         scene.particles.push_back(
             ballAt({0.06f + 0.0725f * static_cast<float>(i % 7), 0.1f + 0.011f * static_cast<float>(i % 5),
                     0.06f + 0.0725f * static_cast<float>(i / 7)},
@@ -253,7 +253,8 @@ TEST(FaceContacts, LetAParticlePassBesideThem) {
     for (std::size_t i = 3; i < 6; ++i) EXPECT_LE(runner.positions()[i].y(), -1) << "particle " << i;
 }
 
-// Hard case 18: on a line, in a point, and nearly so; the whole face beside them carries.
+// Hard case 18: faces that are collinear, a point, or nearly so. The regular face beside them carries the
+// load.
 TEST(FaceContacts, WithDegenerateFacesAreNoneAndDoNoHarm) {
     Scene scene = triangle(0);
     for (const Vec3& corner : {Vec3{0, 0, 0}, Vec3{0.5f, 0, 0}, Vec3{0.25f, 0, 0}, Vec3{0.25f, 0, 1e-6f}})
@@ -271,8 +272,8 @@ TEST(FaceContacts, WithDegenerateFacesAreNoneAndDoNoHarm) {
     EXPECT_LE(runner.positions()[9].y(), -reach);
 }
 
-// An incline as two triangles with an edge along it: sticks and slides at Coulomb's angle, and by that of
-// static friction where it begins at rest.
+// An incline of two triangles with an edge along it. A particle sticks and slides at Coulomb's angle; from
+// rest, at that of static friction.
 TEST(FaceContacts, HoldByFrictionUpToItsAngle) {
     const auto slid = [](float degrees, float holding = 0, float speed = 0) {
         Scene scene;
@@ -298,7 +299,7 @@ TEST(FaceContacts, HoldByFrictionUpToItsAngle) {
 
 namespace {
 
-// A square around the origin in the plane y = 0, which never moves.
+// A fixed square around the origin in the plane y = 0.
 MeshCollider square() {
     return {.vertices = {{-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}},
             .triangles = {{0, 1, 2}, {0, 2, 3}},
@@ -307,7 +308,7 @@ MeshCollider square() {
 
 } // namespace
 
-// Case 16, at 600 substeps a second, on a mesh; where it falls two triangles share an edge.
+// Case 16 on a mesh, with 600 substeps a second; the ball falls onto an edge shared by two triangles.
 TEST(FaceContacts, LetABallReboundToTheSquareOfItsRestitution) {
     for (const float e : {0.5f, 0.9f, 1.0f}) {
         Scene scene;
@@ -331,7 +332,7 @@ TEST(FaceContacts, LetABallReboundToTheSquareOfItsRestitution) {
     }
 }
 
-// Newton's law at the place that is touched, of a face that is free to go; and momentum.
+// Newton's law of impact at the contact point of a free face, and conservation of momentum.
 TEST(FaceContacts, PartAsRestitutionHasItFromAFreeFace) {
     for (const float e : {0.3f, 1.0f}) {
         Scene scene = weightless(triangle(2));
@@ -351,7 +352,7 @@ TEST(FaceContacts, PartAsRestitutionHasItFromAFreeFace) {
     }
 }
 
-// Friction 1 upon 0.25: the geometric mean, 0.5, of which the angle is 26.57 degrees (case 17).
+// Friction 1 on 0.25: the geometric mean 0.5 has the angle 26.57 degrees (case 17).
 TEST(FaceContacts, HoldByTheFrictionOfBothSurfaces) {
     const auto slid = [](double degrees) {
         Scene scene;
@@ -372,8 +373,7 @@ TEST(FaceContacts, HoldByTheFrictionOfBothSurfaces) {
     EXPECT_NEAR(slid(27.57), 0.5 * 9.81 * (std::sin(angle) - 0.5 * std::cos(angle)), 0.01);
 }
 
-// What overlaps when the scene is loaded parts at the speed of recovery, from a face that never moves and
-// from one that does.
+// A particle that overlaps a face at load parts at the recovery speed, from a fixed and from a free face.
 TEST(FaceContacts, PartSlowlyWhatOverlapsAtLoad) {
     for (const float mass : {0.0f, 2.0f}) {
         Scene scene = weightless(triangle(mass));
@@ -393,8 +393,8 @@ TEST(FaceContacts, PartSlowlyWhatOverlapsAtLoad) {
     }
 }
 
-// Sheets at half of their thickness. The bound is that of a stack of n that widens evenly while neighbours
-// part at 2 v_rec, as of heaps of particles (test_overlaps).
+// Sheets at half of their thickness. The bound is the energy of a stack of n sheets that expands evenly while
+// neighbours part at 2 v_rec, as for heaps of particles in test_overlaps.
 TEST(FaceContacts, PartAStackThatOverlapsAtLoadWithTheEnergyOfItsSpeedOfRecovery) {
     constexpr std::uint32_t count = 6;
     const auto energyOf = [](float speed) {
@@ -425,7 +425,7 @@ TEST(FaceContacts, PartAStackThatOverlapsAtLoadWithTheEnergyOfItsSpeedOfRecovery
 
 TEST(FaceContacts, LayAClothOverABallOfTriangles) {
     const Scene scene = test::clothOnBall();
-    // with fewer, the folds that it falls into may pinch an edge of its own (docs/accuracy.md)
+    // With fewer substeps the falling folds may pinch an edge of the sheet (docs/accuracy.md).
     test::Runner runner(scene, {.substeps = 32, .contactRoom = 96});
     const std::size_t first = scene.bodies[1].firstParticle;
     double deepest = 0;
@@ -439,7 +439,7 @@ TEST(FaceContacts, LayAClothOverABallOfTriangles) {
     const auto x = runner.positions(), v = runner.velocities();
     std::printf("cloth on ball: %.5f m into the sphere around the mesh, v rms %.3f m/s, %d intersections\n",
                 deepest, rms(v), intersections(scene, x));
-    const double sagitta = 0.3 * (1 - std::cos(std::numbers::pi / 24)); // of facets below the sphere
+    const double sagitta = 0.3 * (1 - std::cos(std::numbers::pi / 24)); // of the facets below the sphere
     EXPECT_LE(deepest, 2 * sagitta) << "they stay outside the facets";
     EXPECT_EQ(intersections(scene, x), 0);
 }
@@ -484,9 +484,8 @@ INSTANTIATE_TEST_SUITE_P(, FaceContactsOfAFold,
                                          Fold{"ThinOnWide", 0.003f, 0.06f}),
                          [](const auto& fold) { return std::string(fold.param.name); });
 
-// Hard case 17.
-// With 32 substeps the outcome is chance: of six starts that differ by 1e-7 m three ended with edges through
-// faces. "auto" takes 46; with 48 none of the six ever had one.
+// Hard case 17. With 32 substeps the outcome is chance: three of six starts that differ by 1e-7 m ended with
+// edges through faces. "auto" takes 46; with 48 none of the six did.
 TEST(FaceContacts, KeepAFallingFoldOutOfItself) {
     for (const float shift : {0.0f, 4e-7f}) {
         Scene scene = test::fallingFold();
@@ -508,7 +507,7 @@ TEST(FaceContacts, KeepAFallingFoldOutOfItself) {
     }
 }
 
-// Hard case 16: no layer changes places with another, and all come to rest.
+// Hard case 16: layers keep their order and come to rest.
 TEST(FaceContacts, KeepAStackOfLayersInOrder) {
     constexpr std::uint32_t side = 5, each = side * side;
     const std::uint32_t count = test::isFull() ? 20 : 10;
@@ -521,7 +520,7 @@ TEST(FaceContacts, KeepAStackOfLayersInOrder) {
     const auto x = runner.positions();
     double least = 1;
     for (std::uint32_t layer = 0; layer + 1 < count; ++layer)
-        for (std::uint32_t i = 0; i < each; ++i) { // inside, where sheets lie over each other
+        for (std::uint32_t i = 0; i < each; ++i) { // inside, where sheets lie above each other
             const std::uint32_t row = i / side, column = i % side;
             if (row == 0 || row + 1 == side || column == 0 || column + 1 == side) continue;
             least = std::min(least, x[each * (layer + 1) + i].y() - x[each * layer + i].y());
@@ -537,7 +536,7 @@ TEST(FaceContacts, KeepAStackOfLayersInOrder) {
 TEST(FaceContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
     Scene scene = test::fallingFold();
     scene.particles.push_back(
-        ballAt({-0.1f, 0.9f, 0.05f}, {0, -3, 0}, 0.01f)); // contacts between particles too
+        ballAt({-0.1f, 0.9f, 0.05f}, {0, -3, 0}, 0.01f)); // adds contacts between particles
     scene.particles.push_back(ballAt({-0.1f, 1.0f, 0.05f}, {0, -4, 0}, 0.01f));
     constexpr int steps = 30;
     const Settings settings{.substeps = 8, .contactRoom = 160};
@@ -551,7 +550,7 @@ TEST(FaceContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
     EXPECT_EQ(hashOf(scene, reversed, steps), hash) << "reversed, without texels";
 }
 
-// Hard case 29, as for contacts between particles.
+// Hard case 29 for contacts with faces.
 TEST(FaceContacts, ThatHaveNoRoomAreSaidAndRepeatedToTheSameBits) {
     const Scene scene = test::clothOnBall();
     constexpr int steps = 24;

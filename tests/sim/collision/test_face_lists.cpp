@@ -1,5 +1,5 @@
-// Lists of points and faces on the device against brute force, on clouds of every kind: each pair once,
-// sorted, nothing else, in any order of invocations; and what happens where a list is too short.
+// Compares lists of particles and faces on the device with brute force, on many kinds of clouds. Each pair is
+// listed once, sorted, for any order of invocations. Also tests lists whose capacity is too small.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/collision/face_contacts.hpp"
@@ -30,9 +30,9 @@ float inverseMassOf(std::uint32_t i) {
     return i >= 3 * movingFaces && (i < 3 * faceCount || i % 5 == 0) ? 0.0f : 1.0f;
 }
 
-// Faces between particles 3 f, 3 f + 1 and 3 f + 2; all others are loose.
+// Faces between particles 3 f, 3 f + 1 and 3 f + 2; all other particles are loose.
 struct Cloud {
-    std::vector<float> radii = std::vector<float>(count, 0.02f); // below 0 = nobody
+    std::vector<float> radii = std::vector<float>(count, 0.02f); // below 0 = no particle
     std::vector<float> thickness = std::vector<float>(faceCount, 0.01f);
     std::vector<float> extents = std::vector<float>(faceCount, 0.1f);
     std::vector<std::uint32_t> exclusions;
@@ -51,12 +51,12 @@ struct Cloud {
     }
 };
 
-// Where particles are, and how fast with what inverse mass.
+// Positions, velocities and inverse masses of all particles.
 struct State {
     std::vector<layout::vec4> x = std::vector<layout::vec4>(count), v = std::vector<layout::vec4>(count);
 };
 
-// A program that does nothing but keep the lists of a cloud.
+// A program that only updates the lists of a cloud.
 class Device {
 public:
     explicit Device(const Cloud& cloud) : builder_(cloud.isReversed) {
@@ -102,7 +102,7 @@ public:
                 result[i].push_back(entries[lists[i].first + s].other);
         return result;
     }
-    // Of the faces that move; also says where a point's list does not have the face.
+    // The points listed at each moving face; fails if a point's list lacks the face.
     Neighbours pointsOfFaces() const {
         const auto lists = read<layout::ListRange>(lists_.pooled.ranges),
                    ofFaces = read<layout::ListRange>(lists_.pooled.links->ranges);
@@ -164,8 +164,8 @@ double toTriangle(const Vector3d& p, const std::array<Vector3d, 3>& x) {
     return std::min({toSegment(p, x[0], x[1]), toSegment(p, x[1], x[2]), toSegment(p, x[2], x[0])});
 }
 
-// Whether a straight way that ends at p comes nearer than `reach`: a distance from something convex has one
-// minimum along it, and changes by no more than one goes.
+// Whether a straight path that ends at p comes nearer than `reach`. The distance to a convex set has one
+// minimum along the path and changes at most by the distance travelled.
 bool comesNearer(const Vector3d& p, const Vector3d& way, const std::array<Vector3d, 3>& x, double reach) {
     double low = 0, high = 1;
     for (int n = 0; n < 80; ++n) {
@@ -179,7 +179,7 @@ bool comesNearer(const Vector3d& p, const Vector3d& way, const std::array<Vector
     return toTriangle(p - low * way, x) < reach;
 }
 
-// A box's half diagonal: points that go less far are listed by how far they are alone.
+// Half diagonal of the bounding box. Slower points are listed by their distance alone.
 double halfBox(const std::array<Vector3d, 3>& x) {
     return 0.5 * (x[0].cwiseMax(x[1]).cwiseMax(x[2]) - x[0].cwiseMin(x[1]).cwiseMin(x[2])).norm();
 }
@@ -188,9 +188,9 @@ double longestFrom(const Vector3d& way, const std::array<Vector3d, 3>& ways) {
     return std::max({(way - ways[0]).norm(), (way - ways[1]).norm(), (way - ways[2]).norm()});
 }
 
-// What lists may differ by: pairs whose distance is the reach, to float's rounding of the face's size;
-// slivers are as thick as their height, a thousandth of their length. A fast point is near what its way is
-// near to.
+// Bounds of the lists: pairs that must be listed, and pairs that may be, because their distance equals the
+// reach within float rounding of the face's size. Slivers have a tolerance of their height, a thousandth of
+// their length. A fast point counts as near all faces near its path.
 struct Expected {
     Neighbours sure = Neighbours(count), possible = Neighbours(count);
 };
@@ -238,7 +238,7 @@ void expectBetween(const Expected& expected, const Neighbours& found) {
     }
 }
 
-// The lists of faces say the same as those of points.
+// Expects the lists of faces to hold the same pairs as those of points.
 void expectMutual(const Neighbours& faces, const Neighbours& points) {
     Neighbours turned(movingFaces);
     for (std::uint32_t i = 0; i < count; ++i)
@@ -262,7 +262,7 @@ struct NamedPlacing {
     Placing place;
 };
 
-// Of the first corner of a face, and of what is loose.
+// Places the first corner of a face, or a loose particle.
 std::vector<NamedPlacing> placings() {
     return {{"random", [](std::mt19937& r, std::uint32_t) { return within(r, {}, 0.3f); }},
             {"sparse", [](std::mt19937& r, std::uint32_t) { return within(r, {}, 20); }},
@@ -297,7 +297,7 @@ State placed(std::mt19937& random, const Placing& place, Shape shape, float spee
         const float size = shape == Shape::any && first % 4 == 0 ? 1.5f : 0.06f;
         state.x[i] = i == first ? place(random, i) : within(random, state.x[first], size);
         if (shape == Shape::degenerate && i != first) {
-            const int kind = static_cast<int>(first % 4); // on a point, an edge, a line, nearly on one
+            const int kind = static_cast<int>(first % 4); // at a point, an edge, a line, almost a line
             const layout::vec4& a = state.x[first];
             const float along = 0.05f * static_cast<float>(i - first);
             if (kind == 0) state.x[i] = a;
@@ -323,7 +323,7 @@ Cloud cloudOf(std::mt19937& random, int kind) {
     }
     for (std::uint32_t f = 0; f < faceCount; ++f) {
         if (kind == 1) cloud.thickness[f] = uniform(random, 0, 0.02f);
-        if (kind == 2 && f % 4 == 0) cloud.extents[f] = 3; // compared with every point
+        if (kind == 2 && f % 4 == 0) cloud.extents[f] = 3; // compared with all points
     }
     return cloud;
 }
@@ -345,7 +345,7 @@ TEST(FaceLists, EqualBruteForceOnTwelveHundredConfigurations) {
                     SCOPED_TRACE(testing::Message() << placing.name << ", cloud " << kind << ", shape "
                                                     << static_cast<int>(shape) << ", seed " << seed);
                     State state = placed(random, placing.place, shape, seed % 3 == 0 ? 0.0f : 8.0f);
-                    for (layout::vec4& x : state.x) x.y += seed % 2 == 0 ? 0.0f : 0.125f; // all lists anew
+                    for (layout::vec4& x : state.x) x.y += seed % 2 == 0 ? 0.0f : 0.125f; // forces new lists
                     device.update(state);
                     const Neighbours found = device.facesOfPoints(), points = device.pointsOfFaces();
                     ASSERT_NO_FATAL_FAILURE(
@@ -364,8 +364,8 @@ TEST(FaceLists, EqualBruteForceOnTwelveHundredConfigurations) {
     EXPECT_GT(pairs, 500'000u) << "clouds too thin to show anything";
 }
 
-// Everybody wanders: what meets on the way of a substep is always listed, and lists are made again only when
-// somebody has gone far.
+// While all particles wander, every contact on the path of a substep is listed, and lists are rebuilt only
+// after long displacements.
 TEST(FaceLists, HoldWhatMeetsWhileParticlesWanderAndAreRarelyMadeAgain) {
     std::mt19937 random(5);
     const Cloud cloud = [] {
@@ -385,7 +385,7 @@ TEST(FaceLists, HoldWhatMeetsWhileParticlesWanderAndAreRarelyMadeAgain) {
                           (state.x[i].z - before.z) / substep, 1};
         }
         device.update(state);
-        State still = state; // what touches at the end of the way is the least of it
+        State still = state; // contacts at the end of the path are a subset
         for (layout::vec4& v : still.v) v = {0, 0, 0, v.w};
         const Neighbours found = device.facesOfPoints(), touching = bruteForce(cloud, still, 0).sure;
         for (std::size_t i = 0; i < found.size(); ++i)
@@ -413,7 +413,7 @@ TEST(FaceLists, AreMadeAgainForAParticleThatCameFromFarAway) {
     EXPECT_EQ(builds(), 2u) << "it is where it was, but it began the substep elsewhere";
 }
 
-// Faces in the origin with 50 points there; the others apart.
+// `faces` faces at the origin with 50 points there; all other particles are far apart.
 State crowdedState(std::uint32_t faces) {
     State state;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -444,7 +444,7 @@ TEST(FaceLists, ThatLackRoomSayHowMuchTheyNeedOnAverage) {
         cloud.capacity = capacity;
         Device device(cloud);
         device.update(state);
-        // The search ends where four times as much as there is room for was found.
+        // The count stops at four times the capacity.
         const std::uint32_t said = std::min(needed, 4 * capacity + 1);
         EXPECT_EQ(device.needed(), capacity < needed ? said : 0) << "capacity " << capacity;
         EXPECT_LE(entriesOf(device.facesOfPoints()), std::size_t{capacity} * count);
@@ -454,7 +454,7 @@ TEST(FaceLists, ThatLackRoomSayHowMuchTheyNeedOnAverage) {
 TEST(FaceLists, GiveOneOwnerAsMuchAsItNeeds) {
     const State state = crowdedState(faceCount);
     Cloud cloud;
-    cloud.capacity = 60; // less than a point there has
+    cloud.capacity = 60; // less than each point there needs
     Device device(cloud);
     device.update(state);
     EXPECT_EQ(device.needed(), 0u);

@@ -1,5 +1,5 @@
-// Meshes that come fast, or that others come to fast: nothing passes them, at any speed and with any share of
-// the load, and nothing is thrown.
+// Tests of fast meshes, and of fast bodies that hit meshes: no particle passes, at any speed and with any
+// mass ratio, and no particle gains excessive speed.
 #include "sim/bodies.hpp"
 #include "sim/runner.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr float thickness = 0.01f;
 
-// A square of 2 x half metres in y and z, cut into cells^2 x 2 triangles.
+// A square of 2 x half metres in y and z, divided into cells^2 x 2 triangles.
 MeshCollider wall(float half, std::uint32_t cells) {
     MeshCollider mesh{.name = "wall", .thickness = thickness};
     const auto at = [&](std::uint32_t k) {
@@ -35,7 +35,7 @@ MeshCollider wall(float half, std::uint32_t cells) {
     return mesh;
 }
 
-// Closed; its front is at x = 0.
+// A closed box with its front at x = 0.
 MeshCollider slab(float depth, float half) {
     MeshCollider mesh{.name = "slab", .thickness = thickness};
     for (const float z : {-half, half})
@@ -60,7 +60,7 @@ ClothSheet sheet(const Vec3& origin, const Vec3& right) {
             .thickness = 0.02f};
 }
 
-// Something at x >= 0, without gravity.
+// A target at x >= 0, without gravity.
 Scene targetOf(const std::string& kind) {
     Scene scene;
     scene.gravity = {0, 0, 0};
@@ -85,7 +85,7 @@ struct Trial {
     std::string mesh, target;
     double speed = 0; // [m/s]
     std::uint32_t substeps = 0;
-    bool isThrown = false; // the target comes to the mesh, which stands still
+    bool isThrown = false; // the target moves, the mesh stands still
     int steps = 3;
 
     double start() const { return -0.1 - 0.37 * speed / 60; } // they meet within the first step
@@ -114,8 +114,8 @@ struct Trial {
 
 struct Result {
     int behind = 0;
-    double deepest = 0; // how much nearer than they may be [reaches]
-    double fastest = 0; // against the other [speeds of the trial]
+    double deepest = 0; // depth beyond the reach [reaches]
+    double fastest = 0; // relative speed [speeds of the trial]
 };
 
 Result resultOf(const Trial& trial) {
@@ -140,7 +140,7 @@ Result resultOf(const Trial& trial) {
     return result;
 }
 
-// A twentieth of the reach is kept, unless what presses in several substeps one after another halves that.
+// Contacts keep at least a twentieth of the reach, and half of that if several substeps press in a row.
 void expectHeld(const Trial& trial, double mostSpeed, double mostDepth = 0.96) {
     const Result result = resultOf(trial);
     std::printf("%s: %d behind, deepest %.1e, fastest %.3f\n", trial.name().c_str(), result.behind,
@@ -158,8 +158,8 @@ constexpr Pace paces[] = {{10, 4}, {100, 16}, {1000, 4}};
 
 } // namespace
 
-// A way of a substep is 0.7 to 350 times as far as the two may be from each other. An elastic impact gives 2
-// V; the links of voxels swing, and single particles are a little faster for a while.
+// The path of a substep is 0.7 to 350 reaches. An elastic impact gives 2 V. Voxels vibrate, and single
+// particles are slightly faster for a while.
 TEST(HardMeshes, ThatMovePassNothing) {
     for (const std::string target : {"ball", "row", "cloth", "voxels"}) {
         const double most = target == "voxels" ? 2.15 : 2;
@@ -169,7 +169,7 @@ TEST(HardMeshes, ThatMovePassNothing) {
     }
 }
 
-// A body that crumples meets itself, and is thrown by that.
+// A body that crumples collides with itself, which accelerates it.
 TEST(HardMeshes, ThatMovePassNothingThatCrumples) {
     for (const char* target : {"aslant", "edgewise", "voxels with faces", "voxels that may be cut"})
         for (const auto& [speed, substeps] : paces) expectHeld({"wall", target, speed, substeps}, 3, 0.99);
@@ -198,7 +198,7 @@ TEST(HardMeshes, GiveTheSameBitsInAnyOrderAndMargin) {
     }
 }
 
-// A ball that others have stopped on its way is not where its velocity would have brought it.
+// Other balls stop a ball on its path, so it is not where its velocity would have brought it.
 TEST(HardColliders, ThatMoveArePassedByNoRow) {
     for (const std::uint32_t substeps : {4u, 8u, 16u}) {
         Trial trial{"", "row", 100, substeps};

@@ -1,5 +1,5 @@
-// Bodies that interlock when a scene is loaded: which they are, what is known of their lattices, and that
-// what becomes of them depends on nothing but the scene. How they part: cases_hard/test_interlocked.
+// Tests of bodies that interlock at load: their detection, the data about their lattices, and that the result
+// depends only on the scene. cases_hard/test_interlocked.cpp tests how they part.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
@@ -35,7 +35,7 @@ void addCube(Scene& scene, const Vec3& corner, std::uint32_t cells = 3) {
     for (std::size_t i = first; i < scene.particles.size(); ++i) scene.particles[i].radius = ballRadius;
 }
 
-// Cubes of 4^3 particles, of which the second lies `apart` from the first along x and a little beside it.
+// Cubes of 4^3 particles; the second lies `apart` from the first along x, and slightly aside.
 Scene cubes(float apart) {
     Scene scene = weightless();
     addCube(scene, {0, 0, 0});
@@ -89,7 +89,7 @@ TEST(NodeDepths, OfABlockAreWaysToTheNearestFace) {
     for (std::size_t n = 0; n < depths.size(); ++n) {
         const Vec3& x = scene.particles[n].position;
         const float nearest =
-            std::min({x.x, 0.4f - x.x, x.y, 0.5f - x.y, x.z, 0.7f - x.z}); // the block begins in the origin
+            std::min({x.x, 0.4f - x.x, x.y, 0.5f - x.y, x.z, 0.7f - x.z}); // the block starts at the origin
         EXPECT_NEAR(depths[n].depth, nearest, 1e-6f) << n;
         const Vec3& out = depths[n].outward;
         const float along = out.x * (x.x - 0.2f) + out.y * (x.y - 0.25f) + out.z * (x.z - 0.35f);
@@ -106,7 +106,7 @@ TEST(NodeDepths, LeadOutOfANotchByTheNotch) {
     for (std::size_t z = 0; z < 6; ++z)
         for (std::size_t y = 3; y < 6; ++y) fill[2 + 6 * (y + 6 * z)] = fill[3 + 6 * (y + 6 * z)] = 0;
     Grid grid{.nodes = {7, 7, 7}, .fill = fill, .restLength = {0.1f, 0, 0}};
-    for (std::uint32_t node = 0; node < 7 * 7 * 7; ++node) // but for those in the empty cells
+    for (std::uint32_t node = 0; node < 7 * 7 * 7; ++node) // except those in the empty cells
         if (node % 7 != 3 || node / 7 % 7 < 4) grid.node.push_back(node);
     const auto depths = lattice::depthsOf(grid);
     const auto at = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
@@ -126,10 +126,10 @@ TEST(Interlocks, AreBodiesOfWhichParticlesTouchInsideALattice) {
     EXPECT_EQ(planOf(cubes(0.35f)).pairs, 0u) << "only faces overlap";
     EXPECT_EQ(planOf(cubes(1)).pairs, 0u);
     Scene scene = cubes(1);
-    scene.particles.push_back(ballAt({0.15f, 0.15f, 0.15f})); // in the first
-    scene.particles.push_back(ballAt({0.15f, 0.15f, 0.38f})); // at its face
+    scene.particles.push_back(ballAt({0.15f, 0.15f, 0.15f})); // inside the first cube
+    scene.particles.push_back(ballAt({0.15f, 0.15f, 0.38f})); // at a face of the first cube
     EXPECT_EQ(planOf(scene).pairs, 1u);
-    addCube(scene, {0.9f, 0.2f, 0.2f}); // in the second
+    addCube(scene, {0.9f, 0.2f, 0.2f}); // inside the second cube
     const auto plan = planOf(scene);
     EXPECT_EQ(plan.pairs, 2u);
     EXPECT_EQ(plan.nodes[128].body, plan.nodes[0].body + 2) << "bodies in order: cube, cube, ball, cube";
@@ -189,7 +189,7 @@ TEST(Interlocks, AreRememberedByAnUndoneStepAndByASimulationWithMoreRoom) {
     EXPECT_EQ(runner->stateHash(), hash);
 }
 
-// A ball inside a lattice leaves it by the face that is nearest.
+// A ball inside a lattice leaves by the nearest face.
 TEST(Interlocks, LetABallOutOfALattice) {
     Scene scene = weightless();
     addCube(scene, {0, 0, 0}, 5);
@@ -205,7 +205,7 @@ TEST(Interlocks, LetABallOutOfALattice) {
     EXPECT_LE(runner.velocities()[ball].norm(), 2.3 * double{scene.contacts.recoverySpeed});
 }
 
-// What sleeps meanwhile goes on when it wakes: a pair is let go only by somebody awake.
+// Recovery resumes when sleeping bodies wake: only an awake body may release a pair.
 TEST(Interlocks, PartWhereBodiesSleep) {
     Scene scene = pressedCubes(0.4f);
     scene.dampingTime = 2e-3f;

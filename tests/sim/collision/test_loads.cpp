@@ -1,4 +1,5 @@
-// The load of contacts, as the rule for substeps sees it: shared among what lies below, and smooth.
+// Tests of contact loads for the choice of substeps: a load is shared among the particles below and varies
+// smoothly.
 #include "sim/collision/loads.hpp"
 
 #include "sim/bodies.hpp"
@@ -19,7 +20,7 @@ using namespace sinew::sim;
 
 namespace {
 
-// A ball above a cloth that is held at its rim; lengths in m.
+// A ball above a cloth with a fixed rim; lengths in m.
 struct BallOnCloth {
     double radius = 0.05, spacing = 0.03, thickness = 0.02, density = 1000, speed = 0, height = 0.2;
     double x = 0.013, z = 0.017;
@@ -46,8 +47,8 @@ struct BallOnCloth {
     }
 };
 
-// Choices in small steps from `first` to `last`, each `ratio` times the one before, differ by no more than 4
-// % and 1.
+// Expects chosen substeps to vary by at most 4 % and 1 while a parameter grows from `first` to `last` in
+// steps of `ratio`.
 void expectSmooth(const char* what, double first, double last, double ratio,
                   const std::function<void(BallOnCloth&, double)>& set) {
     std::uint32_t before = 0;
@@ -107,7 +108,7 @@ TEST(Loads, ABallSharesItsMassAmongAllBelowIt) {
         }
 }
 
-// A table in between bears all, with pits between its corners.
+// A fixed table in between carries the load, although it has gaps between its corners.
 TEST(Loads, WhatNeverMovesBearsWhatIsAboveIt) {
     BallOnCloth made;
     Scene scene = made.scene();
@@ -132,7 +133,7 @@ TEST(Loads, WhatNeverMovesBearsWhatIsAboveIt) {
     EXPECT_GT(sumOf({onto.begin() + first, onto.end()}), 0.8 * made.mass());
 }
 
-// Up to 20,000 times as heavy as a particle of the cloth.
+// The ball is up to 20,000 times as heavy as a particle of the cloth.
 TEST(Loads, ABallIsCaughtByAClothWhateverItsSize) {
     for (const double radius : {0.015, 0.05, 0.1}) {
         const BallOnCloth made{.radius = radius, .speed = 1, .height = radius + 0.15};

@@ -1,4 +1,4 @@
-// Meshes on paths (Scene::driven): they lift, carry and sweep what they meet, and wake what sleeps.
+// Tests of meshes on paths (Scene::driven): they lift, carry and sweep particles, and wake sleeping bodies.
 #include "sim/bodies.hpp"
 #include "sim/colliders.hpp"
 #include "sim/collision/collider_shapes.hpp"
@@ -23,7 +23,7 @@ Keyframe at(float time, const Vector3d& position, double degrees = 0, const Vect
     return {time, {test::toFloats(position), test::turnedBy(degrees, axis)}};
 }
 
-// A square of 2 x half metres in x and z through the origin, cut into cells^2 x 2 triangles.
+// A square of 2 x half metres in x and z through the origin, divided into cells^2 x 2 triangles.
 MeshCollider plate(float half, std::uint32_t cells, std::vector<Keyframe> path) {
     MeshCollider mesh{.name = "plate", .thickness = thickness, .path = std::move(path)};
     for (std::uint32_t z = 0; z <= cells; ++z)
@@ -89,8 +89,8 @@ TEST(MovingMesh, LiftsWhatLiesOnItAndThrowsNothing) {
     EXPECT_NEAR(runner.velocities()[ball].y(), 1, 0.01);
 }
 
-// Held by friction, mu g = 4.9 m/s^2, what lies on a turning plate goes around with it: at 0.3 m and 120
-// degrees a second it needs 1.3.
+// Friction mu g = 4.9 m/s^2 carries a particle around on a turning plate: at 0.3 m and 120 degrees a second
+// it needs 1.3 m/s^2.
 TEST(MovingMesh, CarriesWhatFrictionHolds) {
     std::vector<Keyframe> turn;
     for (int k = 0; k <= 3; ++k) turn.push_back(at(static_cast<float>(k), {0, 0, 0}, 120 * k));
@@ -113,7 +113,7 @@ TEST(MovingMesh, CarriesWhatFrictionHolds) {
     }
 }
 
-// A thin net comes at 40 m/s, 0.3 m a substep: nobody of those that it meets is behind it then.
+// A thin net moves at 40 m/s, 0.3 m a substep; no particle that it meets may end behind it.
 TEST(MovingMesh, PassesNobodyHoweverFast) {
     Scene scene;
     scene.gravity = {0, 0, 0};
@@ -165,15 +165,15 @@ TEST(MovingMesh, GivesTheSameBitsInAnyOrderMarginAndAfterAReset) {
     EXPECT_EQ(runner.stateHash(), hash) << "after a saved state was loaded";
 }
 
-// What sleeps on it sleeps while it stands still and goes with it when it moves; after the last keyframe all
-// sleep again.
+// Bodies on the tray sleep while it stands still and wake when it moves. All sleep again after the last
+// keyframe.
 TEST(MovingMesh, WakesWhatLiesOnItAsItMoves) {
     const Scene scene = tray();
     test::Runner runner(scene, {.substeps = 4, .sleeps = true});
     Status status = runner.run(70);
     EXPECT_EQ(status.sleeping, 18u);
     const std::vector<Vector3d> asleep = runner.positions();
-    status = runner.run(20); // at 1.5 s
+    status = runner.run(20); // time 1.5 s
     EXPECT_EQ(status.sleeping, 0u);
     for (std::size_t i = 0; i < asleep.size(); ++i)
         EXPECT_GT(runner.positions()[i].y(), asleep[i].y() + 0.03) << "particle " << i;

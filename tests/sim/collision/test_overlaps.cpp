@@ -1,5 +1,5 @@
-// Particles that overlap when a scene is loaded part at a limited speed, on the device; the search for them
-// on the host against brute force.
+// Particles that overlap at load part at a limited speed on the device. Their search on the host is compared
+// with brute force.
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/overlaps.hpp"
 #include "sim/compile.hpp"
@@ -24,7 +24,7 @@ namespace {
 
 constexpr double radius = double{ballRadius};
 
-// Neighbours overlap by 10 to 50 % of their radii's sum.
+// A heap of balls whose neighbours overlap by 10 to 50 % of the sum of their radii.
 Scene heap(std::uint32_t side, float friction = 0) {
     Scene scene = weightless();
     scene.contacts.friction = friction;
@@ -73,8 +73,8 @@ TEST(OverlapAtLoad, OfTwoBallsEndsAtTheSpeedOfRecoveryWhateverTheSubsteps) {
         }
 }
 
-// The bound is that of a heap of n^3 that widens evenly while its neighbours part at 2 v_rec: twice as fast
-// as they are let, since those inside are pressed by it and push on.
+// The bound is the energy of a heap of n^3 balls that expands evenly while neighbours part at 2 v_rec. That
+// is twice the allowed speed, since recovery presses the inner balls, which push on.
 TEST(OverlapAtLoad, OfAHeapEndsWithTheEnergyOfItsSpeedOfRecovery) {
     constexpr std::uint32_t side = 6;
     const auto energyOf = [](float speed, double& deepest) {
@@ -103,7 +103,7 @@ TEST(OverlapAtLoad, OfAHeapEndsWithTheEnergyOfItsSpeedOfRecovery) {
     EXPECT_GE(energyOf(1e6f, deepest), 1e4) << "[J] without";
 }
 
-// What recovers is remembered across lists that are made again, an undone step and another simulation.
+// The remaining overlap persists when lists are rebuilt, a step is undone, and another simulation takes over.
 TEST(OverlapAtLoad, EndsInTheSameBitsForAnyMarginRoomOrderAndForm) {
     for (const float friction : {0.0f, 0.3f}) {
         Scene scene = heap(5, friction);
@@ -127,7 +127,7 @@ TEST(OverlapAtLoad, IsRememberedByAnUndoneStepAndByASimulationWithMoreRoom) {
     const Scene scene = heap(4);
     constexpr int steps = 12;
     const std::uint64_t hash = hashOf(scene, {.substeps = 8, .contactRoom = 64}, steps);
-    Settings settings{.substeps = 8, .contactRoom = 1}; // room for those that overlap there is nevertheless
+    Settings settings{.substeps = 8, .contactRoom = 1}; // still has capacity for the initial overlaps
     auto runner = std::make_unique<Runner>(scene, settings);
     int growths = 0, done = 0;
     for (int step = 0; done < steps && step < 2 * steps; ++step) {
@@ -151,7 +151,7 @@ TEST(OverlapAtLoad, IsRememberedByAnUndoneStepAndByASimulationWithMoreRoom) {
 TEST(OverlapAtLoad, CostsNothingWhereNothingOverlaps) {
     Scene scene = weightless();
     scene.particles = {ballAt({0, 0, 0}), ballAt({2.0001f * ballRadius, 0, 0}),
-                       ballAt({0, 1.9999f * ballRadius, 0})}; // by less than parts in a substep
+                       ballAt({0, 1.9999f * ballRadius, 0})}; // overlaps by less than a substep's recovery
     const StepProgram program = compile(scene, {.substeps = 4});
     EXPECT_FALSE(hasBuffer(program, "pairs.memory"));
     EXPECT_FALSE(usesKernel(scene, "count_contacts_recovery", {.substeps = 4}));
@@ -160,7 +160,7 @@ TEST(OverlapAtLoad, CostsNothingWhereNothingOverlaps) {
     EXPECT_TRUE(usesKernel(scene, "count_contacts_recovery", {.substeps = 4}));
 }
 
-// Those of a linked body that never touch, and pairs that never move, do not recover.
+// Linked particles that never touch and pairs of fixed particles do not recover.
 TEST(OverlapAtLoad, OfLinkedOrFixedParticlesIsNone) {
     Scene scene = chain(8);
     for (Particle& particle : scene.particles) particle.radius = 0.06f;

@@ -1,5 +1,5 @@
-// Particles that touch particles, on the device: momentum, rest, friction, and the same bits whatever lists
-// look like.
+// Tests of particle-particle contacts on the device: momentum, rest, friction, and equal bits for any layout
+// of the lists.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/compile.hpp"
@@ -28,7 +28,7 @@ namespace {
 constexpr float radius = test::ballRadius;
 using test::ballAt, test::weightless;
 
-// side^3 balls with `gap` between them, each a little off its place, above a floor within four walls.
+// side^3 balls with `gap` between them, slightly displaced, above a floor within four walls.
 Scene clutter(std::uint32_t side, float gap, float friction) {
     Scene scene;
     std::mt19937 random(7);
@@ -61,7 +61,7 @@ double rms(const std::vector<Vector3d>& v) {
     return std::sqrt(sum / static_cast<double>(v.size()));
 }
 
-// Balls on each other, the lowest on a floor.
+// A column of balls on a floor.
 Scene column(std::uint32_t count) {
     Scene scene;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -86,8 +86,8 @@ Scene pyramid(float friction) {
     return scene;
 }
 
-// A fixed layer of touching balls, and balls that fly at it with `way` radii of their own in a substep of 1 /
-// 960 s, over a pit, an edge, a top and places between; each in a place of its own.
+// A fixed layer of touching balls, and balls that fly at it by `way` of their radii in a substep of 1 / 960
+// s, above a pit, an edge, a top and points between. Each ball has a place of its own.
 Scene bedUnder(std::span<const float> radii, float way) {
     Scene scene = weightless();
     constexpr float pitch = 2 * radius;
@@ -97,7 +97,7 @@ Scene bedUnder(std::span<const float> radii, float way) {
                                                       {0.5f, 0.5f},
                                                       {0.1f, 0.2f},
                                                       {0.25f, 0.25f},
-                                                      {0.4f, 0.05f}}}; // of the pit [pitches]
+                                                      {0.4f, 0.05f}}}; // relative to the pit [pitches]
     float x = 0;
     for (const float ball : radii) {
         for (const auto& place : places) {
@@ -168,7 +168,7 @@ TEST(ParticleContacts, PartBallsInOnePlaceWithoutMovingTheirCenter) {
     EXPECT_LE(rms(v), 2 * double{scene.contacts.recoverySpeed});
 }
 
-// Case 20: what a column of four sinks into itself is load h^2 D / omega, a few thousandths of a radius.
+// Case 20: a column of four compresses by load h^2 D / omega, a few thousandths of a radius.
 TEST(ParticleContacts, CarryAColumnOfFour) {
     test::Runner runner(column(4), {.substeps = 32});
     runner.run(120);
@@ -179,8 +179,8 @@ TEST(ParticleContacts, CarryAColumnOfFour) {
     EXPECT_NEAR(x[3].y(), 7 * double{radius}, 0.02 * double{radius});
 }
 
-// The contacts lean by asin(1 / sqrt 3) = 35.26 degrees: below a friction of tan 35.26 = 0.707 the base
-// slides apart.
+// The contacts are inclined by asin(1 / sqrt 3) = 35.26 degrees. With a friction below tan 35.26 = 0.707, the
+// base slides apart.
 TEST(ParticleContacts, HoldAPyramidByFrictionAloneAboveItsCoefficient) {
     const auto sunk = [](float friction) {
         test::Runner runner(pyramid(friction), {.substeps = 32});
@@ -214,8 +214,8 @@ TEST(ParticleContacts, KeepAFallingPileBelowItsStartAndOutOfItself) {
     EXPECT_LE(rms(runner.velocities()), 0.01) << "at rest after 2.5 s";
 }
 
-// Bodies on grids, whose state has slots that hold nobody, and as listed links: their particles touch those
-// of the other body and none of their own.
+// Blocks on a grid, whose state has slots without particles, and blocks of listed links. Particles touch
+// those of the other body and none of their own.
 TEST(ParticleContacts, LayABlockOntoABlock) {
     constexpr float spacing = 0.1f;
     Scene scene = test::block(2, spacing, 2e5f);
@@ -227,7 +227,7 @@ TEST(ParticleContacts, LayABlockOntoABlock) {
                        .youngModulus = 2e5f});
     for (Particle& particle : scene.particles) particle.radius = spacing / 2;
     scene.planes = {{.friction = 0.5f}};
-    scene.contacts.friction = 0.5f; // balls on balls: else the upper one slides off
+    scene.contacts.friction = 0.5f; // else the upper block slides off the balls
     scene.damping = 2;
     std::vector<double> gaps;
     for (const bool usesGrids : {true, false}) {
@@ -254,7 +254,8 @@ TEST(ParticleContacts, LayABlockOntoABlock) {
     EXPECT_EQ(hashOf(scene, {.substeps = 8, .isReversed = true}, 30), hashOf(scene, {.substeps = 8}, 30));
 }
 
-// A substep carries a ball from outside to behind a layer. In a pit four contacts share what stops it.
+// A substep moves a ball from the outside to behind a layer. In a pit, four contacts share the impulse that
+// stops it.
 class BedOfBalls : public testing::TestWithParam<float> {};
 
 TEST_P(BedOfBalls, HoldsABallAtAnyWayOfASubstep) {
@@ -294,8 +295,8 @@ TEST(ParticleContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
     }
 }
 
-// Hard case 29: the step is undone, said, and done again by a simulation with room; nothing is dropped on the
-// way.
+// Hard case 29: a step that lacks capacity is undone and reported, and a simulation with larger capacity
+// repeats it. No contact is lost.
 TEST(ParticleContacts, ThatHaveNoRoomAreSaidAndRepeatedToTheSameBits) {
     const Scene scene = clutter(5, 0.02f, 0.3f);
     constexpr int steps = 50;
@@ -305,7 +306,7 @@ TEST(ParticleContacts, ThatHaveNoRoomAreSaidAndRepeatedToTheSameBits) {
     EXPECT_EQ(run.hash, hash);
 }
 
-// A chain that hangs and is tethered, its links damped; a ball that is dragged through loose ones on a floor.
+// A hanging, tethered chain with damped links, and a ball that is dragged through loose balls on a floor.
 TEST(ParticleContacts, StandBesideAttachmentsTethersAndInternalDamping) {
     Scene scene = test::hangingChain(6, 0.15f, 0.5f, 1e-4f);
     for (Particle& particle : scene.particles) particle.radius = radius;

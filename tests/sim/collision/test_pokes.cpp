@@ -1,5 +1,5 @@
-// What the host pokes with pushes as a collider on a path does, follows no faster than it may, and is nowhere
-// when it is not listed.
+// Tests of pokes, kinematic colliders that the host moves: they push like colliders on paths, follow their
+// target with bounded speed, and do not act while they are not listed.
 #include "sim/bodies.hpp"
 #include "sim/colliders.hpp"
 #include "sim/collision/collider_shapes.hpp"
@@ -37,7 +37,7 @@ Poke sphereAt(const Vector3d& center, float radius = 0.1f) {
     return {.radius = radius, .pose = {.position = test::toFloats(center)}};
 }
 
-// One of each shape, rather flat than round.
+// A poke of each shape; the shapes are flat.
 std::vector<Poke> shapes() {
     return {{.radius = 0.15f},
             {.shape = ColliderShape::capsule, .radius = 0.08f, .halfLength = 0.1f},
@@ -48,7 +48,7 @@ Step stepOf(const Scene& scene, std::span<const Poke> pokes) {
     return {.dt = scene.dt, .gravity = scene.gravity, .pokes = pokes};
 }
 
-// 3^3 cells of 0.1 m around the origin, without gravity.
+// A block of 3^3 cells of 0.1 m around the origin, without gravity.
 Scene floatingBlock() {
     Scene scene = test::block(3, 0.1f, 5e4f, -0.15f);
     for (Particle& particle : scene.particles) {
@@ -59,7 +59,7 @@ Scene floatingBlock() {
     return scene;
 }
 
-// A block just above a floor, and a tilted box beside it.
+// A block just above a floor, beside a tilted box.
 Scene blockInARoom() {
     Scene scene = test::block(3, 0.1f, 5e4f, 0.005f);
     scene.planes = {{.friction = 0.5f, .restitution = 0.3f}};
@@ -91,7 +91,7 @@ Vector3d placeOf(const PokeState& state) {
     return test::toVector(state.poke.pose.position);
 }
 
-// Hash of the state after a sphere has gone through the middle of a scene, there and back.
+// Hash of the state after a sphere has moved through the middle of a scene and back.
 std::uint64_t hashOfStrokes(const Scene& scene, const Settings& settings, const Vector3d& middle) {
     test::Runner runner(scene, settings);
     std::array pokes{sphereAt(middle), sphereAt(middle + Vector3d(0, 0.2, 0), 0.05f)};
@@ -105,7 +105,7 @@ std::uint64_t hashOfStrokes(const Scene& scene, const Settings& settings, const 
 
 } // namespace
 
-// The same places at the same times, told by the host or by a path: the same bits.
+// Equal poses at equal times give equal bits, from the host or from a path.
 TEST_P(Poked, IsPushedAsByAColliderOnAPath) {
     for (const Poke& shape : shapes()) {
         Scene scene = floatingBlock();
@@ -130,7 +130,7 @@ TEST_P(Poked, IsPushedAsByAColliderOnAPath) {
     }
 }
 
-// A particle is never deeper inside than rounding, and the body goes where it is pushed.
+// No particle is deeper inside than rounding, and the body moves in the direction of the push.
 TEST_P(Poked, ABodyIsPushedAsideByWhatItDoesNotLetIn) {
     const Scene scene = floatingBlock();
     test::Runner runner(scene, settings(16));
@@ -145,7 +145,8 @@ TEST_P(Poked, ABodyIsPushedAsideByWhatItDoesNotLetIn) {
     EXPECT_GE(centerOf(runner.positions()).x(), 0.1);
 }
 
-// 9 m in a step: it follows at its speed, through the body, which nothing throws faster than that.
+// The target jumps by 9 m in a step. The poke follows at its own speed through the body, and throws nothing
+// faster than that.
 TEST_P(Poked, AJumpOfThePointerIsFollowedAtABoundedSpeed) {
     Scene scene = floatingBlock();
     test::Runner runner(scene, settings(16));
@@ -168,7 +169,7 @@ TEST_P(Poked, AJumpOfThePointerIsFollowedAtABoundedSpeed) {
     EXPECT_LE(fastest(runner.velocities()), 2 * 6) << "it holds together and goes on";
 }
 
-// Its points are no faster than it may be when it turns, either.
+// The bound on the speed applies to surface points of a turning poke, too.
 TEST_P(Poked, TurnsAtABoundedSpeed) {
     const Scene scene = floatingBlock();
     test::Runner runner(scene, settings());
@@ -184,7 +185,7 @@ TEST_P(Poked, TurnsAtABoundedSpeed) {
     }
 }
 
-// What is inside when it comes leaves at 1 m/s, and is not thrown.
+// Particles inside an appearing poke leave at 1 m/s and are not thrown.
 TEST_P(Poked, WhereItComesNothingIsThrown) {
     Scene scene;
     scene.gravity = {0, 0, 0};
@@ -226,7 +227,7 @@ TEST_P(Poked, WhatIsNotListedOrNoNumberChangesNoBit) {
         EXPECT_FALSE(runner.simulation().pokes()[0].isThere);
         EXPECT_EQ(runner.stateHash(), hash);
     }
-    // a third one, where there may be two
+    // A third poke, where at most two are allowed.
     test::Runner runner(scene, settings());
     for (int s = 0; s < 12; ++s)
         runner.step(stepOf(scene, std::array{Poke{}, Poke{}, Poke{.radius = 0.1f, .pose = inside}}));
@@ -327,7 +328,7 @@ TEST(Pokes, WakeWhatTheyComeNearAndNothingElse) {
     }
 }
 
-// Balls that hold each other up wake where they are pushed; order and rest have the same bits.
+// Balls that support each other wake where a poke pushes them. Reversed order gives equal bits.
 TEST(Pokes, PushAHeapThatSleeps) {
     Scene scene;
     test::addBalls(scene, 3, 2.3f * test::ballRadius, 0.1f * test::ballRadius, {0, 0.2f, 0});
@@ -350,13 +351,13 @@ TEST(Pokes, PushAHeapThatSleeps) {
     EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-// A simulation with more room goes on with the pokes of the last step that was not undone.
+// A simulation with larger capacity takes over the pokes of the last step that was not undone.
 TEST(Pokes, AreTakenOverWhereTheLastWholeStepLeftThem) {
     Scene scene;
     test::addBalls(scene, 3, 2.2f * test::ballRadius, 0.1f * test::ballRadius, {0, 0.2f, 0});
     scene.planes = {{.friction = 0.5f}};
     constexpr int steps = 50;
-    const auto step = [&](test::Runner& runner, int s) { // slower than its target
+    const auto step = [&](test::Runner& runner, int s) { // the poke is slower than its target
         Poke poke = sphereAt({-0.5 + 0.03 * s, 0.12, 0});
         poke.maxSpeed = 1.2f;
         return runner.step(stepOf(scene, std::array{poke}));
@@ -365,7 +366,7 @@ TEST(Pokes, AreTakenOverWhereTheLastWholeStepLeftThem) {
     test::Runner roomy(scene, settings);
     for (int s = 0; s < steps; ++s) step(roomy, s);
     settings.contactRoom = 1;
-    settings.contactMargin = 5; // longer lists, the same bits
+    settings.contactMargin = 5; // longer lists must give the same bits
     auto runner = std::make_unique<test::Runner>(scene, settings);
     int growths = 0;
     for (int s = 0; s < steps;) {
@@ -384,7 +385,7 @@ TEST(Pokes, AreTakenOverWhereTheLastWholeStepLeftThem) {
     EXPECT_EQ(runner->stateHash(), roomy.stateHash());
 }
 
-// Pressed flat onto the floor, and through it, a body that unfolds comes back to what it was.
+// A body that is pressed flat onto the floor and through it returns to its shape by recovery.
 TEST(Pokes, PressABodyOntoTheFloorAndLetItGo) {
     Scene scene;
     addLattice(scene, {.cells = {4, 4, 4}, .spacing = 0.1f, .youngModulus = 5e4f, .recovery = 2});

@@ -1,5 +1,6 @@
-// Bodies that touch or overlap when a scene is loaded and keep that distance as their rest distance
-// (Particle::keepsRest): nothing moves, nothing leaks under load, and what has parted is as any other.
+// Tests of bodies that touch or overlap at load and keep that distance as their rest distance
+// (Particle::keepsRest): they do not move, do not creep under load, and after parting they act like any other
+// pair.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/rest_checks.hpp"
@@ -42,11 +43,11 @@ std::uint32_t addCube(Scene& scene, const Vec3& origin, float edge = spacing, st
     return first;
 }
 
-// Two cubes over each other, the lower one from (0, 0, 0); the surfaces of their particles `overlap` in each
-// other, those of the upper one beside those of the lower one by `aside` along x and z.
+// Two cubes above each other; the lower one starts at (0, 0, 0). The surfaces of their particles overlap by
+// `overlap`. The upper particles are shifted by `aside` along x and z.
 struct Cubes {
     Scene scene = weightless();
-    std::uint32_t upper = 0; // its first particle
+    std::uint32_t upper = 0; // first particle of the upper cube
 };
 
 Cubes cubes(float overlap, float aside = 0) {
@@ -62,9 +63,9 @@ double middle(const std::vector<Vector3d>& x, std::size_t first) {
     return sum / static_cast<double>(x.size() - first);
 }
 
-// Presses what is from `first` on down with `weights` of its own, and lets go.
+// Presses the particles from `first` on down with multiples of their weight, then removes the load.
 struct Pressed {
-    double pressed = 0, back = 0; // how far down the middle of it is [m]
+    double pressed = 0, back = 0; // how far their centre is down [m]
 };
 
 Pressed press(Scene scene, std::uint32_t first, float weights, const Settings& settings) {
@@ -74,7 +75,7 @@ Pressed press(Scene scene, std::uint32_t first, float weights, const Settings& s
     scene.contacts.friction = 0.8f;
     Runner runner(scene, settings);
     const double start = middle(runner.positions(), first);
-    const auto load = [&](float from, float to) { // in so many weights
+    const auto load = [&](float from, float to) { // in multiples of the weight
         for (int s = 0; s < 90; ++s) {
             const float now = from + (to - from) * std::min(1.0f, static_cast<float>(s) / 60);
             runner.step({.dt = scene.dt, .gravity = {0, -9.81f * now, 0}});
@@ -100,7 +101,7 @@ TEST(RestContact, OfCubesThatTouchOrOverlapKeepsThemStill) {
         }
 }
 
-// The other mode is what it was.
+// The default mode does not keep rest distances.
 TEST(RestContact, PartsByDefault) {
     Cubes made = cubes(0.3f * wide);
     Runner runner(made.scene, {.substeps = 16, .contactRoom = 64});
@@ -112,7 +113,7 @@ TEST(RestContact, PartsByDefault) {
     EXPECT_GT(nearest, 2 * double{wide} * (1 - 1e-3));
 }
 
-// Against the same cubes placed just in touch, which are as soft.
+// Compares with the same cubes placed exactly in contact, which are equally soft.
 TEST(RestContact, HoldsTenWeightsAsAnOrdinaryContactDoes) {
     const Settings settings{.substeps = 16, .contactRoom = 64};
     Cubes touching = cubes(0);
@@ -129,7 +130,7 @@ TEST(RestContact, HoldsTenWeightsAsAnOrdinaryContactDoes) {
     }
 }
 
-// Two balls whose rest distance is a part of touching: under load they stand at it, whatever the part.
+// Two balls whose rest distance is a part of their reach: under load they stay at it, for any part.
 TEST(RestContact, IsTheDistanceAtWhichALoadedPairStands) {
     for (const float part : {0.95f, 0.7f, 0.3f, 0.1f})
         for (const float other : {1.0f, 4.0f, 0.25f}) {
@@ -146,7 +147,7 @@ TEST(RestContact, IsTheDistanceAtWhichALoadedPairStands) {
         }
 }
 
-// A pair that passes itself in a substep is put back, not let out on the other side.
+// A pair that crosses itself in a substep is put back, and not released on the other side.
 TEST(RestContact, StopsWhatComesFast) {
     for (const float speed : {1.0f, 10.0f, 100.0f}) {
         Scene scene = weightless();
@@ -160,7 +161,7 @@ TEST(RestContact, StopsWhatComesFast) {
     }
 }
 
-// A pair that a link drives through itself in one substep, also while something elsewhere is fast.
+// A link drives a pair through itself in one substep, with and without fast particles elsewhere.
 TEST(RestContact, StopsWhatPassesWhileOthersAreFast) {
     constexpr float h = 1.0f / 960, start = 0.2f * ballRadius, length = 4 * ballRadius;
     for (const bool othersAreFast : {false, true})
@@ -190,7 +191,7 @@ TEST(RestContact, StopsWhatPassesWhileOthersAreFast) {
         }
 }
 
-// More than one particle can remember: no step is done with rest distances lost.
+// With more overlaps than a particle can store, the step is refused, so that no rest distance is lost.
 TEST(RestContact, IsRefusedWhereAParticleOverlapsTooMany) {
     Scene scene = weightless();
     scene.particles = {ballAt({0, 0, 0})};
@@ -206,8 +207,8 @@ TEST(RestContact, IsRefusedWhereAParticleOverlapsTooMany) {
     EXPECT_EQ(moved(runner.positions(), scene), 0) << "the step is undone";
 }
 
-// A pair stays at its rest distance whatever moves it to and fro inside of touching; one that has parted
-// touches at the ordinary distance.
+// A pair keeps its rest distance under any motion within its reach. After parting, it touches at the normal
+// distance.
 TEST(RestContact, IsKeptUntilAPairHasParted) {
     const float start = 1.4f * ballRadius;
     Scene scene;
@@ -215,7 +216,7 @@ TEST(RestContact, IsKeptUntilAPairHasParted) {
     scene.particles = {fixedBallAt({0, 0, 0}), ballAt({0, start, 0})};
     keep(scene);
     Runner runner(scene, {.substeps = 16});
-    const auto fly = [&](double to) { // up, until it is higher
+    const auto fly = [&](double to) { // up, until it is higher than `to`
         for (int step = 0; step < 200 && runner.positions()[1].y() < to * double{ballRadius}; ++step)
             runner.step({.dt = 1.0f / 600, .gravity = {0, 9.81f, 0}});
         for (int step = 0; step < 600; ++step) runner.step({.dt = 1.0f / 600, .gravity = {0, -9.81f, 0}});
@@ -227,7 +228,7 @@ TEST(RestContact, IsKeptUntilAPairHasParted) {
     EXPECT_NEAR(fly(1.0), 2.0, 0.01) << "again";
 }
 
-// Restitution belongs to contacts, and a pair that is farther than its rest distance has none.
+// Restitution acts on contacts at their rest distance; a pair farther apart has no contact.
 TEST(RestContact, ReboundsAtItsRestDistance) {
     Scene scene = weightless();
     scene.contacts.restitution = 1;
@@ -271,7 +272,7 @@ TEST(RestContact, EndsInTheSameBitsForAnyMarginRoomOrderAndForm) {
     }
 }
 
-// An undone step, a simulation with more room, a saved state: all remember.
+// Rest distances survive an undone step, a larger simulation that takes over, and a saved state.
 TEST(RestContact, IsRememberedAcrossStatesAndUndoneSteps) {
     Cubes made = cubes(0.8f * spacing, 0.3f * spacing);
     keep(made.scene);
@@ -280,7 +281,7 @@ TEST(RestContact, IsRememberedAcrossStatesAndUndoneSteps) {
     expectRemembered(made.scene, {.substeps = 8, .contactRoom = 64}, 10);
 }
 
-// Pieces of a body that is cut keep what it kept.
+// The pieces of a cut body keep its rest distances.
 TEST(RestContact, IsKeptByThePiecesOfACut) {
     Scene scene = weightless();
     addCube(scene, {0, 0, 0});
@@ -312,7 +313,7 @@ TEST(RestContact, IsKeptByThePiecesOfACut) {
     }
 }
 
-// Bodies that lie still in each other sleep, and all of it wakes.
+// Overlapping bodies at rest fall asleep, and all of them wake together.
 TEST(RestContact, SleepsAndWakesAtItsRestDistance) {
     Cubes made = cubes(0.8f * spacing, 0.3f * spacing);
     keep(made.scene);
@@ -329,13 +330,13 @@ TEST(RestContact, SleepsAndWakesAtItsRestDistance) {
     std::printf("asleep after %d steps\n", steps);
     EXPECT_EQ(awake(), 0);
     const auto x = runner.positions();
-    runner.step({.dt = made.scene.dt, .gravity = {1, -9.81f, 0}}); // another gravity wakes
+    runner.step({.dt = made.scene.dt, .gravity = {1, -9.81f, 0}}); // a change of gravity wakes them
     EXPECT_EQ(awake(), static_cast<std::ptrdiff_t>(made.scene.particles.size())) << "all of it wakes";
     runner.run(30);
     EXPECT_LT((runner.positions()[made.upper] - x[made.upper]).norm(), 0.05 * double{wide});
 }
 
-// Organs of coarse and fine voxels, in each other by a part of a coarse one.
+// Bodies of coarse and fine voxels that overlap by a part of a coarse voxel.
 TEST(RestContact, KeepsThreeOrgansInEachOther) {
     Scene scene = weightless();
     addCube(scene, {0, 0, 0}, 0.08f, 3);
@@ -347,7 +348,7 @@ TEST(RestContact, KeepsThreeOrgansInEachOther) {
     scene.gravity = {0, -9.81f, 0};
     scene.planes = {{.offset = -0.04f}};
     Runner runner(scene, settings);
-    const auto energyOf = [&] { // of motion and of height
+    const auto energyOf = [&] { // kinetic and potential energy
         double energy = kineticEnergy(scene, runner.velocities());
         const auto x = runner.positions();
         for (std::size_t i = 0; i < x.size(); ++i)
@@ -365,7 +366,7 @@ TEST(RestContact, KeepsThreeOrgansInEachOther) {
     EXPECT_LT(most, 1.002 * start) << "nothing is thrown";
 }
 
-// Parts of one body that no link joins are bodies to each other.
+// Parts of one body without links between them act like separate bodies.
 TEST(RestContact, HoldsBetweenPartsOfOneBody) {
     Scene scene = weightless();
     Lattice lattice{.name = "parts",
@@ -373,7 +374,7 @@ TEST(RestContact, HoldsBetweenPartsOfOneBody) {
                     .spacing = spacing,
                     .fill = std::vector<float>(3 * 7 * 3, 1.0f),
                     .radius = wide};
-    for (std::size_t c = 0; c < 9; ++c) // the layer in the middle is empty
+    for (std::size_t c = 0; c < 9; ++c) // the middle layer is empty
         for (std::size_t y = 3; y < 4; ++y) lattice.fill[c % 3 + 3 * (y + 7 * (c / 3))] = 0;
     const LatticeCorners corners = addLattice(scene, lattice);
     for (std::uint32_t y = 4; y <= 7; ++y)

@@ -1,5 +1,5 @@
-// Rest distances between particles and faces, and between edges: in the measure of the contact, whatever
-// radii and thicknesses the two have, and on either side of what is solid.
+// Tests of rest distances between particles and faces, and between edges, for different radii and thicknesses
+// and on both sides of a solid surface. Distances are those that the contact measures.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/face_scenes.hpp"
@@ -49,10 +49,10 @@ std::uint32_t addBall(Scene& scene, const Vec3& position, float radius, float ma
     return static_cast<std::uint32_t>(scene.particles.size() - 1);
 }
 
-// A voxel body from (0, 0, 0) on with faces, of which nothing moves but what is loose.
+// A voxel body with faces, from (0, 0, 0) on; its scene may have loose particles, too.
 struct Block {
     Scene scene = weightless();
-    std::size_t count = 0; // of its particles
+    std::size_t count = 0; // number of its particles
 };
 
 Block block(std::array<std::uint32_t, 3> cells, std::vector<float> fill = {}) {
@@ -68,13 +68,13 @@ Block block(std::array<std::uint32_t, 3> cells, std::vector<float> fill = {}) {
     return made;
 }
 
-// Its lowest layer never moves. (A face of which no corner moves would have two sides.)
+// Fixes the lowest layer. (A face with all corners fixed would have two sides.)
 void hold(Block& made) {
     for (std::uint32_t i = 0; i < made.count; ++i)
         if (made.scene.particles[i].position.y == 0) made.scene.fixed.push_back({i});
 }
 
-// Every other particle never moves, so that all faces have a corner that does and the body hardly bends.
+// Fixes every other particle, so that every face has a free corner and the body hardly bends.
 void holdTightly(Block& made) {
     for (std::uint32_t i = 0; i < made.count; ++i) {
         const Vec3& x = made.scene.particles[i].position;
@@ -82,8 +82,8 @@ void holdTightly(Block& made) {
     }
 }
 
-// How far what of the body is nearest to particle `i` at the start has moved [m]: the mean of four of its
-// particles from `first` to before `end`.
+// Displacement of the body near particle `i` [m]: the mean over the four of its particles in [first, end)
+// that were nearest at the start.
 Vector3d sagBeside(const Block& made, const std::vector<Vector3d>& x, std::uint32_t i, std::size_t first,
                    std::size_t end) {
     const auto at = [&](std::size_t k) {
@@ -102,7 +102,7 @@ Vector3d sagBeside(const Block& made, const std::vector<Vector3d>& x, std::uint3
     return sagBeside(made, x, i, 0, made.count);
 }
 
-// A step down at x = 3 spacings, to a height of 3.
+// A block with a step down at x = 3 spacings, to a height of 3 spacings.
 Block steps() {
     std::vector<float> fill(6 * 4 * 6, 1.0f);
     for (std::size_t z = 0; z < 6; ++z)
@@ -110,8 +110,9 @@ Block steps() {
     return block({6, 4, 6}, fill);
 }
 
-// Depth of a ball near the inner edge of steps(), beside what the body sags [m]. Below the edge it is the
-// distance to it, beside that the distance to a face; a ball that fell on through is as deep as it fell.
+// Depth of a ball near the inner edge of steps(), relative to the sagged body [m]. Below the edge it is the
+// distance to the edge, beside the edge that to a face; for a ball that has fallen through, it is the depth
+// of the fall.
 double depthBehindStep(const Block& made, const std::vector<Vector3d>& all, std::uint32_t ball, double edge) {
     const Vector3d x = all[ball] - sagBeside(made, all, ball);
     const double aside = edge - x.x(), below = edge - x.y();
@@ -133,7 +134,7 @@ TEST(RestOfFaces, KeepsBallsOfAnyRadiusInAMeshWall) {
         }
         expectStill(scene, settings, double{radius}, 100,
                     "balls of " + std::to_string(radius) + " m in a wall");
-        // pressed against the wall from their side
+        // The load presses each ball against the wall from its own side.
         for (const float down : {98.1f, -98.1f}) {
             Scene pressed = scene;
             pressed.gravity = {0, -down, 0};
@@ -151,7 +152,7 @@ TEST(RestOfFaces, KeepsBallsOfAnyRadiusInAMeshWall) {
     }
 }
 
-// A ball that is kept 0.2 of its reach in a wall slides over its faces and keeps that.
+// A ball at 0.2 of its reach inside a wall slides over the wall's faces and keeps this distance.
 TEST(RestOfFaces, GoesWithAPointFromFaceToFace) {
     Scene scene = weightless();
     scene.gravity = {0, -9.81f, 0};
@@ -208,8 +209,9 @@ TEST(RestOfFaces, PartsByDefaultAndTouchesAsAnyOtherWhenItHasParted) {
     }
 }
 
-// Points in front of the surface of a voxel body and behind it: nothing moves, and a load takes none of them
-// deeper, also where the rest distance is below 0. Small balls, that particles of the body do not hold.
+// Points in front of and behind the surface of a voxel body do not move, and a load does not press them
+// deeper, also with negative rest distances. The balls are small, so that the body's particles do not hold
+// them.
 TEST(RestOfFaces, HoldsWhatLiesBehindTheSurfaceOfSomethingSolid) {
     constexpr float small = 0.004f, reach = 0.3f * spacing + small;
     for (const float part : {0.5f, -0.1f, -0.9f}) {
@@ -225,7 +227,7 @@ TEST(RestOfFaces, HoldsWhatLiesBehindTheSurfaceOfSomethingSolid) {
                     "balls at " + std::to_string(part) + " of the reach above a surface");
         made.scene.gravity = {0, -98.1f, 0};
         made.scene.damping = 20;
-        Runner runner(made.scene, {.substeps = 32, .contactRoom = 64}); // so that the body hardly sags
+        Runner runner(made.scene, {.substeps = 32, .contactRoom = 64}); // limits the sag of the body
         runner.run(20);
         const auto x = runner.positions();
         for (const std::uint32_t ball : balls) {
@@ -233,16 +235,16 @@ TEST(RestOfFaces, HoldsWhatLiesBehindTheSurfaceOfSomethingSolid) {
             std::printf("at %.1f of the reach: %.4f of it deeper under 10 weights\n", double{part},
                         deep / double{reach});
             EXPECT_LT(deep, 0.05 * double{reach})
-                << part; // beside what the surface bends between its corners
+                << part; // relative to the surface, which bends between its corners
         }
     }
 }
 
-// Over steps of voxels, (edge, edge) in x and y: a point below an inner edge may have no face straight above
-// it, or one whose neighbor is as near and has the point in front.
+// Balls over steps of voxels with an inner edge at (edge, edge) in x and y. A point below the edge may have
+// no face straight above it, or one with an equally near neighbour that has the point in front.
 TEST(RestOfFaces, HoldsWhatLiesBehindAnInnerEdge) {
     constexpr float small = 0.004f, reach = 0.3f * spacing + small, edge = 3 * spacing, deep = 0.5f * reach;
-    for (const float aside : {-1.0f, 0.0f, 0.02f, 0.1f}) { // so many depths
+    for (const float aside : {-1.0f, 0.0f, 0.02f, 0.1f}) { // in multiples of `deep`
         Block made = steps();
         const std::uint32_t ball =
             addBall(made.scene, {edge + aside * deep, edge - deep, 2.5f * spacing}, small, 1e-3f);
@@ -262,7 +264,7 @@ TEST(RestOfFaces, HoldsWhatLiesBehindAnInnerEdge) {
     }
 }
 
-// A point that stands just in front of both faces of an inner edge is pressed behind the edge.
+// A load presses a point from just in front of both faces of an inner edge to behind it.
 TEST(RestOfFaces, HoldsWhatIsPressedBehindAnInnerEdge) {
     constexpr float small = 0.004f, reach = 0.3f * spacing + small, edge = 3 * spacing,
                     front = 0.004f * reach;
@@ -282,7 +284,8 @@ TEST(RestOfFaces, HoldsWhatIsPressedBehindAnInnerEdge) {
     EXPECT_LT(deepest, 0.1 * double{reach});
 }
 
-// Behind the top of one body and the bottom of another one: whichever a load presses it into holds it.
+// A ball behind the top of one body and the bottom of another. The body into which a load presses it holds
+// it.
 TEST(RestOfFaces, HoldsWhatLiesBehindTwoBodies) {
     constexpr float small = 0.004f, reach = 0.3f * spacing + small, top = 3 * spacing, overlap = 0.6f * reach;
     for (const float down : {98.1f, -98.1f}) {
@@ -316,15 +319,15 @@ TEST(RestOfFaces, HoldsWhatLiesBehindTwoBodies) {
     }
 }
 
-// To and fro over an edge of a body, pressed against it: rest distances are those of the scene as it is
-// loaded.
+// A ball moves to and fro over an edge of a body while pressed against it. Rest distances must stay those at
+// load.
 TEST(RestOfFaces, DoesNotWearAwayOverAnOuterEdge) {
     constexpr float small = 0.004f, reach = 0.3f * spacing + small, top = 4 * spacing, beside = 6 * spacing;
     for (const float part : {1.2f, 0.8f}) {
         Block made = block({6, 4, 6});
         holdTightly(made);
         const float start = part * reach;
-        const double z = 2.7 * double{spacing}; // it stays there
+        const double z = 2.7 * double{spacing}; // z stays constant
         const std::uint32_t ball =
             addBall(made.scene, {beside - 0.05f, top + start, 2.7f * spacing}, small, 1e-3f);
         Runner runner(made.scene, {.substeps = 8, .contactRoom = 64});
@@ -335,7 +338,7 @@ TEST(RestOfFaces, DoesNotWearAwayOverAnOuterEdge) {
             return Vector3d(off.normalized());
         };
         const auto go = [&](double speed, double press,
-                            int steps) { // over the edge where the speed is above 0
+                            int steps) { // moves over the edge if the speed is positive
             for (int step = 0; step < steps; ++step) {
                 const Vector3d x = runner.positions()[ball], n = outward(x), along(n.y(), -n.x(), 0);
                 const Vector3d v = runner.velocities()[ball];
@@ -359,7 +362,7 @@ TEST(RestOfFaces, DoesNotWearAwayOverAnOuterEdge) {
     }
 }
 
-// It may come out, and is then in front.
+// The ball may leave the body, and is then in front of its surface.
 TEST(RestOfFaces, LetsOutWhatLiesBehind) {
     constexpr float small = 0.004f, reach = 0.3f * spacing + small;
     Block made = block({6, 4, 6});
@@ -378,7 +381,7 @@ TEST(RestOfFaces, LetsOutWhatLiesBehind) {
     EXPECT_NEAR(x[ball].y() - sag, double{top} + double{reach}, 0.05 * double{reach});
 }
 
-// Cloth over a body that it overlaps, of any thickness.
+// Cloth of different thicknesses that overlaps a body.
 TEST(RestOfFaces, KeepsClothInABody) {
     for (const float thickness : {0.01f, 0.03f}) {
         Scene scene = weightless();
@@ -396,7 +399,7 @@ TEST(RestOfFaces, KeepsClothInABody) {
     }
 }
 
-// Sheets whose edges are nearer than they are thick.
+// Sheets with edges that are nearer than their thickness.
 TEST(RestOfEdges, KeepsCrossedSheets) {
     Scene scene = crossedSheets(0.15f);
     scene.gravity = {0, 0, 0};
@@ -439,12 +442,12 @@ TEST(RestOfFaces, EndsInTheSameBitsForAnyMarginOrderAndForm) {
     EXPECT_EQ(hash(loads), first) << "without texels";
 }
 
-// A rest distance that grew by one rounding in each substep would have gone by 2.4 mm.
+// A rest distance that grew by one rounding a substep would have drifted by 2.4 mm.
 TEST(RestOfFaces, DoesNotDriftInTwentyThousandSubsteps) {
     const auto driftOf = [](const Scene& scene, std::size_t first, float aside) {
         Runner runner(scene, {.substeps = 100, .contactRoom = 64});
         int step = 0;
-        const auto placesAfter = [&](int steps) { // to and fro in 40 steps
+        const auto placesAfter = [&](int steps) { // one cycle has 40 steps
             for (const int end = step + steps; step < end; ++step)
                 runner.step({.dt = scene.dt, .gravity = {step % 40 < 20 ? aside : -aside, -9.81f, 0}});
             return runner.positions();
@@ -476,8 +479,8 @@ TEST(RestOfFaces, DoesNotDriftInTwentyThousandSubsteps) {
     EXPECT_LT(driftOf(slope, slope.particles.size() - 1, 4), 1e-5) << "from face to face";
 }
 
-// An undone step, a saved state, a simulation with more room: all remember, in front of faces and behind
-// them.
+// Rest distances survive an undone step, a saved state and a simulation with larger capacity, on both sides
+// of faces.
 TEST(RestOfFaces, IsRememberedAcrossStatesAndUndoneSteps) {
     Block made = block({4, 3, 4});
     hold(made);

@@ -1,5 +1,5 @@
-// Voxel bodies with faces that touch themselves: folded, knotted, and across what a cut has laid open. Gaps
-// are measured on the host against every triangle of the surface, which is found from the live links alone.
+// Tests of voxel bodies with faces that touch themselves: folded, knotted, and at cut surfaces. The host
+// measures gaps against every triangle of the surface, which it derives from the live links alone.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/collision/face_contacts.hpp"
@@ -45,8 +45,8 @@ std::vector<Triangle> facesIn(const Scene& scene) {
     return faces;
 }
 
-// A strip of 3 x 3 x 40 cells along z on a plane, of which one end stands still and the other is turned over
-// onto it, a fifth of a voxel above where both halves touch.
+// A strip of 3 x 3 x 40 cells along z on a plane. One end is fixed, and the other is folded over it, a fifth
+// of a voxel above the contact of both halves.
 Scene foldedStrip(bool isCuttable) {
     Scene scene{.name = "strip", .damping = 4};
     addLattice(scene, latticeOf({3, 3, 40}, 4e4f, isCuttable));
@@ -62,7 +62,7 @@ Scene foldedStrip(bool isCuttable) {
     return scene;
 }
 
-// Whether a particle is of one half and a triangle of the other, without the fold between.
+// Whether the particle and the triangle belong to different halves, excluding the fold.
 bool areOfHalves(const Scene& scene, std::uint32_t i, const Triangle& t) {
     const float a = scene.particles[i].position.z / spacing - 20,
                 b = scene.particles[t[0]].position.z / spacing - 20;
@@ -91,7 +91,8 @@ TEST(SelfContact, KeepsTheHalvesOfAFoldedStripApart) {
     }
 }
 
-// Bent, and squeezed by 30 %: in the same bits as without faces. A body that may be cut asks its links.
+// Bending, and squeezing by 30 %, give the same bits as without faces. A body that may be cut looks its links
+// up.
 TEST(SelfContact, IsNotFeltByABodyThatMayBeCutAndIsBentOrSqueezed) {
     for (const double turn : {0.0, std::numbers::pi / 3}) {
         std::vector<Vector3d> x[2];
@@ -107,7 +108,7 @@ TEST(SelfContact, IsNotFeltByABodyThatMayBeCutAndIsBentOrSqueezed) {
                 turn == 0 ? Vec3{end.x, end.y, 0.7f * end.z} : Vec3{0, 4.6f * spacing, 10.8f * spacing};
             drive(scene, particlesWhere(scene, [](const Vec3& p) { return p.z > 11.5f * spacing; }),
                   {{0, poseAt(end)}, {0.5f, poseAt(last, -turn)}});
-            scene.particles.push_back({.position = {9, 9, 9}, .radius = spacing / 2}); // both have pairs
+            scene.particles.push_back({.position = {9, 9, 9}, .radius = spacing / 2}); // pairs for both
             test::Runner runner(scene, {.substeps = 16});
             ASSERT_EQ(runner.run(45).nonFinite, 0u);
             x[hasFaces ? 1 : 0] = runner.positions();
@@ -123,7 +124,8 @@ TEST(SelfContact, IsNotFeltByABodyThatMayBeCutAndIsBentOrSqueezed) {
     }
 }
 
-// A link of a chain in another, at right angles, both ends of one body that a long strand joins.
+// Two hooked strands at right angles like links of a chain. They are the ends of one body, joined by a long
+// strand.
 TEST(SelfContact, HoldsTwoStrandsThatHookIntoEachOther) {
     constexpr std::uint32_t nx = 14, ny = 13, nz = 9;
     Lattice lattice = latticeOf({nx, ny, nz}, 1e5f);
@@ -134,16 +136,16 @@ TEST(SelfContact, HoldsTwoStrandsThatHookIntoEachOther) {
                 for (std::uint32_t x = low[0]; x < high[0]; ++x)
                     lattice.fill[x + nx * (y + std::size_t{ny} * z)] = 1;
     };
-    fill({3, 4, 4}, {10, 5, 5}); // hangs from above, in the plane z = 4
+    fill({3, 4, 4}, {10, 5, 5}); // hangs from above in the plane z = 4
     fill({3, 4, 4}, {4, 13, 5});
     fill({9, 4, 4}, {10, 13, 5});
     fill({0, 12, 4}, {10, 13, 5});
-    fill({6, 8, 1}, {7, 9, 8}); // stands on the floor, in the plane x = 6
+    fill({6, 8, 1}, {7, 9, 8}); // stands on the floor in the plane x = 6
     fill({6, 0, 1}, {7, 9, 2});
     fill({6, 0, 7}, {7, 9, 8});
     fill({0, 0, 7}, {7, 1, 8});
     fill({0, 0, 4}, {1, 1, 8});
-    fill({0, 0, 4}, {1, 13, 5}); // the strand
+    fill({0, 0, 4}, {1, 13, 5}); // the joining strand
     Scene scene{.name = "hooks", .damping = 2};
     scene.gravity = {};
     addLattice(scene, lattice);
@@ -195,8 +197,8 @@ TEST(SelfContact, HoldsTwoStrandsThatHookIntoEachOther) {
 
 namespace {
 
-// A cube cut flat in the middle. The upper half is lifted, moved by half a voxel along both axes and pressed
-// down by a fifth of one.
+// A cube with a flat cut through its middle. The upper half is lifted, shifted by half a voxel along both
+// axes, and pressed down by a fifth of a voxel.
 Scene offsetHalves(bool hasFaces) {
     Scene scene{.name = "halves", .damping = 4};
     scene.gravity = {};
@@ -252,9 +254,8 @@ TEST(SelfContact, CarriesWhatACutLaysOpenByItsFaces) {
     }
 }
 
-// Halves of a cube that is squeezed by a tenth when it is cut, and whose upper half then slides by half a
-// voxel along both axes, no higher than it was. What a cut parts keeps no distance, also in a body that keeps
-// those that it has when it is loaded.
+// A cube is squeezed by a tenth while it is cut. Its upper half then slides by half a voxel along both axes
+// at the same height. The halves keep no rest distance, although the body keeps those at load.
 TEST(SelfContact, PartsWhatACutLetsTouchThoughItKeepsItsRestDistance) {
     Scene scene = offsetHalves(true);
     const float half = spacing / 2, lower = -0.6f * spacing;
@@ -281,8 +282,7 @@ TEST(SelfContact, PartsWhatACutLetsTouchThoughItKeepsItsRestDistance) {
     EXPECT_LT(fastest, 0.5) << "they part slowly";
 }
 
-// A ball that comes to lie in the middle of a cell deep inside, as a ridge would that came in between the
-// particles of the surface.
+// A ball in the middle of an inner cell, like a ridge that came in between the surface particles.
 TEST(SelfContact, PushesOutWhatIsInsideByItsInnerParticles) {
     for (const bool isCuttable : {false, true}) {
         Scene scene{.name = "cube", .damping = 2};
@@ -306,9 +306,9 @@ TEST(SelfContact, PushesOutWhatIsInsideByItsInnerParticles) {
     }
 }
 
-// Particles that links join to a corner of a face are at most 1.73 spacings away from it, all others at least
-// that far in a body without body diagonals.
-// Links are asked on the device, so a row has none of what they join: it has what else is near, and a mark.
+// Particles linked to a corner of a face are at most 1.73 spacings away. Without body diagonals, all others
+// are at least that far. The device looks links up, so a row leaves out linked particles and holds a mark and
+// all others nearby.
 TEST(SelfContact, LeavesWhatIsLinkedToACornerToTheLinks) {
     Scene scene;
     addLattice(scene, latticeOf({4, 3, 3}, 1e5f, true));
@@ -328,7 +328,7 @@ TEST(SelfContact, LeavesWhatIsLinkedToACornerToTheLinks) {
             bool isLinked = false, isCorner = false, isNear = false;
             for (const std::uint32_t corner : scene.faces[f].particles) {
                 const Vector3d d = (at(i) - at(corner)) / voxel;
-                const bool isKuhn = d.minCoeff() > -0.1 || d.maxCoeff() < 0.1; // of the longest diagonals one
+                const bool isKuhn = d.minCoeff() > -0.1 || d.maxCoeff() < 0.1; // one of the body diagonals
                 isLinked = isLinked || d.norm() < 1.5 || (d.cwiseAbs().maxCoeff() < 1.1 && isKuhn);
                 isCorner = isCorner || i == corner;
                 isNear = isNear || d.norm() < 1.04;

@@ -1,6 +1,6 @@
-// Shots at a rigid target of each kind and at a ball, still and moving: at 1 to 1,000 m/s, with 4 to 64
-// substeps, aslant by up to half a radian. None passes. Deformable bodies, rows and beds have tests of their
-// own: what may go around or through what it has scattered needs another measure.
+// Tests of shots at rigid targets of each kind and at a ball, fixed and moving: speeds from 1 to 1,000 m/s, 4
+// to 64 substeps, angles up to half a radian. No shot may pass. Deformable bodies, rows and beds have their
+// own tests, because a shot may go around or through scattered particles.
 #include "sim/bodies.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -23,15 +23,15 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int shotsOfScene = 50, steps = 4;
-constexpr double apart = 40;        // from one shot of a scene to the next, in z [m]
+constexpr double apart = 40;        // distance between the shots of a scene, along z [m]
 constexpr double dt = 1.0 / 60;     // [s]
 constexpr double ballRadius = 0.05; // [m]
 
-// A target stands at the origin and is shot at along x, from below.
+// A kind of target. It stands at the origin, and shots come along x from below.
 struct Kind {
     const char* name;
-    bool isMoving; // what moves goes at up to the speed of the shot
-    double depth;  // in front of its middle [m]
+    bool isMoving; // targets move at up to the speed of the shot
+    double depth;  // depth in front of its middle [m]
 };
 
 std::string nameOf(const testing::TestParamInfo<Kind>& info) {
@@ -40,11 +40,11 @@ std::string nameOf(const testing::TestParamInfo<Kind>& info) {
     return name + (info.param.isMoving ? "Moving" : "Still");
 }
 
-// A shot is judged against another ball, or against the middle of something rigid.
+// Reference for the judgement of a shot: another ball, or the middle of something rigid.
 struct Target {
     std::size_t ball = 0;
     bool isBall = false;
-    double width = 0; // of something rigid: nobody who is nearer to its line has gone around it [m]
+    double width = 0; // width of a rigid target: a ball within it cannot have gone around [m]
 };
 
 struct Shot {
@@ -93,7 +93,7 @@ Target addTarget(Scene& scene, const std::string& kind, const Shot& shot) {
 
 class Shots : public testing::TestWithParam<Kind> {
 protected:
-    // The ball reaches the target within the first two steps.
+    // A shot that reaches the target within the first two steps.
     Shot shotAt(int place) {
         const double speed = std::pow(10, 3 * unit()), angle = 0.5 * unit(), turn = 2 * M_PI * unit();
         const Vector3d way(std::cos(angle), std::sin(angle) * std::cos(turn),
@@ -129,7 +129,7 @@ protected:
     std::mt19937 random_{29};
 };
 
-// Whether the ball has struck something.
+// Whether the ball has hit something.
 bool hasHit(const Shot& shot, const std::vector<Vector3d>& v) {
     return (v[shot.ball] - shot.velocity).norm() > 0.01 * (shot.velocity - shot.targetVelocity).norm();
 }

@@ -1,5 +1,5 @@
-// Surfaces of voxel bodies that touch what is smaller than their voxels: whole, one-sided, and gone where a
-// blade has parted them.
+// Tests of the one-sided surfaces of voxel bodies in contact with objects smaller than a voxel, whole and
+// where a blade has parted them.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/cutting/cut_body.hpp"
@@ -34,7 +34,7 @@ Lattice cubeLattice(float youngModulus = 1e5f) {
             .radius = spacing / 2};
 }
 
-// A cube from (0, 0, 0) to side, with faces where `hasFaces`.
+// A cube with a corner at (0, 0, 0), with or without faces.
 Scene cube(const Lattice& lattice, bool hasFaces = true) {
     Scene scene{.name = "cube"};
     addLattice(scene, lattice);
@@ -42,7 +42,7 @@ Scene cube(const Lattice& lattice, bool hasFaces = true) {
     return scene;
 }
 
-// Its lowest layer stands still.
+// A cube whose lowest layer is fixed.
 Scene heldCube(const Lattice& lattice, bool hasFaces = true) {
     Scene scene = cube(lattice, hasFaces);
     for (std::uint32_t i = 0; i < scene.particles.size(); ++i)
@@ -56,7 +56,7 @@ std::uint32_t addBall(Scene& scene, const Vec3& position, const Vec3& velocity =
     return static_cast<std::uint32_t>(scene.particles.size() - 1);
 }
 
-// How often faces wind around a point: 1 inside of what they close.
+// Winding number of the faces around a point: 1 inside the closed surface.
 double winding(const Scene& scene, const std::vector<Vector3d>& x, const Vector3d& p) {
     double angle = 0;
     for (const Face& face : scene.faces) {
@@ -69,7 +69,7 @@ double winding(const Scene& scene, const std::vector<Vector3d>& x, const Vector3
     return angle / (4 * std::numbers::pi);
 }
 
-// Balls over the middle of the upper side of a cube, in rows that fit to nothing.
+// Balls above the middle of the top of a cube, in rows that do not match its grid.
 void addRain(Scene& scene) {
     for (int i = 0; i < 49; ++i)
         addBall(scene,
@@ -109,7 +109,7 @@ TEST(SolidFaces, CloseAVoxelBodyOfAnyShape) {
         Scene scene;
         addLattice(scene, lattice);
         addSurfaceFaces(scene, scene.grids[0]);
-        std::map<std::array<std::uint32_t, 2>, int> edges; // from the lower to the higher - back
+        std::map<std::array<std::uint32_t, 2>, int> edges; // from lower to higher corner, minus the reverse
         for (const Face& face : scene.faces) {
             EXPECT_TRUE(face.isSolid);
             EXPECT_EQ(face.thickness, 0.02f);
@@ -147,7 +147,7 @@ TEST(SolidFaces, AreNeededWhereSomethingFitsBetweenParticles) {
     EXPECT_EQ(gridsWithHoles(scene), std::vector<std::uint32_t>{0}) << "the finer one has none";
 }
 
-// The reason for them: balls a sixth as wide as the particles rain upon a cube.
+// The purpose of faces: balls a sixth as wide as the particles rain onto a cube.
 TEST(SolidFaces, KeepOutWhatFallsBetweenParticles) {
     const Scene outline = heldCube(cubeLattice());
     int inside[2];
@@ -164,7 +164,7 @@ TEST(SolidFaces, KeepOutWhatFallsBetweenParticles) {
     EXPECT_EQ(inside[1], 0);
 }
 
-// Over an edge inside a flat side as well: nothing is thrown aside, nothing rebounds.
+// Balls stop anywhere on a flat side, also over its inner edges, without a sideways push or a rebound.
 TEST(SolidFaces, StopWhatHitsAFlatSideAnywhere) {
     double fastest = 0, aside = 0, lowest = 1;
     Scene scene = heldCube(cubeLattice(1e7f));
@@ -191,7 +191,7 @@ TEST(SolidFaces, StopWhatHitsAFlatSideAnywhere) {
     EXPECT_GT(lowest, 0.98 * reach);
 }
 
-// Case 27, through the inside of a square and at the rim of a side.
+// Case 27, inside a square and at the rim of a side.
 TEST(SolidFaces, LetNothingFastThrough) {
     for (const float at : {0.112f, 0.15f, 0.297f})
         for (const float speed : {30.0f, 300.0f}) {
@@ -208,8 +208,8 @@ TEST(SolidFaces, LetNothingFastThrough) {
         }
 }
 
-// Inside when the scene is loaded, or pushed through: what comes from behind is neither held back nor thrown,
-// nor pushed aside by the edge between two triangles.
+// A ball that starts inside or was pushed through leaves from behind. Faces neither hold it nor throw it, and
+// the edge between two triangles does not push it aside.
 TEST(SolidFaces, LetOutWhatComesFromBehind) {
     for (int trial = 0; trial < 8; ++trial) {
         const float aside =
@@ -233,8 +233,8 @@ TEST(SolidFaces, LetOutWhatComesFromBehind) {
     }
 }
 
-// A sheared body has edges of less than 90 degrees. A ball beside such an edge is behind the plane of one of
-// its faces, and outside.
+// A sheared body has edges below 90 degrees. A ball beside such an edge is outside, although it is behind the
+// plane of one of the edge's faces.
 TEST(SolidFaces, HoldWhatFallsOntoTheirSharpEdges) {
     for (const float shear : {0.0f, 0.09f, 0.36f, -0.36f})
         for (const float offset : {-0.1f, 0.03f, 0.1f, 0.2f, 0.3f}) {
@@ -246,7 +246,7 @@ TEST(SolidFaces, HoldWhatFallsOntoTheirSharpEdges) {
             scene.gravity = {};
             for (Particle& particle : scene.particles) {
                 particle.position.x += shear * particle.position.y;
-                particle.inverseMass = 1e-8f; // it stays
+                particle.inverseMass = 1e-8f; // so heavy that it stays in place
             }
             const Vector3d edge(3 * double{spacing} * (1 + double{shear}), 3 * double{spacing}, 0);
             const auto at = [&](double x, double y) {
@@ -260,7 +260,7 @@ TEST(SolidFaces, HoldWhatFallsOntoTheirSharpEdges) {
             for (int step = 0; step < 12; ++step) {
                 ASSERT_EQ(runner.run(1).nonFinite, 0u);
                 const Vector3d x = runner.positions()[ball];
-                // left of the edge the side is nearest
+                // Left of the edge, the side is nearest.
                 if (x.x() > edge.x())
                     nearest = std::min(nearest, std::hypot(x.x() - edge.x(), x.y() - edge.y()));
             }
@@ -269,14 +269,14 @@ TEST(SolidFaces, HoldWhatFallsOntoTheirSharpEdges) {
         }
 }
 
-// Its own particles stand behind its faces, and neighbours are nearer than they may touch.
+// A body's own particles lie behind its faces, and neighbours are nearer than the contact distance.
 TEST(SolidFaces, OfABodyThatIsSquashedPushNoneOfItsOwn) {
     std::vector<Vector3d> x[2];
     for (const bool hasFaces : {false, true}) {
         Scene scene = cube(cubeLattice(2e4f), hasFaces);
         for (Particle& particle : scene.particles) particle.velocity.y = -0.7f;
         scene.planes = {{.normal = {0, 1, 0}, .offset = -0.02f, .friction = 0.5f}};
-        addBall(scene, {3, 3, 3}); // else nothing could touch the faces
+        addBall(scene, {3, 3, 3}); // otherwise the compiler would omit the faces
         test::Runner runner(scene, {.substeps = 24});
         runner.run(6);
         x[hasFaces ? 1 : 0] = runner.positions();
@@ -292,7 +292,7 @@ TEST(SolidFaces, OfABodyThatIsSquashedPushNoneOfItsOwn) {
     EXPECT_EQ(most, 0);
 }
 
-// Two bodies of unlike voxels that meet, each with particles and faces.
+// Two bodies of different voxel sizes that collide, each with particles and faces.
 TEST(SolidFaces, KeepMomentumAndKeepBodiesApart) {
     Scene scene = cube(cubeLattice());
     Lattice fine = cubeLattice();
@@ -325,7 +325,8 @@ TEST(SolidFaces, KeepMomentumAndKeepBodiesApart) {
     EXPECT_LT(v[0].y(), 0.9) << "they have met";
 }
 
-// A ball takes friction x as much along a flat side as across it, and goes with it where it holds.
+// The tangential impulse on a sliding ball is friction times the normal one. With enough friction, the ball
+// moves with the side.
 TEST(SolidFaces, SlowAndHoldByTheirFriction) {
     for (const float friction : {0.3f, 2.0f}) {
         const bool slides = friction < 1;
@@ -343,7 +344,7 @@ TEST(SolidFaces, SlowAndHoldByTheirFriction) {
             const bool isBelow = p.y > 0.29f && p.x > 0.04f && p.x < 0.11f && p.z > 0.09f && p.z < 0.16f;
             if (isBelow) side4 += v[i] / 4;
         }
-        const double across = v[ball].y() + 9.81 * 0.1; // what has stopped its fall
+        const double across = v[ball].y() + 9.81 * 0.1; // change of speed that stopped its fall
         std::printf("friction %.1f: %.4f m/s along of %.4f across; beside the side %.4f m/s\n",
                     double{friction}, 0.5 - v[ball].x(), across, v[ball].x() - side4.x());
         if (slides)
@@ -377,10 +378,10 @@ TEST(SolidFaces, EndInTheSameBitsForAnyOrderAndMarginAndAfterASavedState) {
     EXPECT_EQ(runner.stateHash(), hashes[0]);
 }
 
-// A cube with a ball on it sleeps until another ball has come down on it.
+// A cube with a ball on it sleeps until another ball lands on it.
 TEST(SolidFaces, PutToSleepAndWakeWhatTouchesThem) {
     Scene scene = cube(cubeLattice());
-    scene.damping = 4; // what falls comes to 2.45 m/s
+    scene.damping = 4; // the falling ball reaches 2.45 m/s
     scene.contacts.friction = 0.6f;
     scene.planes = {{.normal = {0, 1, 0}, .offset = 0, .friction = 0.6f}};
     const std::uint32_t ball = addBall(scene, {0.112f, static_cast<float>(side + reach), 0.12f});
@@ -398,7 +399,7 @@ TEST(SolidFaces, PutToSleepAndWakeWhatTouchesThem) {
     EXPECT_NEAR(runner.positions()[late].y(), side + reach, 0.01);
 }
 
-// Both halves of a cut cube part: a ball falls between them where it lay on their faces before.
+// The halves of a cut cube part, and a ball falls between them where it lay on their faces.
 TEST(SolidFaces, AreGoneWhereABladeHasPartedThem) {
     for (const bool isCut : {false, true}) {
         Lattice lattice = cubeLattice();
@@ -422,15 +423,15 @@ TEST(SolidFaces, AreGoneWhereABladeHasPartedThem) {
     }
 }
 
-// The faces of a corner that was removed leave with it, and are back after an undo: also those whose links
-// are all alive.
+// The faces of a removed corner disappear with it and return with an undo, including faces with all links
+// alive.
 TEST(SolidFaces, OfCrumbsLeaveWithThem) {
     for (const bool isUndone : {false, true}) {
         Lattice lattice = cubeLattice();
         lattice.isCuttable = true;
         Scene scene = cube(lattice);
         scene.gravity = {};
-        scene.crumbs = 11; // the corner has ten
+        scene.crumbs = 11; // the corner has ten particles
         const Vec3 start{-0.1f, -0.1f, -0.1f};
         const std::uint32_t ball = addBall(scene, start, {1, 1, 1}, 1e-6f);
         CutBody body(scene, {.substeps = 16, .contactRoom = 64});

@@ -1,4 +1,4 @@
-// Reference and device side by side.
+// Steps the reference and the device side by side.
 #include "sim/constraints/agreement.hpp"
 
 #include "sim/coloring.hpp"

@@ -1,4 +1,4 @@
-// Attachments to moving points, and tethers.
+// Tests of attachments to moving points, and of tethers.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/constraints/agreement.hpp"
@@ -57,8 +57,8 @@ TEST_P(Attached, ARigidOneIsWhereItsPointIs) {
     }
 }
 
-// XPBD of one particle is exact at rest: m g compliance below its point, at any substep. What the start
-// leaves of an oscillation cancels over ten of its periods.
+// XPBD of one particle is exact at rest: m g compliance below its anchor for any substep. The mean over ten
+// periods cancels the remaining oscillation.
 TEST_P(Attached, ASpringStretchesByItsLoad) {
     for (const std::uint32_t substeps : {1u, 4u, 32u}) {
         Scene scene = test::particleAt({0, -0.0981f, 0});
@@ -134,7 +134,7 @@ TEST_P(Tethered, StepsAgreeWithDouble) {
     addCloth(scene,
              {.origin = {0, 1, 0}, .size = {12, 12}, .spacing = 0.1f, .tethers = 2, .pinned = {0, 11}});
     test::disturb(scene, 0.03f,
-                  2); // at half of the spacing 1e-7 grows to 6e-6 within a step, in double as well
+                  2); // at half of the spacing, 1e-7 grows to 6e-6 within a step, in double as well
     test::expectAgreement(scene, GetParam());
 }
 
@@ -146,7 +146,7 @@ TEST_P(Tethered, KeepAHeavySheetFromStretching) {
         test::Runner runner(scene, settings(4));
         EXPECT_EQ(runner.run(240).nonFinite, 0u);
         const auto x = runner.positions();
-        double worst = 0; // how much farther than at rest a particle is from the first corner
+        double worst = 0; // largest growth of a particle's distance from the first corner
         for (std::size_t i = 1; i < x.size(); ++i)
             worst = std::max(worst, (x[i] - x[0]).norm() /
                                         (test::toVector(scene.particles[i].position) - x[0]).norm());

@@ -1,4 +1,4 @@
-// Bends: stiffness in N m and N m^2, momentum, agreement with double.
+// Tests of bends: stiffness in N m and N m^2, momentum, agreement with double.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/constraints/agreement.hpp"
@@ -31,7 +31,7 @@ Scene bentSheet(std::uint32_t size, float compliance) {
     return scene;
 }
 
-// A row of particles along x; the first two are held: a clamped rod.
+// A clamped rod: a row of particles along x, the first two of them fixed.
 Scene rod(std::uint32_t cells, float length, float weightPerLength, float stiffness) {
     Scene scene{.name = "rod"};
     const float spacing = length / static_cast<float>(cells);
@@ -67,8 +67,8 @@ TEST_P(Bend, StepsWithoutLinksAgreeWithDouble) {
 
 namespace {
 
-// The sag of a clamped rod under its weight, whose ideal deflection q L^4 / (8 EI) is 4 cm, over that of the
-// discrete rod. The first cell is in the clamp, which takes some of it; the sum over joints has that exactly.
+// Sag of a clamped rod under its weight over that of the discrete rod. The ideal deflection q L^4 / (8 EI) is
+// 4 cm. The clamp contains the first cell and takes part of it, which the sum over joints includes exactly.
 double sagOfRod(std::uint32_t cells, const Settings& settings) {
     constexpr double length = 1, weight = 1, deflection = 0.04;
     const double stiffness = weight / (8 * deflection);
@@ -76,7 +76,7 @@ double sagOfRod(std::uint32_t cells, const Settings& settings) {
     scene.damping = 12;
     test::Runner runner(scene, settings);
     EXPECT_EQ(runner.run(100).nonFinite, 0u);
-    // Exactly, of the discrete rod: moments of the weights turn each joint by M s / EI.
+    // Exact sag of the discrete rod: the moment M of the weights turns each joint by M s / EI.
     double sag = 0;
     const double s = length / cells;
     for (std::uint32_t joint = 1; joint < cells; ++joint) {
@@ -96,8 +96,8 @@ TEST(BendOfSplit, LetsAClampedRodSagAsItsStiffnessSays) {
     EXPECT_NEAR(sagOfRod(16, {.substeps = 128}), 1, 0.01);
 }
 
-// One sweep a substep adds compliance, h^2 (w_a + 4 w_b + w_c) at most, which reports count and short
-// substeps end.
+// One sweep a substep adds a compliance of at most h^2 (w_a + 4 w_b + w_c). Reports count it, and short
+// substeps remove it.
 TEST(BendOfGaussSeidel, LetsAClampedRodSagAsItsStiffnessSaysInShortSubsteps) {
     const Settings coarse{.solver = Solver::gaussSeidel, .substeps = 32},
         fine{.solver = Solver::gaussSeidel, .substeps = 128};

@@ -1,4 +1,4 @@
-// Internal damping: a time in seconds, momentum, stability under the clamp.
+// Tests of internal damping: its time in seconds, momentum, and stability under the clamp.
 #include "sim/compile.hpp"
 #include "sim/constraints/agreement.hpp"
 #include "sim/runner.hpp"
@@ -38,14 +38,14 @@ TEST_P(DampingTime, StepsAgreeWithDouble) {
     }
 }
 
-// Two masses on a spring, omega = sqrt(2 k / m), amplitude exp(-omega^2 dampingTime t / 2).
+// Two masses on a spring: omega = sqrt(2 k / m), amplitude exp(-omega^2 dampingTime t / 2).
 TEST_P(DampingTime, OfASpringIsItsDecay) {
     Scene scene{.name = "pair"};
     scene.gravity = {0, 0, 0};
     scene.particles = {{}, {.position = {1.05f, 0, 0}}};
     scene.distances = {{0, 1, 1, 1.0f / 200}};
     scene.dampingTime = 5e-3f; // damping ratio 0.05
-    // one link: `jacobi` and a cold `gauss_seidel` are implicit, which damps omega^2 h / 2 more
+    // With one link, `jacobi` and a cold `gauss_seidel` are implicit, which adds a damping of omega^2 h / 2.
     const Settings settings{
         .solver = GetParam(), .substeps = 100, .iterations = 1, .theta = 0, .warmStart = 0};
     test::Runner runner(scene, settings);
@@ -82,7 +82,7 @@ TEST(DampingTimeOfSplit, KeepsLinearAndAngularMomentumOfASpinningBody) {
         }
         return sums;
     };
-    runner.run(1); // a step in: velocities live half a substep behind positions
+    runner.run(1); // after a step, because velocities lag by half a substep
     const auto before = momenta();
     runner.run(100);
     const auto after = momenta();
@@ -90,7 +90,7 @@ TEST(DampingTimeOfSplit, KeepsLinearAndAngularMomentumOfASpinningBody) {
     EXPECT_LE((after.second - before.second).norm(), 2e-4 * before.second.norm());
 }
 
-// Any time, even an absurd one, at any number of substeps: energy falls.
+// Energy falls for any damping time and any number of substeps.
 TEST(DampingTimeOfSplitAndGaussSeidel, IsStableWhateverItIs) {
     for (const Solver solver : {Solver::split, Solver::gaussSeidel}) {
         for (const float time : {1e-3f, 1.0f}) {
@@ -126,8 +126,8 @@ TEST(DampingTimeOfSplit, IsReportedAsFarAsASubstepBearsIt) {
     EXPECT_NEAR(inspectStiffness(scene, {.substeps = choice.substeps}).dampingTime, 2e-3, 2e-5);
 }
 
-// Of a chain that hangs: what rests has nothing to damp. (As a term of the constraint, XPBD's, a tenth of a
-// second would stretch it four times as far at 32 substeps.)
+// Damping leaves a hanging chain at rest unchanged. (XPBD's damping term in the constraint would stretch it
+// four times as far with a tenth of a second and 32 substeps.)
 TEST(DampingTimeOfGaussSeidel, LeavesTheStaticShape) {
     Scene scene{.name = "hanging chain"};
     for (std::uint32_t i = 0; i <= 20; ++i) {
@@ -165,11 +165,11 @@ TEST(DampingTimeOfGaussSeidel, KeepsMomentumAndSpin) {
         EXPECT_LE(linear.norm(), 1e-5 * test::massOf(scene)) << time;
         return angular.norm();
     };
-    // What the PBD order loses of spin it loses with and without; damping stops the vibration, not the spin.
+    // The PBD order loses the same spin with and without damping, which damps the vibration only.
     EXPECT_NEAR(spinAfter(0.02f) / spinAfter(0), 1, 2e-3);
 }
 
-// A link takes the part 1 - 1 / (1 + c h w) of the velocity along it in a substep, c = k dampingTime.
+// In a substep, a link removes the part 1 - 1 / (1 + c h w) of the velocity along it, c = k dampingTime.
 TEST(DampingTimeOfGaussSeidel, IsReportedAsFarAsALinkTakesItInASubstep) {
     Scene scene{.name = "pair"};
     scene.particles = {{}, {.position = {1, 0, 0}}};

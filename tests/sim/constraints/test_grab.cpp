@@ -1,4 +1,5 @@
-// A hand holds what it takes, pulls it as it says and no harder, and lets go without a trace.
+// Tests of grabs: a grab holds its particles, pulls with bounded force and speed, and releases them without a
+// trace.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/compile.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t chosen = 21; // inside a block of 3^3 cells
 
-// A block of `mass` [kg] of which links are as fast for any mass.
+// A block of `mass` [kg] whose wave speed does not depend on the mass.
 Scene blockOf(float mass) {
     Scene scene{.name = "held"};
     addLattice(scene,
@@ -46,7 +47,7 @@ Vector3d centerOf(const std::vector<Vector3d>& x) {
     return sum / static_cast<double>(x.size());
 }
 
-// Of the centre of mass [m/s].
+// Velocity of the centre of mass [m/s].
 Vector3d speedOf(const Scene& scene, const std::vector<Vector3d>& v) {
     Vector3d momentum = Vector3d::Zero();
     for (std::size_t i = 0; i < v.size(); ++i) momentum += v[i] / double{scene.particles[i].inverseMass};
@@ -67,7 +68,7 @@ std::string nameOf(const ::testing::TestParamInfo<Solver>& info) {
 
 } // namespace
 
-// With all gains on the centre of mass it sags by g / stiffness.
+// A block with all gains on its centre of mass hangs g / stiffness below the target.
 TEST_P(Held, HangsBelowTheHandByGravityOverStiffness) {
     const Scene scene = blockOf(2);
     test::Runner runner(scene, settings(GetParam()));
@@ -108,7 +109,7 @@ TEST_P(Held, LightAndHeavyBodiesMoveAlike) {
     EXPECT_NEAR(centerOf(ends[1]).x(), 0.15 + 60 * 0.02, 0.2) << "it followed";
 }
 
-// Hard case 28, with a hand.
+// Hard case 28 with a grab.
 TEST_P(Held, ATargetThatJumpsPullsNoHarderAndNoFasterThanItMay) {
     Scene scene = blockOf(27);
     scene.gravity = {0, 0, 0};
@@ -205,7 +206,7 @@ TEST_P(Held, WhatIsNoNumberOrNoParticleIsNotHeld) {
         for (int s = 0; s < 10; ++s) runner.step(stepOf(scene, std::array{grab}));
         EXPECT_EQ(runner.stateHash(), free.stateHash());
     }
-    test::Runner runner(scene, settings(GetParam())); // all gains 0, or as large as they get
+    test::Runner runner(scene, settings(GetParam())); // all gains 0, or at their maximum
     const float most = std::numeric_limits<float>::max();
     for (int s = 0; s < 10; ++s)
         for (const Vec3& target : {place, Vec3{1e9f, -1e9f, 0}})
@@ -242,7 +243,7 @@ TEST(Hand, MoreThanThereCanBeAreRefusedByName) {
     EXPECT_NE(sentences[0].find("settings.grabs"), std::string::npos) << sentences[0];
 }
 
-// A ball is pulled out of a heap that sleeps; the others that it touched wake, too, and fall.
+// A grab pulls a ball out of a sleeping heap. The balls in contact with it wake too, and fall.
 TEST(Hand, WakesWhatItHolds) {
     Scene scene;
     test::addBalls(scene, 4, 2.3f * test::ballRadius, 0.1f * test::ballRadius, {0, 0.3f, 0});
@@ -270,7 +271,7 @@ TEST(Hand, WakesWhatItHolds) {
     EXPECT_EQ(runner.step(stepOf(scene, {})).sleeping, count) << "all sleep again when it is let go";
 }
 
-// Room for contacts runs out while a hand holds: what takes over holds on.
+// The contact capacity is exceeded during a grab; the larger simulation that takes over continues the grab.
 TEST(Hand, HoldsOnWhenASimulationWithMoreRoomTakesOver) {
     Scene scene;
     test::addBalls(scene, 5, 2.6f * test::ballRadius, 0.2f * test::ballRadius, {0, 0.6f, 0});
@@ -291,7 +292,7 @@ TEST(Hand, HoldsOnWhenASimulationWithMoreRoomTakesOver) {
         } else if (first.step(step).contactRoom > 0) {
             isSecond = true;
             second.takeOver(first);
-            second.step(step); // where the hand is: the way of that step is done
+            second.step(step); // the grab has already moved in this step
         }
     }
     EXPECT_TRUE(isSecond) << "room did not run out";

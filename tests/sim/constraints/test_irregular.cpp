@@ -1,4 +1,4 @@
-// `split` on graphs in which few particles have most of the links: lists without slots.
+// Tests of `split` on graphs in which few particles have most of the links: these use lists instead of slots.
 #include "sim/compile.hpp"
 #include "sim/constraints/agreement.hpp"
 #include "sim/scenes.hpp"
@@ -12,7 +12,7 @@ using namespace sinew::sim;
 
 namespace {
 
-// A wheel: `spokes` particles around a hub ten times as heavy, each linked to it and to the next.
+// A wheel: `spokes` particles around a hub ten times as heavy, linked to the hub and to their neighbours.
 Scene wheel(std::uint32_t spokes, float compliance) {
     Scene scene{.name = "wheel"};
     scene.particles.push_back({.position = {0, 1, 0}, .inverseMass = 0.1f});

@@ -1,4 +1,4 @@
-// Directions and neighbours from the grid's own coordinates.
+// Computes directions and neighbours from grid coordinates.
 #include "sim/cutting/cut_body.hpp"
 
 #include "layout.h"
@@ -32,11 +32,11 @@ CutBody::CutBody(const Scene& scene, const Settings& settings)
     : scene_(scene), slots_(stateLayout(scene, settings).slot), runner_(scene, settings) {
     const Grid& grid = scene_.grids.at(0);
     box_ = lattice::place(grid, 0);
-    if (lattice::isSheet(grid)) // one that is listed has no box
+    if (lattice::isSheet(grid)) // a listed sheet has no box
         box_.sliceStride = slots_[grid.firstParticle + grid.nodes[0]] - slots_[grid.firstParticle];
     const auto first = lattice::coordinates(grid, grid.node[0]);
     const std::uint32_t shift =
-        slots_[grid.firstParticle] - box_.slot(first[0], first[1], first[2]); // others stand before it
+        slots_[grid.firstParticle] - box_.slot(first[0], first[1], first[2]); // other grids have lower slots
     box_.origin += shift;
     particles_.assign(box_.end + shift, NO_PARTICLE);
     for (std::uint32_t i = 0; i < grid.node.size(); ++i)
@@ -92,17 +92,17 @@ std::size_t CutBody::bridges(const CutPlane& plane) const {
     return count;
 }
 
-// Floods from one end to the other over stiff Kuhn edges whose ends lie in the box that the link spans.
+// Searches a path of stiff Kuhn edges between both ends, within the box that the link spans.
 bool CutBody::isLoose(const LiveLink& link, const std::vector<std::uint32_t>& masks) const {
     const auto direction = lattice::directionOf(link.bit);
     const std::uint32_t stiff = lattice::stiffLinks(scene_.grids[0]);
-    using Step = std::array<int, 3>; // from a
+    using Step = std::array<int, 3>; // offset from a
     const auto isInBox = [&](const Step& step) {
         for (std::size_t k = 0; k < 3; ++k)
             if (step[k] < std::min(direction[k], 0) || step[k] > std::max(direction[k], 0)) return false;
         return true;
     };
-    std::vector<std::pair<std::uint32_t, Step>> reached{{slots_[link.a], Step{}}}; // grows while it is read
+    std::vector<std::pair<std::uint32_t, Step>> reached{{slots_[link.a], Step{}}}; // grows during the loop
     for (std::size_t r = 0; r < reached.size(); ++r)
         for (std::uint32_t bit = 0; bit < lattice::directionCount; ++bit) {
             const auto [slot, from] = reached[r];

@@ -1,4 +1,4 @@
-// Everything is compared with everything.
+// Compares all pairs, without a search structure.
 #include "sim/cutting/cut_gaps.hpp"
 
 #include <Eigen/Geometry>
@@ -44,7 +44,7 @@ double deepest(double voxel, const std::vector<Vector3d>& x, const std::vector<T
     return (voxel - least) / voxel;
 }
 
-// Squares that have a cell with all of its links on one side alone.
+// Triangles of all squares with an intact cell on one side only.
 std::vector<Triangle> surfaceOf(const CutBody& body) {
     std::set<std::array<std::uint32_t, 2>> links;
     for (const test::LiveLink& link : body.links())

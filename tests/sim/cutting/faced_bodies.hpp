@@ -1,4 +1,4 @@
-// Voxel bodies as tests of their faces have them, and which of their particles move.
+// Voxel bodies for tests of their faces, and selections of their particles.
 #pragma once
 
 #include "sim/bodies.hpp"
@@ -10,14 +10,14 @@ namespace sinew::test {
 
 inline constexpr float facedSpacing = 0.05f; ///< [m]
 
-/// Particles that touch at the distance of neighbours; `youngModulus` [Pa].
+/// A lattice whose particles' contact distance is that of neighbours; `youngModulus` [Pa].
 sim::Lattice facedLattice(std::array<std::uint32_t, 3> cells, float youngModulus, bool isCuttable);
 
-/// Those whose places in the scene `isIn` takes.
+/// Particles whose scene positions satisfy `isIn`.
 std::vector<std::uint32_t> particlesWhere(const sim::Scene& scene,
                                           const std::function<bool(const sim::Vec3&)>& isIn);
 
-/// Turned by `turn` [rad] about x.
+/// A pose with a rotation by `turn` [rad] about x.
 sim::Pose poseAt(const sim::Vec3& position, double turn = 0);
 
 } // namespace sinew::test

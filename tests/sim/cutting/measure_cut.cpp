@@ -1,7 +1,7 @@
-// ms of processor time of a step without a blade, in a body that may be cut and in one that may not, and of
-// what a blade adds: through the body and beside it, and what the surface of that cut does; and by the clock
-// of the device what opens such a step (where particles are, the test of links, masks and rule K), which is
-// what links cost. With LP_NUM_THREADS=0 a software device computes on one thread and steadily.
+// Prints processor times [ms] of a step without a blade, in bodies that may and may not be cut; the added
+// time of a blade, through the body and beside it; and the time for the cut surface. Also prints the device
+// time of the passes that open a cut step (positions, test of links, masks, rule K), which is the cost of
+// links. LP_NUM_THREADS=0 makes a software device compute on one thread, with steadier results.
 #include "sim/bodies.hpp"
 #include "sim/simulation.hpp"
 #include "vk/loader.hpp"
@@ -32,12 +32,12 @@ Scene cube(std::uint32_t side, bool hasBodyDiagonals, bool isCuttable, bool hasS
 }
 
 struct Costs {
-    double step = 1e9;                                        ///< [ms of processor time]
-    double opening = std::numeric_limits<double>::infinity(); ///< [ms by the clock of the device]; infinite
-                                                              ///< where it has none
+    double step = 1e9;                                        ///< processor time [ms]
+    double opening = std::numeric_limits<double>::infinity(); ///< device time [ms]; infinite
+                                                              ///< if unknown
 };
 
-// The shortest of some steps, each from the scene's state.
+// Costs of the shortest of some steps; each starts from the scene's state.
 Costs shortest(const vk::Device& device, vk::Queue& queue, const Scene& scene, std::uint32_t substeps,
                const Blade& blade) {
     Simulation simulation(device, scene, {.substeps = substeps, .publishesVelocities = false});

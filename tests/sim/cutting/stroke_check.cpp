@@ -1,4 +1,4 @@
-// All geometry in double, from what is read back.
+// Computes all geometry in double from read-back data.
 #include "sim/cutting/stroke_check.hpp"
 
 #include "sim/compile.hpp"
@@ -21,12 +21,12 @@ using namespace sim;
 namespace {
 
 constexpr double hair =
-    2e-3; // of the spacing: what is nearer to a plane or an outline may be on either side of it
+    2e-3; // of the spacing: a point nearer than this to a plane or an outline may be on either side
 
-/// A triangle of a blade. An edge is open where no other triangle goes on beyond it.
+/// A triangle of a blade. An open edge has no triangle beyond it.
 struct BladePart {
     std::array<Vector3d, 3> corners;
-    std::array<bool, 3> isOpen{}; // from corner n to the next
+    std::array<bool, 3> isOpen{}; // edge from corner n to the next
 };
 
 std::vector<BladePart> partsOf(const Blade& blade) {
@@ -49,8 +49,8 @@ bool leadsThrough(const BladePart& part, const Vector3d& from, const Vector3d& t
     const double above = normal.dot(from - a), below = normal.dot(to - a);
     if (std::min(std::abs(above), std::abs(below)) < margin || (above > 0) == (below > 0)) return false;
     const Vector3d x = from + above / (above - below) * (to - from);
-    // The blade is moved by a thousandth of a cell (BLADE_SHIFT_X ...): where a link meets it at a small
-    // angle, by so much more along it.
+    // The blade is shifted by a thousandth of a cell (BLADE_SHIFT_X ...). A link at a small angle meets it
+    // farther along itself in proportion.
     const double within = margin * (to - from).norm() / std::abs(above - below);
     for (std::size_t n = 0; n < 3; ++n) {
         const Vector3d edge = part.corners[(n + 1) % 3] - part.corners[n];

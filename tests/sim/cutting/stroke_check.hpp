@@ -1,37 +1,38 @@
-// A body that is cut stroke by stroke, with all that must hold after each of them looked at: what a fuzzer
-// and the walk through the shipped scenes have in common.
+// A body cut stroke by stroke, with all invariants checked after each stroke. Shared by the fuzz test and the
+// test of the shipped scenes.
 #pragma once
 
 #include "sim/surface/closed_surface.hpp"
 
 namespace sinew::test {
 
-/// What a stroke left. `volume` and what follows from the surface only where the body has one.
+/// Result of a stroke. `volume` and the values from the surface are set only for bodies with one.
 struct StrokeResult {
     sim::Status status;
     std::size_t live = 0; ///< links
     std::size_t openEdges = 0, crowdedEdges = 0, triangles = 0, parts = 0;
-    double volumeError = 0;   ///< of the sum of all parts, against the uncut body
-    double momentumError = 0; ///< change within the step, against the sum of all |m v| as it began
-    double milliseconds = 0;  ///< of the step alone, as the host sees it
+    double volumeError = 0;   ///< of all parts together, against the uncut body
+    double momentumError = 0; ///< change within the step, over the sum of all |m v| at its start
+    double milliseconds = 0;  ///< of the step alone, on the host's clock
 };
 
 class StrokeCheck {
 public:
-    /// The only grid of `scene`. With `isFree` nothing from outside acts on it: momentum is then looked at.
+    /// The scene must have exactly one grid. With `isFree` no outside force acts on it, and momentum is
+    /// checked.
     StrokeCheck(const sim::Scene& scene, const sim::Settings& settings, bool isFree);
 
     CutBody& body() { return body_; }
-    /// One step with a blade, then all checks that need no surface, as expectations of the test; `what` names
-    /// the stroke in them.
+    /// Makes one step with a blade and all checks that need no surface, as expectations of the test. `what`
+    /// names the stroke in failures.
     StrokeResult stroke(const sim::Blade& blade, const std::string& what);
-    /// Steps without one.
+    /// Makes steps without a blade.
     void run(int steps);
-    /// What is drawn: closed, finite, and as large as the uncut body.
+    /// Checks the drawn surface: closed, finite, and of the uncut body's volume.
     void checkSurface(StrokeResult& result, const std::string& what);
 
-    /// Live links that lead through what the blade of this step swept, by more than a hair of the spacing
-    /// inside its outline; where the blade saw them. Not for blades that are carried.
+    /// Number of live links that cross the area swept in this step, by more than a small part of the spacing
+    /// inside its outline, at the positions that the blade saw. Not for carried blades.
     std::size_t crossings(const sim::Blade& blade) const;
 
 private:

@@ -1,4 +1,4 @@
-// Lines of the way, and what the surface encloses of each.
+// Samples the swept area with lines and compares it with what the surface encloses.
 #include "sim/cutting/swept_area.hpp"
 
 #include "layout.h"
@@ -33,8 +33,8 @@ void addWay(const ClosedSurface& before, const sim::Blade& blade, CutArea& cut) 
     }
 }
 
-// Draws a body where its newest blade saw it. Not by way of a saved state, which may be longer than a buffer
-// of the device.
+// Draws a body at the positions that its newest blade saw. Avoids a saved state, which may exceed a buffer of
+// the device.
 class AtCut {
 public:
     explicit AtCut(CutBody& body)

@@ -1,5 +1,5 @@
-// Pieces of too few particles are removed: from contacts, from what is drawn and from counts, and an undo
-// brings them back.
+// Tests of fragments: pieces with too few particles are removed from contacts, drawing and counts, and an
+// undo restores them.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
@@ -30,7 +30,7 @@ constexpr float spacing = 0.05f;
 const double cell = std::pow(double{spacing}, 3);
 constexpr float ballSpeed = 2;
 
-// A cube with a ball that flies at its corner (0, 0, 0), along the diagonal.
+// A cube with a ball that flies along the diagonal at its corner (0, 0, 0).
 Scene cube(std::uint32_t crumbs) {
     Scene scene{.name = "cube", .gravity = {0, 0, 0}};
     const Lattice lattice{.cells = {4, 4, 4}, .spacing = spacing, .radius = spacing / 2, .isCuttable = true};
@@ -42,7 +42,7 @@ Scene cube(std::uint32_t crumbs) {
     return scene;
 }
 
-// Parts the corner (0, 0, 0) and its three neighbours from the rest.
+// A cut that separates the corner (0, 0, 0) and its three neighbours.
 test::Sweep cornerCut() {
     return sweepOf({Vector3d::Constant(0.45 * double{spacing}), Vector3d(1, 1, 1).normalized()}, 1);
 }
@@ -66,7 +66,7 @@ std::size_t counted(const CutBody& body) {
     return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
 }
 
-// The particles that cornerCut() parts.
+// The particles that cornerCut() separates.
 std::vector<std::uint32_t> corner(const CutBody& body) {
     return {body.particleAt(0, 0, 0), body.particleAt(1, 0, 0), body.particleAt(0, 1, 0),
             body.particleAt(0, 0, 1)};
@@ -86,7 +86,7 @@ Vector3d cornerMomentum(const CutBody& body, Runner& runner) {
     return momentum;
 }
 
-// The skin of the cube in cells that are not said to be cut: it stretches.
+// The cube with a skin whose cells are not marked as cuttable: the skin stretches over cuts.
 Scene stretchedCube(std::uint32_t crumbs) {
     Scene scene = cube(crumbs);
     const Grid& grid = scene.grids[0];
@@ -125,7 +125,7 @@ TEST(Crumbs, AreNoPiecesAnyMore) {
     EXPECT_EQ(status.crumbParticles, 4u);
     EXPECT_NEAR(double{status.crumbMass} / massOf(body.scene(), corner(body)), 1, 1e-6);
     EXPECT_EQ(body.runner().stateHash(), kept.runner().stateHash()) << "masses and ways are what they were";
-    // and stay none in steps that cut elsewhere, or find pieces smaller still
+    // They stay removed in steps that cut elsewhere or find smaller pieces.
     EXPECT_EQ(body.cut(sweepOf({Vector3d(0.11, 0, 0), Vector3d(1, 0, 0)}, 1)).pieces, 2u);
     EXPECT_EQ(gone(body), 4u);
     EXPECT_EQ(body.cut(sweepOf({Vector3d(0.02, 0, 0), Vector3d(1, 0, 0)}, 1)).pieces, 3u);
@@ -133,7 +133,7 @@ TEST(Crumbs, AreNoPiecesAnyMore) {
     EXPECT_EQ(counted(body), 125u - 4);
 }
 
-// Nor are they cut any more.
+// Blades do not cut removed fragments.
 TEST(Crumbs, AreMetByNoBlade) {
     CutBody kept(cube(0)), body(cube(5));
     kept.cut(cornerCut());
@@ -179,7 +179,7 @@ TEST(Crumbs, TouchNothing) {
     kept.cut(cornerCut());
     body.cut(cornerCut());
     const double start = std::sqrt(3) * double{ballSpeed};
-    // where the corner was in the ball's way it is not now: the ball gets on to the next particles behind
+    // The removed corner no longer blocks the ball, which reaches the next particles behind it.
     const auto height = [](CutBody& of) {
         double farthest = -1;
         for (int step = 0; step < 3; ++step) {
@@ -193,7 +193,7 @@ TEST(Crumbs, TouchNothing) {
     EXPECT_GT(further, stopped + double{spacing} / 2);
 }
 
-// Triangles that nothing clips go with what any of their corners hangs on.
+// Triangles that are not clipped disappear if any of their corners belongs to a fragment.
 TEST(Crumbs, TakeTheTrianglesOfASkinThatStretchesWithThem) {
     for (const std::uint32_t crumbs : {0u, 5u}) {
         CutBody body(stretchedCube(crumbs));
@@ -211,7 +211,7 @@ TEST(Crumbs, TakeTheTrianglesOfASkinThatStretchesWithThem) {
         EXPECT_EQ(shown(), all);
         body.cut(cornerCut());
         auto left = all;
-        const Scene named = cube(0); // the same vertices, by particle
+        const Scene named = cube(0); // the same vertices, named by particle
         const std::vector<std::uint32_t> removed = corner(body);
         if (crumbs > 0)
             std::erase_if(left, [&](const auto& triangle) {
@@ -251,7 +251,7 @@ TEST(Crumbs, AreHeldByNoHand) {
         }
 }
 
-// They fall for ever, with nothing below, and cost nothing soon.
+// Removed fragments fall without a floor, and soon fall asleep, so that they cost nothing.
 TEST(Crumbs, Sleep) {
     for (const std::uint32_t crumbs : {0u, 5u}) {
         Scene scene = cube(crumbs);
@@ -305,7 +305,7 @@ TEST(Crumbs, LeaveTheSameBitsInReversedOrder) {
     EXPECT_EQ(surfaces[0], surfaces[1]);
 }
 
-// Only what a cut has made is a crumb.
+// Only a cut makes fragments.
 TEST(Crumbs, AreNotSmallBodiesThatNobodyCut) {
     Scene scene = cube(10);
     addLattice(

@@ -1,5 +1,5 @@
-// What a blade does to the links of a body at rest: it leaves none across a through cut, whichever way it
-// lies to the lattice, and takes part back, repeats and counts as it should.
+// Tests of cut links in a body at rest: a through cut leaves no link across it at any orientation to the
+// lattice, and a cut can be undone, repeats, and is counted correctly.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
@@ -34,7 +34,7 @@ struct Material {
     bool isCuttable = true;
 };
 
-// Stands still: without gravity links at rest do nothing.
+// A cube without gravity, at rest.
 Scene cube(std::uint32_t cells, const Material& material = {}, std::vector<float> fill = {}) {
     Scene scene{.name = "cube", .gravity = {0, 0, 0}};
     addLattice(scene, {.origin = {0.1f, 0.5f, -0.2f},
@@ -70,14 +70,14 @@ std::uint32_t largest(const std::vector<std::uint32_t>& values) {
     return *std::ranges::max_element(values);
 }
 
-// Between the layers `below` and the next along an axis, at `part` of the way.
+// A plane between the layers `below` and `below` + 1 along an axis, at `part` of the distance.
 CutPlane betweenLayers(const CutBody& body, std::uint32_t below, double part, const Vector3d& normal) {
     return {body.at(body.particleAt(below, below, below)) + part * body.spacing() * normal, normal};
 }
 
 } // namespace
 
-// Cutting design, 9.2: planes (h, k, l) through particles.
+// Planes (h, k, l) through particles.
 TEST(Cut, LeavesNoLinkAcrossAnyLatticePlaneThroughParticles) {
     CutBody body(cube(6));
     const Vector3d centre = body.at(body.particleAt(3, 3, 3));
@@ -208,7 +208,8 @@ TEST(Cut, CountsLinksAndPieces) {
     EXPECT_EQ(status.pieces, 1u);
     EXPECT_EQ(status.linksCut, 0u);
     const std::size_t stiff = body.scene().distances.size();
-    // between two layers of 5 x 5: edges, and two face diagonals of each of 4 x 5 squares along x and along y
+    // Between two layers of 5 x 5 nodes: edges, and two face diagonals of each of 4 x 5 squares along x and
+    // along y.
     const std::uint32_t across = 25 + 2 * (20 + 20);
     status = body.cut(sweepOf(betweenLayers(body, 1, 0.5, Vector3d::UnitX()), 1));
     EXPECT_EQ(status.linksCut, across);
@@ -269,7 +270,7 @@ TEST(Cut, OfASingleParticleLetsItFallFreelyFromABodyThatIsHeld) {
     EXPECT_NEAR(start.y() - body.runner().positions()[0].y(), 9.81 / 2 * 0.5 * 0.5, 1e-4);
 }
 
-// A pointer's ray cuts what comes near it and nothing else (the slides' cut).
+// The ray of a pointer cuts the links within its radius, and no others.
 TEST(RayCut, CutsTheLinksThatComeNearerThanItsRadius) {
     CutBody body(cube(5, {.hasBodyDiagonals = true}));
     const Vector3d from = body.at(body.particleAt(2, 2, 0)) + Vector3d(0.3, 0.4, -9) * body.spacing(),
@@ -284,7 +285,7 @@ TEST(RayCut, CutsTheLinksThatComeNearerThanItsRadius) {
         if (before[l].a == after[m].a && before[l].bit == after[m].bit) isAlive[l] = true, ++m;
     std::size_t cut = 0;
     for (std::size_t l = 0; l < before.size(); ++l) {
-        double nearest = std::numeric_limits<double>::infinity(); // by samples, of both segments
+        double nearest = std::numeric_limits<double>::infinity(); // by samples on both segments
         const Vector3d a = body.at(before[l].a), b = body.at(before[l].b), e = to - from;
         for (int s = 0; s <= 400; ++s) {
             const Vector3d p = a + s / 400.0 * (b - a);
@@ -297,7 +298,7 @@ TEST(RayCut, CutsTheLinksThatComeNearerThanItsRadius) {
         }
         const bool isEdge = lattice::isKuhn(lattice::directionOf(before[l].bit));
         if (nearest > 1.01 * radius && isEdge) {
-            EXPECT_TRUE(isAlive[l]) << nearest / radius; // rule K may cut others
+            EXPECT_TRUE(isAlive[l]) << nearest / radius; // rule K may cut others, too
         }
     }
     EXPECT_GT(cut, 20u);
@@ -312,7 +313,7 @@ TEST(Cut, ThroughASheetLeavesTwoPieces) {
     EXPECT_EQ(body.looseLinks(), 0u);
 }
 
-// Several bodies in a row are one dispatch; others between them are left alone.
+// One dispatch serves several consecutive bodies and skips others between them.
 TEST(Cut, MeetsAllBodiesThatMayBeCutAndNoOther) {
     Scene scene{.name = "row", .gravity = {0, 0, 0}};
     for (int i = 0; i < 5; ++i)
@@ -421,7 +422,7 @@ TEST(Cuttable, BuffersAndPassesAreInNoOtherScene) {
     const StepProgram plain = compile(cube(4, {.isCuttable = false}), {.substeps = 4}),
                       cuttable = compile(cube(4), {.substeps = 4});
     for (const BufferSpec& buffer : plain.buffers) EXPECT_EQ(buffer.label.find("cut."), std::string::npos);
-    const auto recorded = [](const StepProgram& program) { // without a blade
+    const auto recorded = [](const StepProgram& program) { // a step without a blade
         return std::ranges::count(program.step, false, &Pass::isOfCut);
     };
     EXPECT_EQ(std::ranges::count(plain.step, true, &Pass::isOfCut), 0);

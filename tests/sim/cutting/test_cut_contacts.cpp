@@ -1,4 +1,4 @@
-// What a cut does to contacts and to sleep: pieces touch each other across it, and what is cut wakes.
+// Tests of contacts and sleep after a cut: pieces touch each other across the cut, and a cut wakes bodies.
 #include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/scenes.hpp"
@@ -21,7 +21,7 @@ constexpr float spacing = 0.05f;
 constexpr double radius = 0.5 * double{spacing};
 constexpr std::uint32_t cells = 6;
 
-// Stands on a floor with its lowest particles one radius above it.
+// A cube whose lowest particles are one radius above a floor.
 Scene standingCube(float youngModulus) {
     Scene scene{.name = "standing cube", .damping = 8};
     addLattice(scene, {.origin = {0, spacing / 2, 0},
@@ -35,7 +35,7 @@ Scene standingCube(float youngModulus) {
     return scene;
 }
 
-// The least distance of two particles of different pieces, in radii of both together.
+// Least distance between particles of different pieces, over the sum of their radii.
 double leastGap(const std::vector<Vector3d>& x, const std::vector<std::uint32_t>& pieces) {
     double least = 9;
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -55,7 +55,7 @@ double meanHeight(const std::vector<Vector3d>& x, const std::vector<std::uint32_
     return sum / count;
 }
 
-// Cuts the middle of a body that has come to rest, across gravity.
+// Cuts a body at rest horizontally through its middle.
 Status cutAcross(CutBody& body) {
     const double height = body.runner().positions()[body.particleAt(3, 3, 3)].y() + 0.45 * body.spacing();
     return body.cut(sweepOf({Vector3d(0.15, height, 0.15), Vector3d::UnitY()}, 1, 2));
@@ -63,7 +63,7 @@ Status cutAcross(CutBody& body) {
 
 } // namespace
 
-// Contacts: 3. Before contacts were listed for parted particles the upper half fell through the lower one.
+// Regression test: without contacts between separated particles, the upper half fell through the lower one.
 TEST(CutContacts, CarryTheUpperHalfOfACubeThatIsCutAcrossAtRest) {
     CutBody body(standingCube(1e5f), {.substeps = 16});
     body.runner().run(90);
@@ -83,13 +83,13 @@ TEST(CutContacts, CarryTheUpperHalfOfACubeThatIsCutAcrossAtRest) {
     const double sunk = meanHeight(before, pieces, upper) - meanHeight(after, pieces, upper);
     std::printf("after the cut: most kinetic energy %.2e J, least gap %.4f, upper half %.2e m lower\n", most,
                 gap, sunk);
-    const double halfSpeed = 0.1 / 2; // of each half, where layers that overlap part at 0.1 m/s
+    const double halfSpeed = 0.1 / 2; // of each half; overlapping layers part at 0.1 m/s
     EXPECT_LT(most, 0.5 * test::massOf(body.scene()) * halfSpeed * halfSpeed) << "[J]";
     EXPECT_GT(gap, 0.97);
     EXPECT_LT(std::abs(sunk), 0.05 * double{spacing});
 }
 
-// Soft enough that neighbours overlap by a tenth before the cut: they part at 0.1 m/s, not at once.
+// The cube is so soft that neighbours overlap by a tenth before the cut. They part at 0.1 m/s.
 TEST(CutContacts, OfNeighboursThatOverlapPartThemSlowly) {
     CutBody body(standingCube(3e4f), {.substeps = 16});
     body.runner().run(120);
@@ -125,12 +125,12 @@ TEST(CutContacts, EndInTheSameBitsForAnyOrderAndMargin) {
     for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
 }
 
-// A pair may touch only once nothing links it; an undone step takes that back with the cut.
+// A pair may touch only after its last link died. An undone step restores the link and removes the contact.
 TEST(CutContacts, OfAStepThatIsUndoneAreUndoneWithIt) {
     CutBody body(standingCube(1e5f), {.substeps = 12}), other(standingCube(1e5f), {.substeps = 12});
     body.runner().run(10);
     other.runner().run(10);
-    // one step that ends not finite does what no step does
+    // A step with a non-finite result is undone and leaves no trace.
     body.runner().writePosition(3, std::numeric_limits<float>::quiet_NaN());
     EXPECT_GT(cutAcross(body).nonFinite, 0u);
     body.runner().run(10);
@@ -145,7 +145,7 @@ TEST(CutContacts, OfAStepThatIsUndoneAreUndoneWithIt) {
 
 namespace {
 
-// Two cubes at rest without gravity, which sleep after half a second.
+// Two cubes at rest without gravity, which fall asleep after half a second.
 Scene restingCubes() {
     Scene scene{.name = "resting cubes", .gravity = {0, 0, 0}};
     for (const float x : {0.0f, 1.0f})
@@ -195,8 +195,8 @@ TEST(Cut, LetsPiecesSleepEachForItself) {
     EXPECT_EQ(status.sleeping, 2 * ofCube - 2 * 25) << "the two layers above the first cut are awake";
 }
 
-// A hand takes what is linked to what it takes: not what lies across a cut, however near, and with the mass
-// of the piece alone.
+// A grab takes only particles linked to its target particle, not those across a cut, and uses the mass of the
+// piece.
 TEST(Cut, LetsAHandHoldOnePieceAlone) {
     for (const bool isReversed : {false, true}) {
         const Scene scene = restingCubes();
@@ -214,7 +214,7 @@ TEST(Cut, LetsAHandHoldOnePieceAlone) {
         const Vec3& place = scene.particles[held].position;
         Grab grab{.particle = held, .radius = 0.12f, .target = place, .maxAcceleration = 1};
         runner.step({.dt = scene.dt, .gravity = scene.gravity, .grabs = std::span(&grab, 1)});
-        grab.target.y += 5; // far: pulled as hard as the hand may
+        grab.target.y += 5; // far away, so that the grab pulls with its largest force
         grab.maxSpeed = 100;
         for (int step = 0; step < 30; ++step)
             ASSERT_EQ(runner.step({.dt = scene.dt, .gravity = scene.gravity, .grabs = std::span(&grab, 1)})

@@ -1,5 +1,6 @@
-// A voxel body that may be cut, crumpled so that it feels itself, and cut then: what a cut lets touch parts
-// at the speed of recovery. And how near points may be to faces that no link joins them to.
+// Tests of a cuttable voxel body that is cut while it is crumpled and touches itself: pairs that the cut lets
+// touch part at the recovery speed. Also tests the bound on the distance between points and faces without
+// links.
 #include "sim/bodies.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/cutting/cut_body.hpp"
@@ -49,7 +50,7 @@ double widthOf(CutBody& body) {
     return high - low;
 }
 
-// From the nearest place of the triangle (0, 0, 0), (1, 0, 0), (0, 1, 0).
+// Distance from the triangle (0, 0, 0), (1, 0, 0), (0, 1, 0).
 double distanceFromFace(const Vector3d& p) {
     const double x = std::max(0.0, p.x()), y = std::max(0.0, p.y());
     Vector3d nearest(x, y, 0);
@@ -64,7 +65,7 @@ double distanceFromFace(const Vector3d& p) {
     return (p - nearest).norm();
 }
 
-// As many steps along axes as `kinds` at most, none more than one along each.
+// Whether a link joins both points: at most one step along each axis, and at most `kinds` steps in all.
 bool areLinked(const Vector3d& a, const Vector3d& b, std::uint32_t kinds) {
     const Vector3d d = (a - b).cwiseAbs();
     return d.maxCoeff() <= 1 && d.sum() <= kinds;
@@ -72,7 +73,7 @@ bool areLinked(const Vector3d& a, const Vector3d& b, std::uint32_t kinds) {
 
 } // namespace
 
-// Every point of a grid around a face, and what links join it to: no bound is taken from a formula.
+// Tests all points of a grid around a face against their links; computes no bound from a formula.
 TEST(CrumpledBodies, HaveNoPointNearerToAFaceThanTheBoundWithoutALink) {
     const std::array<Vector3d, 3> corners{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
     for (const std::uint32_t kinds : {1u, 2u, 3u}) {
@@ -95,8 +96,8 @@ TEST(CrumpledBodies, HaveNoPointNearerToAFaceThanTheBoundWithoutALink) {
     }
 }
 
-// It falls in upon itself until it touches itself, and has come to rest when it is cut. Links are too soft to
-// move it. Pairs that the cut lets touch are up to 0.3 of their distance too near.
+// A body collapses onto itself and comes to rest before the cut. Its links are too soft to move it. Pairs
+// that the cut lets touch overlap by up to 0.3 of their distance.
 TEST(CrumpledBodies, GiveNobodyMoreSpeedThanRecoveryWhenTheyAreCut) {
     Scene scene = blockOf(10, 20);
     for (Particle& particle : scene.particles) {

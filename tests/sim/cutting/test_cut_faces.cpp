@@ -1,5 +1,5 @@
-// Faces of voxel bodies that a cut or a tear lays open: which there are, and what they do to everything that
-// was not cut.
+// Tests of the faces of voxel bodies that a cut or a tear opens: which faces exist, and that they do not
+// change uncut bodies.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
@@ -48,13 +48,13 @@ template <typename T> std::vector<T> contentsOf(CutBody& body, const std::string
     return test::queue().download<T>(body.runner().simulation().view(id));
 }
 
-// Turns the corners of a triangle so that the lowest comes first.
+// Rotates the corners of a triangle so that the lowest comes first.
 Triangle fromLowest(Triangle t) {
     std::ranges::rotate(t, std::ranges::min_element(t));
     return t;
 }
 
-// Faces that look for points, by particles, with the front that they have.
+// Faces on the device that search for points, as particles in their front-facing order.
 std::set<Triangle> facesOnDevice(CutBody& body, const Settings& settings) {
     const auto slots = stateLayout(body.scene(), settings).slot;
     std::map<std::uint32_t, std::uint32_t> particles;
@@ -71,8 +71,7 @@ std::set<Triangle> facesOnDevice(CutBody& body, const Settings& settings) {
     return result;
 }
 
-// By the middles of triangles, since a square may be split along either diagonal: twice its middle and its
-// normal.
+// A square as twice its middle and its normal, because it may be split along either diagonal.
 using Square = std::array<long, 6>;
 
 std::set<Square> squaresOf(const CutBody& body, const auto& triangles) {
@@ -96,7 +95,7 @@ std::set<Square> squaresOf(const CutBody& body, const auto& triangles) {
     return squares;
 }
 
-// Whether the device searches just the faces of the cells that are whole.
+// Expects the device to search exactly the faces of intact cells.
 void expectFaces(CutBody& body, const Settings& settings, const char* what) {
     const auto onDevice = squaresOf(body, facesOnDevice(body, settings)),
                expected = squaresOf(body, surfaceOf(body));
@@ -104,7 +103,7 @@ void expectFaces(CutBody& body, const Settings& settings, const char* what) {
     EXPECT_TRUE(onDevice == expected) << what;
 }
 
-// A block on a plane, cut aslant: its upper half slides down on the lower one. No time is in it.
+// A block on a plane. After an oblique cut, its upper half slides down. Nothing in the scene depends on time.
 Scene slidingHalves() {
     Scene scene{.name = "halves", .damping = 1};
     addLattice(scene, latticeOf({5, 5, 5}, 1e5f));
@@ -118,8 +117,8 @@ const test::CutPlane across{Vector3d(0.12, 0.12, 2.4 * voxel), Vector3d::UnitZ()
 
 } // namespace
 
-// Against the surface of all whole cells, after flat, slanting and partial cuts of a body with a cavity; an
-// undo brings the first back.
+// Compares with the surface of all intact cells, after flat, oblique and partial cuts of a body with a
+// cavity. An undo restores the first surface.
 TEST(CutFaces, HasTheFacesOfTheCellsThatAreWhole) {
     Lattice lattice = latticeOf({6, 5, 7}, 1e5f);
     lattice.fill = test::raggedFill(6 * 5 * 7);
@@ -146,8 +145,8 @@ TEST(CutFaces, HasTheFacesOfTheCellsThatAreWhole) {
     expectFaces(body, settings, "undone");
 }
 
-// State hashes after a cut, a state that was loaded, a cut that was taken back and a second one; after a
-// reset the same again.
+// State hashes after a cut, after loading a state, after an undone cut and after a second cut, and the same
+// again after a reset.
 TEST(CutFaces, EndInTheSameBitsForAnyOrderAndMarginAndAfterAReset) {
     const Scene scene = slidingHalves();
     const Settings settings[] = {{.substeps = 12, .contactRoom = 64},
@@ -208,9 +207,8 @@ TEST(CutFaces, EndInTheSameBitsAfterACutThatWasUndone) {
     EXPECT_EQ(body.runner().stateHash(), other.runner().stateHash());
 }
 
-// Balls lie just above the faces of a block, and others strike them at different times: what the blow presses
-// into a face between two steps leaves it in the same bits, whether a blade moves through air meanwhile or
-// not.
+// Balls lie just above the faces of a block, and others hit them at different times. The impact on a face
+// between two steps must give the same bits with and without a blade that moves through air.
 TEST(CutFaces, AreNoSofterForABladeThatMeetsNothing) {
     std::vector<Vector3d> x[2];
     for (const bool hasBlade : {false, true}) {
@@ -244,7 +242,7 @@ TEST(CutFaces, AreNoSofterForABladeThatMeetsNothing) {
     EXPECT_EQ(most, 0);
 }
 
-// Overlaps at load part as fast as the scene says, also beside a body that may be cut.
+// Overlaps at load part at the scene's speed, also beside a cuttable body.
 TEST(CutFaces, LeaveTheSpeedAtWhichOthersRecover) {
     Scene scene{.name = "balls"};
     scene.gravity = {};
@@ -272,7 +270,7 @@ TEST(CutFaces, LeaveTheSpeedAtWhichOthersRecover) {
     EXPECT_NEAR(fromEachOther, speed, 1e-2 * speed);
 }
 
-// A face of the scene's own between cells of a body is no face of those cells.
+// A face that the scene defines between cells of a body is not one of the cells' faces.
 TEST(CutFaces, LeaveAFaceOfTheScenesOwnInsideOfABody) {
     Scene scene{.name = "cube"};
     scene.gravity = {};
@@ -295,7 +293,7 @@ TEST(CutFaces, LeaveAFaceOfTheScenesOwnInsideOfABody) {
     EXPECT_TRUE(isSearched()) << "a blade that cuts elsewhere";
 }
 
-// Balls meet the lower side of a half that was lifted, whose faces are as thick as its particles: not at all.
+// A ball hits the lower side of a lifted half, whose faces have the thickness of its particles: zero.
 TEST(CutFaces, OfNoThicknessKnowTheirFront) {
     Scene scene{.name = "open"};
     scene.gravity = {};
@@ -326,8 +324,8 @@ TEST(CutFaces, OfNoThicknessKnowTheirFront) {
     EXPECT_NEAR(highest, below, 1e-3);
 }
 
-// A tear lays open new faces, too. One layer of cells is stretched: where all are alike, rounding says which
-// tear.
+// A tear opens faces, too. Only one layer of cells is stretched, because with equal cells rounding would
+// select the tear.
 TEST(CutFaces, AreThereOnTheEndsOfABarThatTears) {
     Scene scene{.name = "bar", .gravity = {0, 0, 0}, .damping = 2};
     Lattice lattice = latticeOf({3, 10, 3}, 2e4f);
@@ -354,7 +352,7 @@ TEST(CutFaces, AreThereOnTheEndsOfABarThatTears) {
     expectFaces(body, settings, "torn");
 }
 
-// The faces of pieces that are removed go with them.
+// The faces of removed fragments are removed.
 TEST(CutFaces, OfCrumbsAreGone) {
     Scene scene{.name = "cube", .gravity = {0, 0, 0}};
     addLattice(scene, latticeOf({4, 4, 4}, 1e5f));
@@ -375,7 +373,7 @@ TEST(CutFaces, OfCrumbsAreGone) {
 
 namespace {
 
-// One block with faces on a plane, half a voxel aside on it one without, both cut by one blade.
+// A block with faces on a plane, and one without faces on it, shifted by half a voxel. One blade cuts both.
 Scene mixedBlocks() {
     Scene scene{.name = "blocks", .damping = 2};
     for (const bool isUpper : {false, true}) {
@@ -401,7 +399,7 @@ TEST(CutFaces, HoldABodyWithoutFaces) {
     for (const Face& face : scene.faces)
         if (std::ranges::none_of(face.particles, [&](std::uint32_t i) {
                 const float place = scene.particles[i].position.x;
-                return place > 3.5f * spacing && place < 5.5f * spacing; // cells that the blade has broken
+                return place > 3.5f * spacing && place < 5.5f * spacing; // cells that the blade has cut
             }))
             faces.push_back(face.particles);
     const std::uint32_t upper = scene.grids[1].firstParticle;
@@ -421,7 +419,7 @@ TEST(CutFaces, HoldABodyWithoutFaces) {
 
 namespace {
 
-// The numbers with which faces are searched in the grid.
+// Parameters of the search for faces in the grid.
 layout::FaceFindPush searchOf(bool isCuttable) {
     Scene scene{.name = "mixed"};
     addCloth(scene, {.size = {12, 12}, .spacing = 0.4f, .thickness = 0.01f});
@@ -441,7 +439,7 @@ layout::FaceFindPush searchOf(bool isCuttable) {
 
 } // namespace
 
-// Faces that are not yet there change no margin and no grid of others, and are not compared with every point.
+// Faces that do not exist yet change no margin and no grid of others, and are not compared with every point.
 TEST(CutFaces, ChangeNoSearchUntilTheyAreThere) {
     const layout::FaceFindPush whole = searchOf(false), cuttable = searchOf(true);
     EXPECT_EQ(cuttable.edge, whole.edge);
@@ -451,7 +449,7 @@ TEST(CutFaces, ChangeNoSearchUntilTheyAreThere) {
     EXPECT_GT(cuttable.moving, whole.moving);
 }
 
-// In a body two nodes wide a slot that is one further on may be the next node along x or another one along z.
+// In a body two nodes wide, the next slot may be the next node along x or another one along z.
 TEST(CutFaces, LeavesOutWhatIsStillLinkedInABodyOfOneLayerThatIsCut) {
     Scene scene{.name = "plate"};
     scene.gravity = {};
@@ -471,7 +469,7 @@ TEST(CutFaces, LeavesOutWhatIsStillLinkedInABodyOfOneLayerThatIsCut) {
     };
     std::size_t missing = 0, dead = 0;
     for (const test::LiveLink& link : links) {
-        const bool isStiff = (body.at(link.a) - body.at(link.b)).norm() < 1.5 * voxel; // a constraint too
+        const bool isStiff = (body.at(link.a) - body.at(link.b)).norm() < 1.5 * voxel; // is also a constraint
         missing += !isStiff || (has(link.a, link.b) && has(link.b, link.a)) ? 0 : 1;
     }
     for (std::uint32_t z = 0; z < 7; ++z)

@@ -1,7 +1,7 @@
-// Random strokes through 20 bodies: boxes, meshes and sheets, at rest and moving, with pieces that touch and
-// without. All that must hold is looked at after every stroke (stroke_check). A test run takes some strokes
-// through every fifth body; SINEW_STROKES=50 in the environment takes 50 through each, 1,000 in all, and
-// SINEW_SEED=2 takes others, SINEW_BODY=6 that body alone.
+// Fuzz test: random strokes through 20 bodies (boxes, meshes and sheets), at rest and moving, with and
+// without contacts between pieces. Every stroke is checked (stroke_check). By default a few strokes go
+// through every fifth body. SINEW_STROKES=50 takes 50 through each, 1,000 in all; SINEW_SEED=2 takes other
+// strokes; SINEW_BODY=6 takes only that body.
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
 #include "sim/bodies.hpp"
@@ -109,7 +109,7 @@ std::vector<Scene> bodies() {
     return scenes;
 }
 
-// Every second body drifts, turns and is strained, by up to a third of a cell a step.
+// Gives every second body drift, rotation and strain, by up to a third of a cell a step.
 void setMoving(Scene& scene, Numbers& numbers, double cell) {
     const Vector3d drift = 4 * cell * numbers.direction(), turn = 2 * numbers.direction();
     const double stretch = numbers.between(-1, 1);
@@ -125,8 +125,8 @@ void add(Sweep& sweep, const Vector3d& from, const Vector3d& to) {
     sweep.to.push_back(test::toFloats(to));
 }
 
-// A square of one quad; or of three, bent; or a lattice plane through a particle; or the last stroke again, a
-// little beside it.
+// A random stroke: a square of one quad, three quads with bends, a lattice plane through a particle, or the
+// last stroke slightly shifted.
 Sweep randomStroke(Numbers& numbers, const std::vector<Vector3d>& x, double cell, const Sweep& last) {
     const double kind = numbers.between(0, 1);
     Sweep sweep;
@@ -186,7 +186,7 @@ void cutAtRandom(Scene scene, std::uint32_t seed, bool isMoving, std::uint32_t s
         StrokeResult result = check.stroke(last.blade(), what);
         check.checkSurface(result, what);
         summary.count(result);
-        if (testing::Test::HasFailure()) return; // what follows would only repeat it
+        if (testing::Test::HasFailure()) return; // later failures would only repeat it
     }
     const auto after = test::device().allocator().statistics();
     EXPECT_EQ(after.used, before.used) << "memory";

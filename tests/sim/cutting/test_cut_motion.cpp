@@ -1,4 +1,4 @@
-// Strokes over many steps through a body that moves meanwhile, and what becomes of the pieces.
+// Tests of strokes over many steps through a moving body, and of the resulting pieces.
 #include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/scenes.hpp"
@@ -36,8 +36,8 @@ Scene movingCube(const Vector3d& velocity, const Vector3d& turning = Vector3d::Z
     return scene;
 }
 
-// A blade along y that moves through the body along x from `beyond` cells before it to as many behind, in
-// `steps` steps of equal way in the body's frame, in the plane z = height.
+// Moves a blade along y through the body along x in the plane z = height, from `beyond` cells before the body
+// to `beyond` cells behind it. The `steps` steps have equal lengths in the body's frame.
 Status stroke(CutBody& body, int steps, double height, const Vector3d& perStep, double beyond = 0.5) {
     const double low = -beyond * double{spacing}, high = (cells + beyond) * double{spacing};
     Sweep sweep;
@@ -58,12 +58,12 @@ Status stroke(CutBody& body, int steps, double height, const Vector3d& perStep, 
 
 } // namespace
 
-// Cutting design, 9.3. The body moves 0.02 to 0.3 cells a step, along the stroke, across it and both. 28
-// steps over 7 cells end on a column of particles in every fourth.
+// The body moves 0.02 to 0.3 cells a step, along the stroke, across it, and both. 28 steps over 7 cells make
+// every fourth step end on a column of particles.
 TEST(Stroke, Of30StepsThroughAMovingBodyLeavesTwoPieces) {
     struct Case {
         Vector3d cellsAStep;
-        double height; // of the blade [cells]
+        double height; // height of the blade [cells]
         int steps;
     };
     const Case cases[] = {{{0, 0, 0}, 3, 28},     {{0, 0, 0}, 2.5, 30},      {{0.02, 0, 0}, 3, 28},
@@ -80,7 +80,7 @@ TEST(Stroke, Of30StepsThroughAMovingBodyLeavesTwoPieces) {
     }
 }
 
-// The blade stands still in the world and the body falls onto it: `from` and `to` are the same.
+// The blade is fixed in the world, with equal `from` and `to`, and the body moves onto it.
 TEST(Stroke, OfABladeThatABodyMovesOntoCutsIt) {
     const double way = 0.2 * double{spacing};
     CutBody body(movingCube(Vector3d(-way * 60, 0, 0)));
@@ -91,7 +91,7 @@ TEST(Stroke, OfABladeThatABodyMovesOntoCutsIt) {
     EXPECT_EQ(status.pieces, 2u);
 }
 
-// A turning body, of which every link sees the blade's old edge elsewhere.
+// In a rotating body, every link sees the blade's old edge at a different place.
 TEST(Stroke, ThroughATurningBodyLeavesNoLinkBetweenTwoLargePieces) {
     for (const double turns : {0.5, 2.0}) { // rad/s
         CutBody body(movingCube(Vector3d::Zero(), Vector3d(turns, 0.5 * turns, turns)));
@@ -106,8 +106,8 @@ TEST(Stroke, ThroughATurningBodyLeavesNoLinkBetweenTwoLargePieces) {
 
 namespace {
 
-// Where the material around each particle has gone by its live links, as an affine motion, inverted: from the
-// world to the body at rest.
+// Inverse affine motion of the material around each particle, from its live links: from the world to the body
+// at rest.
 std::vector<Eigen::Affine3d> toRest(const CutBody& body, const std::vector<Vector3d>& x) {
     std::vector<Eigen::Matrix3d> moved(x.size(), Eigen::Matrix3d::Zero()), spread = moved;
     for (const test::LiveLink& link : body.links()) {
@@ -127,10 +127,10 @@ std::vector<Eigen::Affine3d> toRest(const CutBody& body, const std::vector<Vecto
     return motions;
 }
 
-// What a stroke has swept over in the body at rest, triangle by triangle.
+// A triangle swept by a stroke, in the body at rest.
 using Triangle = std::array<Vector3d, 3>;
 
-// Whether a segment whose ends lie farther than `least` from the triangle's plane crosses it.
+// Whether a segment crosses the triangle; both ends must be farther than `least` from its plane.
 bool crosses(const Vector3d& a, const Vector3d& b, const Triangle& triangle, double least) {
     const auto& [p, q, r] = triangle;
     const Vector3d normal = (q - p).cross(r - p).normalized();
@@ -142,10 +142,10 @@ bool crosses(const Vector3d& a, const Vector3d& b, const Triangle& triangle, dou
     return std::min({u, v, w}) >= 0 || std::max({u, v, w}) <= 0;
 }
 
-// Whether an edge that goes evenly from a and b to c and d crosses the segment from p to q on its way.
+// Whether an edge that moves evenly from a, b to c, d crosses the segment from p to q.
 bool sweeps(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d, const Vector3d& p,
             const Vector3d& q, double least) {
-    constexpr int parts = 32; // the way of a twisted edge is no pair of triangles
+    constexpr int parts = 32; // the path of a twisted edge is not a pair of triangles
     for (int n = 0; n < parts; ++n) {
         const double low = static_cast<double>(n) / parts, high = (n + 1.0) / parts;
         const Vector3d e = a + low * (b - a), f = a + high * (b - a), g = c + low * (d - c),
@@ -157,10 +157,10 @@ bool sweeps(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vecto
 
 } // namespace
 
-// Brute force, in double, over all links and all that the blade has swept over, as the material around each
-// link has seen it: there the edge of a step is where the next one begins.
+// Brute force in double over all links and the swept area as the material around each link saw it. There, the
+// edge of a step coincides with the start of the next.
 TEST(Stroke, ThroughATurningAndMovingBodyLeavesNoLiveLinkThatCrossesItsSweep) {
-    for (const double turns : {0.7, 2.5}) { // rad/s
+    for (const double turns : {0.7, 2.5}) { // rotation [rad/s]
         const Vector3d velocity(0.6, -0.3, 0.4);
         CutBody body(movingCube(velocity, Vector3d(turns, 0.5 * turns, -turns)));
         const auto before = body.links();

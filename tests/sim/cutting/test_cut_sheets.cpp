@@ -1,5 +1,5 @@
-// A blade through sheets whose links and bends `split` lists: those that resist bending, folding and strain
-// rates.
+// Tests of blades through sheets whose links and bends are listed in `split`: sheets with bending stiffness,
+// folding and strain rates.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
@@ -64,7 +64,7 @@ template <typename T> std::vector<T> listOf(CutBody& body, const std::string& la
     return test::queue().download<T>(body.runner().simulation().view(buffer));
 }
 
-// Of what has stiffness: how much there is, and how much leads over the plane.
+// Number of constraints with stiffness: in all, and across the plane.
 struct Count {
     std::size_t live = 0, across = 0;
 };
@@ -80,7 +80,7 @@ Count bendsAcross(CutBody& body, const CutPlane& plane) {
     return count;
 }
 
-// In slots, which have the order of the scene.
+// Uses slots, which have the order of the scene here.
 Count linksAcross(CutBody& body, const CutPlane& plane, bool isRanged) {
     const auto links = listOf<layout::SplitLink>(body, "distance.links");
     const auto first = listOf<std::uint32_t>(body, "distance.first_links");
@@ -159,7 +159,7 @@ TEST(CutSheet, ThatIsListedFallsApartAndKeepsMassAndMomentum) {
 }
 
 TEST(CutSheet, ThatIsListedMovesAsOneThatMayNotBeCutWhileItIsWhole) {
-    for (const Material& material : {materials[1], materials[2]}) { // in one form of the kernels
+    for (const Material& material : {materials[1], materials[2]}) { // both use one form of the kernels
         Material plain = material;
         plain.isCuttable = false;
         Scene cuttable = sheet(material), other = sheet(plain);
@@ -208,7 +208,7 @@ TEST(CutSheet, IsRefusedForOtherSolversAndTearingForWhatMayNotBeCut) {
     };
     Scene scene = sheet(materials[3]);
     EXPECT_EQ(complaint(scene), "none");
-    Scene sewn = scene; // to a particle beside it: no mask has that link
+    Scene sewn = scene; // no mask has the link to this extra particle
     sewn.particles.push_back({.position = {9, 9, 9}});
     sewn.distances.push_back(
         {sewn.grids[0].firstParticle, static_cast<std::uint32_t>(sewn.particles.size() - 1), 1});
@@ -229,8 +229,8 @@ TEST(CutSheet, IsRefusedForOtherSolversAndTearingForWhatMayNotBeCut) {
     EXPECT_NE(complaint(scene).find("which only a body with isCuttable can"), std::string::npos);
 }
 
-// An edge that a cut has taken away stands in the grid of edges where it is, and no wider: else every search
-// of edges would look at it.
+// A removed edge lies in the grid of edges at its own place with no extent; a wide one would slow every
+// search of edges.
 TEST(CutSheet, ThatIsCoarseHasNoWiderEdgesForACut) {
     Scene scene;
     addCloth(scene, {.size = {14, 9},
@@ -241,7 +241,7 @@ TEST(CutSheet, ThatIsCoarseHasNoWiderEdgesForACut) {
     constexpr std::uint32_t substeps = 4;
     CutBody body(scene, {.substeps = substeps});
     const CutPlane plane{0.5 * (body.at(0) + body.at(14 * 9 - 1)) + Vector3d(0.01, 0, 0), {1, 0, 0}};
-    const auto dead = [&] { // and padding
+    const auto dead = [&] { // includes padding
         const auto edges = listOf<layout::ContactEdge>(body, "edges");
         return std::ranges::count_if(edges, [](const layout::ContactEdge& edge) { return edge.radius < 0; });
     };

@@ -1,5 +1,5 @@
-// A person cuts slowly: strokes of many steps through bodies that are held at one end, hang down, bend and
-// gape meanwhile. They must part a body as one step would.
+// Tests of slow strokes, like those of a user: many steps through bodies that are held at one end, hang, bend
+// and gape meanwhile. They must separate a body as one fast step does.
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
 #include "sim/bodies.hpp"
@@ -22,7 +22,7 @@ using test::Sweep;
 
 namespace {
 
-// What is below `low` or above `high` along x never moves.
+// Fixes particles with x below `low` or above `high`.
 void hold(Scene& scene, double low, double high = 1e9) {
     for (Particle& particle : scene.particles)
         if (double{particle.position.x} < low || double{particle.position.x} > high) particle.inverseMass = 0;
@@ -46,11 +46,11 @@ Scene meshBody(const char* shape, std::uint32_t resolution, double low, double h
     return scene;
 }
 
-// What a stroke left.
+// Result of a stroke.
 struct Outcome {
     std::vector<std::size_t> sizes; // of pieces, largest first
-    std::size_t dead = 0;           // links
-    std::size_t openEdges = 0;      // of the surface, where there is one
+    std::size_t dead = 0;           // number of links
+    std::size_t openEdges = 0;      // of the surface, if any
     std::uint64_t hash = 0;
     std::size_t particles() const { return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}); }
 };
@@ -81,7 +81,7 @@ double extremeHeight(const std::vector<Vector3d>& positions, double sign) {
     return sign * height;
 }
 
-// Of what hangs together with what is held.
+// Lowest height of the piece that is connected to held particles.
 double lowestHeld(CutBody& body, const Scene& scene) {
     const std::vector<std::uint32_t> pieces = body.pieces();
     const std::vector<Vector3d> positions = body.runner().positions();
@@ -94,9 +94,8 @@ double lowestHeld(CutBody& body, const Scene& scene) {
     return lowest;
 }
 
-// A blade along z comes down in `plane` through a body that has hung for five frames, so fast that it would
-// pass through it in `steps` steps; as the body sinks meanwhile, it goes on until nothing that is held is
-// below it.
+// Moves a blade along z down in `plane` through a body that has hung for five frames, at a speed that would
+// pass it in `steps` steps. The body sinks meanwhile, so the blade continues until no held part is below it.
 Outcome strokeDown(const Scene& scene, int steps, const Plane& plane, bool isReversed = false) {
     CutBody body(scene, {.substeps = 8, .isReversed = isReversed});
     const std::size_t links = body.links().size();
@@ -124,15 +123,15 @@ struct Case {
     Scene scene;
     Plane plane;
     std::vector<int> steps;
-    bool hangs = false;     // so far down that another part of it is below the blade
-    bool hasCrumbs = false; // a mesh: in one step too
-    double most = 1.5;      // links dead, of those of one step
+    bool hangs = false;     // hangs so far that another part of it is below the blade
+    bool hasCrumbs = false; // a mesh: also leaves fragments in one step
+    double most = 1.5;      // largest number of dead links, over that of one step
 };
 
 } // namespace
 
-// Bodies held at one end hang, swing and gape; those held at both only gape. Links that saw the blade's old
-// edge each elsewhere left up to 74 of them across such cuts, and one piece.
+// Bodies held at one end hang, swing and gape; those held at both ends only gape. Regression test: links that
+// saw the blade's old edge at different places left up to 74 links across such cuts, and one piece.
 TEST(SlowStroke, PartsABodyAsOneStepDoes) {
     const Case cases[] = {
         {"beam", beam(), {0.22}, {1, 30}, true},

@@ -1,4 +1,4 @@
-// Tethers of a sheet that is cut: those over a cut that parts it end, all others hold.
+// Tests of tethers in cut sheets: those across a separating cut end, all others hold.
 #include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
 
@@ -19,7 +19,7 @@ constexpr float spacing = 0.05f;
 constexpr std::uint32_t columns = 9, rows = 11;
 constexpr int steps = 30;
 
-// Hangs by its two upper corners, and is as soft as a bag: tethers carry it.
+// A very soft sheet that hangs by its two upper corners, carried by tethers.
 Scene sheet() {
     Scene scene{.name = "sheet"};
     addCloth(scene, {.origin = {0, 1, 0},
@@ -34,12 +34,12 @@ Scene sheet() {
     return scene;
 }
 
-// Through the row below the middle, up to `reach` from the left.
+// A cut through the row below the middle, up to `reach` from the left.
 test::Sweep levelCut(double reach) {
     return sweepOf({Vector3d(0, 1 - 5.5 * double{spacing}, 0), Vector3d::UnitY()}, reach);
 }
 
-// How far the lowest row has come down.
+// Distance by which the lowest row has fallen.
 double fallOf(CutBody& body, int count) {
     body.runner().run(count);
     const std::vector<Vector3d> positions = body.runner().positions();
@@ -48,7 +48,7 @@ double fallOf(CutBody& body, int count) {
     return 1 - double{spacing} * (rows - 1) - height / columns;
 }
 
-const double freely = 0.5 * 9.81 * 0.5 * 0.5; // in half a second
+const double freely = 0.5 * 9.81 * 0.5 * 0.5; // free fall in half a second
 
 } // namespace
 
@@ -63,7 +63,7 @@ TEST(CutTethers, EndWhereACutPartsTheirEnds) {
     EXPECT_GT(fallen, 0.85 * freely);
 }
 
-// A slit leaves it in one piece.
+// A slit leaves the sheet in one piece.
 TEST(CutTethers, HoldWhereThePiecesStillHangTogether) {
     CutBody body(sheet());
     EXPECT_EQ(body.cut(levelCut(0.3)).pieces, 1u);
@@ -78,7 +78,7 @@ TEST(CutTethers, HoldAgainWhenTheCutIsUndone) {
     EXPECT_LT(fallOf(body, steps - 1), 0.2 * freely);
 }
 
-// What was cut off goes on falling in a state that is loaded, though another time was in between.
+// The part that was cut off continues to fall after loading the state, although another state came between.
 TEST(CutTethers, AreInASavedState) {
     CutBody body(sheet());
     const test::Runner::Saved uncut = body.runner().save();

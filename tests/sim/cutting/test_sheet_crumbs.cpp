@@ -1,5 +1,5 @@
-// Small pieces of sheets are removed like those of bodies of voxels: from counts, from what is drawn and from
-// what touches by particles, faces and edges.
+// Tests of fragments of sheets: they are removed from counts, drawing and contacts of particles, faces and
+// edges, as those of voxel bodies.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
@@ -24,7 +24,7 @@ constexpr float spacing = 0.05f;
 constexpr std::array<std::uint32_t, 2> size{9, 7};
 constexpr std::uint32_t particles = size[0] * size[1];
 
-// With a ball above its corner (0, 0, 0), that falls onto it.
+// A sheet with a ball that falls onto its corner (0, 0, 0).
 Scene sheet(std::uint32_t crumbs, float thickness = 0.4f * spacing) {
     Scene scene{.name = "sheet", .gravity = {0, 0, 0}};
     addCloth(scene, {.size = size,
@@ -42,12 +42,12 @@ Scene sheet(std::uint32_t crumbs, float thickness = 0.4f * spacing) {
     return scene;
 }
 
-// Parts the corner (0, 0, 0) and the two rows of its neighbours from the rest.
+// A cut that separates the corner (0, 0, 0) and two rows of neighbours.
 test::Sweep cornerCut() {
     return sweepOf({Vector3d(1.3, 0, 1.3) * double{spacing}, Vector3d(1, 0, 1).normalized()}, 1);
 }
 
-// Of both sides, of what is drawn of the only skin.
+// Drawn area of the only skin, both sides together.
 double drawnArea(CutBody& body) {
     const Simulation& simulation = body.runner().simulation();
     body.runner().skin();
@@ -73,7 +73,7 @@ std::size_t gone(const CutBody& body) {
     return static_cast<std::size_t>(std::ranges::count(pieces, REMOVED_PIECE));
 }
 
-// Where the ball has come to.
+// Height of the ball after some steps.
 double ballHeight(CutBody& body, int steps) {
     body.runner().run(steps);
     return body.runner().positions().back().y();
@@ -96,7 +96,7 @@ TEST(SheetCrumbs, AreNoPiecesAndAreNotDrawn) {
     EXPECT_EQ(status.crumbParticles, 6u);
     EXPECT_EQ(gone(body), 6u);
     EXPECT_EQ(body.runner().stateHash(), kept.runner().stateHash()) << "masses and ways are what they were";
-    // the blade cuts 2.6 cells off both sides of the corner
+    // The blade cuts 2.6 cells off both sides of the corner.
     const double cutOff = 2 * 2.6 * 2.6 / 2 * double{spacing} * double{spacing};
     EXPECT_NEAR(drawnArea(kept) / whole, 1, 1e-3);
     EXPECT_NEAR((whole - drawnArea(body)) / cutOff, 1, 0.01);
@@ -113,7 +113,7 @@ TEST(SheetCrumbs, TouchNothing) {
         kept.cut(cornerCut());
         body.cut(cornerCut());
         if (isUndone) body.runner().loadTopology(uncut);
-        const double free = 0.1 - 2.0 * 7 / 60; // with nothing in its way
+        const double free = 0.1 - 2.0 * 7 / 60; // height without an obstacle
         const double stopped = ballHeight(kept, 6), further = ballHeight(body, 6);
         std::printf("the ball at %.4f m, where the corner was removed%s at %.4f m\n", stopped,
                     isUndone ? " and put back" : "", further);
@@ -125,7 +125,7 @@ TEST(SheetCrumbs, TouchNothing) {
     }
 }
 
-// The corner is pulled apart as soon as it is off.
+// The corner is pulled apart as soon as it is cut off.
 TEST(SheetCrumbs, TearNoMore) {
     for (const std::uint32_t crumbs : {0u, 7u}) {
         Scene scene = sheet(crumbs);
@@ -138,9 +138,9 @@ TEST(SheetCrumbs, TearNoMore) {
     }
 }
 
-// Edges are searched by their middles: those of a removed piece have left the grid.
+// Edges are searched by their middles. Those of a removed fragment must have left the grid.
 TEST(SheetCrumbs, HaveNoEdgesThatTouch) {
-    Scene scene = sheet(7, 0.1f * spacing); // thin: edges touch too
+    Scene scene = sheet(7, 0.1f * spacing); // thin sheet: edges touch, too
     CutBody body(scene);
     const BufferId edges = body.runner().simulation().program().contacts.edges;
     ASSERT_NE(edges, BufferId{});
@@ -161,7 +161,7 @@ TEST(SheetCrumbs, HaveNoEdgesThatTouch) {
     EXPECT_EQ(touching(corner), 0u);
 }
 
-// Particles that never move have no radius for faces that do not either: they are no crumbs for that.
+// Fixed particles have no radius for fixed faces, but this does not make them fragments.
 TEST(SheetCrumbs, AreNotSheetsThatAreHeldEverywhere) {
     Scene scene = sheet(0);
     for (std::uint32_t i = 0; i < particles; ++i) scene.particles[i].inverseMass = 0;

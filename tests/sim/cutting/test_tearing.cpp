@@ -1,5 +1,5 @@
-// Sheets that tear: beyond the limit and not before it, so many cells a step, and across the direction in
-// which they are pulled, however the grid lies in them and however fine it is.
+// Tests of sheets that tear: only beyond the limit, at most a given number of cells a step, and across the
+// direction of the pull, for any orientation and resolution of the grid.
 #include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/scenes.hpp"
@@ -24,15 +24,15 @@ using test::CutBody;
 namespace {
 
 struct Pull {
-    double angle = 0;  // of the direction in which the sheet is stretched
-    double strain = 0; // everywhere
-    double more = 0;   // in its middle, where a tear is to begin
+    double angle = 0;  // of the direction of stretch
+    double strain = 0; // in the whole sheet
+    double more = 0;   // additional strain in the middle, where a tear should begin
     float limit = 0.12f;
     std::uint32_t tearsPerStep = 1;
     bool resistsBending = false;
 };
 
-// A square of 1 m, stretched and held at its rim.
+// A stretched square of 1 m, held at its rim.
 Scene pulled(std::uint32_t size, const Pull& pull) {
     Scene scene{.name = "pulled", .gravity = {0, 0, 0}, .damping = 5};
     ClothSheet sheet{.size = {size, size},
@@ -58,7 +58,7 @@ Scene pulled(std::uint32_t size, const Pull& pull) {
     return scene;
 }
 
-// Of the middles of what a body has lost of these links, at rest.
+// Rest positions of the middles of lost links.
 std::vector<Vector2d> deadLinks(const CutBody& body, const std::vector<test::LiveLink>& before) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> live;
     for (const test::LiveLink& link : body.links()) live.insert({link.a, link.b});
@@ -74,7 +74,7 @@ std::vector<Vector2d> deadLinks(const CutBody& body, const std::vector<test::Liv
     return dead;
 }
 
-// Direction in which points spread most, and how far: standard deviations along it and across.
+// Direction of the largest spread of points, with standard deviations along and across it.
 struct Spread {
     double angle = 0, along = 0, across = 0;
 };
@@ -91,7 +91,7 @@ Spread spreadOf(const std::vector<Vector2d>& points) {
             std::sqrt(std::max(0.0, axes.eigenvalues()[0]))};
 }
 
-// Of two lines, in degrees.
+// Angle between two lines [degrees].
 double between(double a, double b) {
     const double turns = std::remainder(a - b, std::numbers::pi);
     return std::abs(turns) * 180 / std::numbers::pi;
@@ -131,7 +131,7 @@ TEST(Tearing, OfAStepIsAtMostSoManyCells) {
 TEST(Tearing, GrowsAcrossThePullHoweverTheGridLiesAndHoweverFineItIs) {
     for (const std::uint32_t size : {25u, 41u})
         for (const double degrees : {0.0, 15.0, 30.0, 45.0, 75.0}) {
-            if (size > 25 && degrees != 15 && degrees != 45) continue; // enough
+            if (size > 25 && degrees != 15 && degrees != 45) continue; // enough cases for fine sheets
             const double angle = degrees * std::numbers::pi / 180;
             CutBody body(pulled(size, {.angle = angle, .strain = 0.09, .more = 0.06}), {.substeps = 16});
             const auto before = body.links();

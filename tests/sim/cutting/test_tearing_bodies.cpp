@@ -1,5 +1,5 @@
-// Bodies of voxels that tear, as sheets do: beyond the limit and not before it, so many cells a step, across
-// the direction in which they are pulled, and right through, with an inside to be seen.
+// Tests of voxel bodies that tear like sheets: only beyond the limit, at most a given number of cells a step,
+// across the direction of the pull, and all the way through with a visible inside.
 #include "sim/bodies.hpp"
 #include "sim/scenes.hpp"
 #include "sim/surface/closed_surface.hpp"
@@ -26,13 +26,13 @@ namespace {
 
 struct Pull {
     Vector3d along = Vector3d::UnitX();
-    double strain = 0; // everywhere
-    double more = 0;   // in the middle, where a tear is to begin
+    double strain = 0; // in the whole body
+    double more = 0;   // additional strain in the middle, where a tear should begin
     float limit = 0.12f;
     std::uint32_t tearsPerStep = 1;
 };
 
-// A cube of 1 m, stretched and held at its surface.
+// A stretched cube of 1 m, held at its surface.
 Scene pulled(std::uint32_t cells, const Pull& pull) {
     Scene scene{.name = "pulled", .gravity = {0, 0, 0}, .damping = 5};
     addLattice(scene, {.cells = {cells, cells, cells},
@@ -52,7 +52,7 @@ Scene pulled(std::uint32_t cells, const Pull& pull) {
     return scene;
 }
 
-// A bar along y, stretched to `stretch` times its length between two ends that are held.
+// A bar along y, stretched to `stretch` times its length between two held ends.
 Scene bar(double stretch, float limit) {
     Scene scene{.name = "bar", .gravity = {0, 0, 0}, .damping = 2};
     const Lattice lattice{.cells = {4, 12, 4},
@@ -70,7 +70,7 @@ Scene bar(double stretch, float limit) {
     return scene;
 }
 
-// Where a body has lost these links along axes, at rest: where the cut shows.
+// Rest positions of lost links along the axes, which show the place of the tear.
 std::vector<Vector3d> deadPlaces(const CutBody& body, const std::vector<test::LiveLink>& before) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> live;
     for (const test::LiveLink& link : body.links()) live.insert({link.a, link.b});
@@ -90,7 +90,8 @@ std::vector<Vector3d> deadPlaces(const CutBody& body, const std::vector<test::Li
     return dead;
 }
 
-// The plane that points spread in: its normal, and standard deviations along it and least within it.
+// Plane of the spread of points: its normal, with the standard deviation along it and the least one within
+// the plane.
 struct Spread {
     Vector3d normal = Vector3d::Zero();
     double along = 0, within = 0;
@@ -124,7 +125,7 @@ TEST(TearingBodies, BeginToTearBeyondTheLimitAndNotBefore) {
     }
 }
 
-// A plane through a cell crosses at most 16 of its links of 18 directions; rule K takes some around them.
+// A plane through a cell crosses at most 16 of its links of 18 directions; rule K removes some around them.
 TEST(TearingBodies, TearSoManyCellsAStepAtMost) {
     for (const std::uint32_t most : {1u, 3u, 100u}) {
         CutBody body(
@@ -167,7 +168,7 @@ TEST(TearingBodies, TearAcrossThePullHoweverTheGridLies) {
     }
 }
 
-// Right through: two pieces that shrink back to their length, closed, with all of the volume.
+// The bar tears through into two closed pieces, which shrink back to their length and keep all of the volume.
 TEST(TearingBodies, TearABarInTwoAndShowItsInside) {
     CutBody body(bar(1.35, 0.3f), {.substeps = 16});
     Status status;
@@ -180,13 +181,13 @@ TEST(TearingBodies, TearABarInTwoAndShowItsInside) {
     EXPECT_EQ(body.looseLinks(), 0u);
     EXPECT_EQ(body.pieces(), body.expectedPieces());
     const auto x = body.runner().positions();
-    double gap = 0; // between layers of particles, from the lower end to the upper one
+    double gap = 0; // between layers of particles, from the lower to the upper end
     std::vector<double> heights;
     for (const Vector3d& p : x) heights.push_back(p.y());
     std::ranges::sort(heights);
     for (std::size_t i = 1; i < heights.size(); ++i) gap = std::max(gap, heights[i] - heights[i - 1]);
     const ClosedSurface surface(body);
-    const double cell = std::pow(body.spacing(), 3), rest = 1.35 * 4 * 12 * 4 * cell; // as the scene has it
+    const double cell = std::pow(body.spacing(), 3), rest = 1.35 * 4 * 12 * 4 * cell; // volume in the scene
     const auto volumes = surface.volumes(cell);
     std::printf(
         "%u pieces, %u links dead, gap of %.3f m, %zu open edges, volume %.5f of all, inside %.5f m^2\n",

@@ -1,5 +1,5 @@
 #version 460
-// Writes down which item every invocation works on.
+// Writes the item index of every invocation.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,5 +1,5 @@
 #version 460
-// Switches an indirect dispatch between no group and those for all items.
+// Switches an indirect dispatch between no group and the groups for all items.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

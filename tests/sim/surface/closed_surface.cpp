@@ -1,4 +1,4 @@
-// A point is named as layout::CutVertex does: its own number, or a particle.
+// Points have the names of layout::CutVertex: a number of their own, or a particle.
 #include "sim/surface/closed_surface.hpp"
 
 #include "layout.h"
@@ -54,7 +54,7 @@ std::uint32_t ClosedSurface::pointOf(std::uint32_t key, const Vector3d& rest, co
     return entry->second;
 }
 
-// Vertices of skins, by where they have moved beside a cut.
+// Positions of skin vertices that have moved beside a cut.
 std::map<std::uint32_t, Vector3d> ClosedSurface::movedVertices(CutBody& body) {
     const CutSurfaceBuffers& buffers = body.runner().simulation().program().cutSurface;
     std::map<std::uint32_t, Vector3d> vertices;
@@ -73,7 +73,7 @@ void ClosedSurface::addSkin(CutBody& body) {
     const auto indices = read<std::uint32_t>(body, program.skinIndices, hash_);
     const auto vertices = read<layout::SkinVertex>(body, program.skinVertices, hash_);
     for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
-        if (indices[3 * t] == indices[3 * t + 1]) continue; // drawn in pieces
+        if (indices[3 * t] == indices[3 * t + 1]) continue; // it is drawn in pieces
         Triangle triangle;
         for (std::size_t n = 0; n < 3; ++n) {
             const std::uint32_t vertex = indices[3 * t + n];
@@ -174,12 +174,12 @@ double ClosedSurface::drawnArea(Part part) const {
     return areaOf(part, drawn_);
 }
 
-// The sum over triangles of what the segments in them enclose.
+// Sums what the segments in all triangles enclose.
 ClosedSurface::Section ClosedSurface::section(const CutPlane& plane) const {
     double twice = 0;
     Section section;
     for (const auto& triangle : triangles_) {
-        std::array<Vector3d, 2> ends; // where the triangle leads up through the plane, and down
+        std::array<Vector3d, 2> ends; // where the triangle crosses the plane upwards and downwards
         int found = 0;
         for (std::size_t n = 0; n < 3; ++n) {
             const Vector3d a = rest_[triangle.points[n]], b = rest_[triangle.points[(n + 1) % 3]];
@@ -196,12 +196,12 @@ ClosedSurface::Section ClosedSurface::section(const CutPlane& plane) const {
     return section;
 }
 
-// What the line enters and leaves, also before it begins: the surface need not be of one part.
+// Counts entries and exits of the line, also before its start, because the surface may have several parts.
 ClosedSurface::Chord ClosedSurface::chord(const Vector3d& from, const Vector3d& to,
                                           const std::vector<Vector3d>& places) const {
     const Vector3d way = to - from;
     double share = 0;
-    int atStart = 0, atEnd = 0; // windings
+    int atStart = 0, atEnd = 0; // winding numbers
     for (const Triangle& triangle : triangles_) {
         const Vector3d &a = places[triangle.points[0]], ab = places[triangle.points[1]] - a,
                        ac = places[triangle.points[2]] - a, p = way.cross(ac), start = from - a,
@@ -211,7 +211,7 @@ ClosedSurface::Chord ClosedSurface::chord(const Vector3d& from, const Vector3d& 
         const double u = start.dot(p) / volume, v = way.dot(q) / volume;
         if (!(u >= 0 && v >= 0 && u + v <= 1)) continue;
         const double at = ac.dot(q) / volume;
-        const int turn = volume > 0 ? 1 : -1; // against the normal: it enters
+        const int turn = volume > 0 ? 1 : -1; // against the normal, the line enters
         share += turn * (1 - std::clamp(at, 0.0, 1.0));
         atStart += at < 0 ? turn : 0;
         atEnd += at < 1 ? turn : 0;

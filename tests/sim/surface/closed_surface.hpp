@@ -1,5 +1,5 @@
-// The whole surface of a body that was cut, read back and joined point by point: what is left of its skin,
-// the pieces beside the cut and the inside, at rest and where it is drawn.
+// The whole surface of a cut body, read back and joined at its points: the rest of its skin, the pieces
+// beside the cut and the inside, at rest and as drawn.
 #pragma once
 
 #include "sim/cutting/cut_body.hpp"
@@ -13,39 +13,38 @@ class ClosedSurface {
 public:
     enum class Part { skin, outside, inside };
     struct Triangle {
-        std::array<std::uint32_t, 3> points{}; ///< index into rest() and drawn()
+        std::array<std::uint32_t, 3> points{}; ///< indices into rest() and drawn()
         std::array<Eigen::Vector3d, 3> normals;
         Part part = Part::skin;
     };
 
-    /// The only skin of a body of one grid; records the skin list first.
+    /// The body must have one grid and one skin. Records the skin list first.
     explicit ClosedSurface(CutBody& body);
 
     const std::vector<Triangle>& triangles() const { return triangles_; }
     const std::vector<Eigen::Vector3d>& rest() const { return rest_; }
     const std::vector<Eigen::Vector3d>& drawn() const { return drawn_; }
 
-    /// Directed edges that no other runs against.
+    /// Number of directed edges without an opposite one.
     std::size_t openEdges() const;
     /// Edges with more than two triangles.
     std::size_t crowdedEdges() const;
-    /// Signed volume of each connected part, largest first; those of less than a billionth of a cell are
-    /// counted alone.
+    /// Signed volumes of the connected parts, largest first. Parts below a billionth of a cell only count.
     std::vector<double> volumes(double cell) const;
     double volume() const;
     double area(Part part) const;      ///< at rest
-    double drawnArea(Part part) const; ///< where it is drawn
-    /// Section by a plane of what is enclosed at rest, where nothing is cut.
+    double drawnArea(Part part) const; ///< as drawn
+    /// Section of the enclosed volume at rest with a plane, without a cut.
     struct Section {
-        double area = 0, rim = 0; ///< length of its outline
+        double area = 0, rim = 0; ///< area, and length of the outline
     };
     Section section(const CutPlane& plane) const;
-    /// What is inside of it of a straight line.
+    /// The part of a straight line inside the surface.
     struct Chord {
         double length = 0;
-        bool isFromInside = false, isToInside = false; ///< its ends
+        bool isFromInside = false, isToInside = false; ///< whether its ends are inside
     };
-    /// Between points of `places`, which are rest() or drawn().
+    /// The line runs between points of `places`, which are rest() or drawn().
     Chord chord(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                 const std::vector<Eigen::Vector3d>& places) const;
     std::uint64_t hash() const; ///< over the bits of all buffers

@@ -1,4 +1,4 @@
-// Triangles are looked up in the order in which they are drawn.
+// Looks triangles up in the order of drawing.
 #include "sim/surface/mixed_skins.hpp"
 
 #include "mesh/to_scene.hpp"
@@ -58,7 +58,7 @@ std::vector<std::vector<Triangle>> drawnOf(const Simulation& simulation) {
 
 namespace {
 
-// Those of `all`, in its order, that are next in what is drawn, and points for the others.
+// Triangles of `all`, in order, that are next in the drawn list, with points in place of the others.
 std::vector<Triangle> take(const std::vector<Triangle>& all, std::span<const Triangle>& drawn) {
     std::vector<Triangle> result(all.size());
     for (std::size_t t = 0; t < all.size() && !drawn.empty(); ++t) {

@@ -1,4 +1,4 @@
-// Skins of meshes are clipped along a cut and closed with its inside.
+// Tests of mesh skins, which are clipped along a cut and closed with its inside.
 #include "layout.h"
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
@@ -47,11 +47,11 @@ double cellOf(const CutBody& body) {
     return std::pow(body.spacing(), 3);
 }
 
-// What every surface must be; returns how many parts have a volume.
+// Checks the invariants of a surface; returns the number of parts with a volume.
 std::size_t expectClosed(const ClosedSurface& surface, double volume, double cell, const char* what) {
     EXPECT_EQ(surface.openEdges(), 0u) << what;
     const auto volumes = surface.volumes(cell);
-    EXPECT_NEAR(surface.volume() / volume, 1, 2e-3) << what; // rims move along the skin, which bends
+    EXPECT_NEAR(surface.volume() / volume, 1, 2e-3) << what; // rims move along the skin, which is curved
     EXPECT_NEAR(std::accumulate(volumes.begin(), volumes.end(), 0.0) / surface.volume(), 1, 1e-6) << what;
     return volumes.size();
 }
@@ -62,7 +62,7 @@ Vector3d random(std::mt19937& numbers) {
     return {x, y, z};
 }
 
-// Triangles of which two corners hang on different pieces.
+// Number of triangles with corners on different pieces.
 std::size_t stretched(const ClosedSurface& surface, double spacing) {
     std::size_t count = 0;
     for (const auto& triangle : surface.triangles())
@@ -92,8 +92,7 @@ Vector3d normalOf(const layout::SkinVertex& vertex) {
 
 } // namespace
 
-// The triangles of the mesh, not those that it was split into, between vertices that are where they are
-// anyway.
+// The uncut skin is drawn as the triangles of the mesh, and not as their parts, between the same vertices.
 TEST(CutSkin, IsDrawnAsItsMeshUntilItIsCut) {
     constexpr Shape fine{"organ", 49, 20}; // as scenes/organ.toml
     Scene scene = sceneOf(fine);
@@ -144,7 +143,7 @@ TEST(CutSkin, IsDrawnAsItsMeshUntilItIsCut) {
     EXPECT_TRUE(simulation.drawnSkins().areWhole);
 }
 
-// Where all parts are drawn after a cut: nobody sees the first one elsewhere.
+// After a cut all parts are drawn. The normals away from the cut must not change.
 TEST(CutSkin, IsLitByItsPartsAsByWhatTheyArePartsOf) {
     Scene scene = sceneOf({"organ", 49, 20});
     scene.skins[0].wholeOf.clear();
@@ -159,8 +158,8 @@ TEST(CutSkin, IsLitByItsPartsAsByWhatTheyArePartsOf) {
     EXPECT_GT(most, 0) << "they are not compared with themselves";
 }
 
-// Rows of its vertices lie in planes between cells but for rounding: parts between the two would be hardly
-// more than points, which a strained body turns over.
+// Rows of vertices lie in planes between cells, up to rounding. Parts between both would be nearly points,
+// which a strained body inverts.
 TEST(CutSkin, HasNoPartsWithoutExtent) {
     const Scene scene = sceneOf({"tube", 72, 44});
     const Skin& skin = scene.skins[0];
@@ -196,13 +195,13 @@ TEST(CutSkin, OfAnUncutBodyIsItsMesh) {
     }
 }
 
-// Cutting design, 7: one through cut of each body, and its table of planes on the sphere.
+// One through cut of each body, and planes through the sphere.
 TEST(CutSkin, OfAPlaneIsClosedAndHasItsArea) {
     struct Case {
         Shape shape;
         const char* name;
         Vector3d at, normal; // from the origin [cells]
-        double areaError;    // of bodies four cells thick much of the surface is near the skin
+        double areaError;    // larger for bodies four cells thick, with much surface near the skin
     };
     const Case cases[] = {{sphere, "between layers", {0, 0, 0.5}, {0, 0, 1}, 0.001},
                           {sphere, "generic", {0.2, 0.1, 0.3}, {0.3, -0.4, 1}, 0.01},
@@ -228,7 +227,7 @@ TEST(CutSkin, OfAPlaneIsClosedAndHasItsArea) {
         EXPECT_TRUE(parts == pieces || isLinkedAcross) << each.name << ": " << parts << " parts";
         std::printf("volume %+.2g; ", surface.volume() / uncut.volume() - 1);
         const double area = surface.area(Part::inside) / 2, section = uncut.section(plane).area;
-        double off = 0, mean = 0; // the blade
+        double off = 0, mean = 0; // distance from the blade
         std::vector<Vec3> inside;
         for (const auto& triangle : surface.triangles())
             for (const std::uint32_t point : triangle.points) {
@@ -239,7 +238,7 @@ TEST(CutSkin, OfAPlaneIsClosedAndHasItsArea) {
                 mean += away;
             }
         const auto depths = mesh::signedDistance(mesh::generate(each.shape.name, each.shape.detail), inside);
-        const double out = double{std::ranges::max(depths)} / spacing; // of the skin
+        const double out = double{std::ranges::max(depths)} / spacing; // beyond the skin
         std::printf("%-10s %-14s area %+.2f %%, %u pieces, %zu triangles, %zu crowded edges; off the blade "
                     "%.2f cells at most, %.3f in the mean; out of the skin %.3f\n",
                     each.shape.name, each.name, 100 * (area / section - 1), status.pieces,
@@ -281,7 +280,7 @@ TEST(CutSkin, HasTheSameBitsInReversedOrder) {
     EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-// Area of the skin that is turned away from its normals.
+// Area of the skin that faces away from its normals.
 double turnedArea(const ClosedSurface& surface) {
     double turned = 0;
     for (const auto& triangle : surface.triangles()) {
@@ -297,7 +296,7 @@ double turnedArea(const ClosedSurface& surface) {
     return turned;
 }
 
-// At rest a cut moves nothing that is drawn, but for what it puts in.
+// At rest, a cut moves nothing drawn and only adds the cut surface.
 TEST(CutSkin, IsWhereItWasAfterACut) {
     for (const Shape& shape : {sphere, organ}) {
         CutBody body(sceneOf(shape));
@@ -315,8 +314,8 @@ TEST(CutSkin, IsWhereItWasAfterACut) {
     }
 }
 
-// Cutting design, 6: halves pulled apart; nothing is stretched between them, and what is far from the cut
-// goes as it would without one.
+// The halves are pulled apart. No triangle is stretched between them, and the skin far from the cut moves as
+// without one.
 TEST(CutSkin, GoesWithItsPieces) {
     Scene scene = sceneOf(sphere);
     const double spacing = double{scene.grids[0].restLength[0]}, height = 0.3 * spacing;
@@ -352,7 +351,7 @@ TEST(CutSkin, OfAStepThatIsUndoneIsUndoneWithItAndComesBackWithTheTopology) {
     EXPECT_EQ(ClosedSurface(body).triangles().size(), body.scene().skins[0].triangles.size());
 }
 
-// What is not as anchors must be is not clipped, and stretches over a cut as it did.
+// A skin with invalid anchors is not clipped and stretches over a cut.
 TEST(CutSkin, OfWrongAnchorsIsNotClipped) {
     Scene scene = sceneOf(sphere);
     scene.skins[0].triangles.pop_back();

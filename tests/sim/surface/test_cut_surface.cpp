@@ -1,4 +1,5 @@
-// The surface of a cut is closed, two-sided and where the blade was, and its sides go with their pieces.
+// Tests of cut surfaces: they are closed, two-sided and on the blade's path, and each side moves with its
+// piece.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/scenes.hpp"
@@ -47,7 +48,7 @@ Vector3d middle(const CutBody& body) {
     return sum / count;
 }
 
-// What every surface must be; returns how many parts have a volume.
+// Checks the invariants of a surface; returns the number of parts with a volume.
 std::size_t expectClosed(const ClosedSurface& surface, double volume, const char* what) {
     EXPECT_EQ(surface.openEdges(), 0u) << what;
     EXPECT_NEAR(surface.volume() / volume, 1, 1e-6) << what;
@@ -74,7 +75,7 @@ TEST(CutSurface, OfAnUncutBodyIsItsSkin) {
     EXPECT_EQ(surface.area(Part::inside), 0);
 }
 
-// Cutting design, 7: the planes of its table, and 20 random ones.
+// Planes of special orientation, and 20 random ones.
 TEST(CutSurface, OfAPlaneIsClosedAndHasItsArea) {
     struct Case {
         const char* name;
@@ -100,7 +101,7 @@ TEST(CutSurface, OfAPlaneIsClosedAndHasItsArea) {
                     each.name, area, each.area, 100 * (area / each.area - 1), surface.triangles().size(),
                     surface.crowdedEdges());
         EXPECT_NEAR(area / each.area, 1, 0.05) << each.name;
-        for (const auto& triangle : surface.triangles()) // nothing is mixed up, nothing off the blade
+        for (const auto& triangle : surface.triangles()) // triangles have one side each, and lie on the blade
             for (const std::uint32_t point : triangle.points) {
                 const double off = plane.normal.dot(surface.rest()[point] - plane.point) / double{spacing};
                 EXPECT_TRUE(triangle.part != Part::inside || std::abs(off) < 0.04) << off;
@@ -138,7 +139,7 @@ TEST(CutSurface, OfCutsThatEndInsideIsClosed) {
     }
 }
 
-// Many short strokes one over another: what is shattered is still closed.
+// Many short strokes across each other: the shattered body still has a closed surface.
 TEST(CutSurface, OfFiftyRandomStrokesIsClosed) {
     CutBody body(cube(6));
     std::mt19937 numbers(3);
@@ -155,8 +156,8 @@ TEST(CutSurface, OfFiftyRandomStrokesIsClosed) {
     }
 }
 
-// All links are cut at once: that is more than there is room for. A simulation with more goes on and draws
-// it.
+// One step cuts all links, which exceeds the capacity. A simulation with larger capacity takes over and draws
+// the cut.
 TEST(CutSurface, ForWhichThereIsNoRoomIsDrawnOnceThereIs) {
     const RayCut everything{.from = {0, 0, 0}, .to = {0, 1, 0}, .radius = 9};
     Scene scene = cube(9);
@@ -213,7 +214,7 @@ TEST(CutSurface, IsDrawnWhereTheBodyRestsAndWithTheNormalOfTheBlade) {
     const ClosedSurface surface(body);
     for (std::size_t p = 0; p < surface.rest().size(); ++p)
         EXPECT_LE((surface.rest()[p] - surface.drawn()[p]).norm(), 1e-5 * double{spacing});
-    double least = 1; // of what is large enough to be seen: places on links are stored in 1/255
+    double least = 1; // among visible triangles; positions on links are stored in 1/255
     for (const auto& triangle : surface.triangles()) {
         const Vector3d a = surface.rest()[triangle.points[0]], b = surface.rest()[triangle.points[1]],
                        c = surface.rest()[triangle.points[2]];
@@ -228,7 +229,7 @@ TEST(CutSurface, IsDrawnWhereTheBodyRestsAndWithTheNormalOfTheBlade) {
     EXPECT_GT(least, 0.9);
 }
 
-// Cutting design, 6: halves pulled apart; nothing is stretched between them, and each half keeps its shape.
+// The halves are pulled apart. No triangle is stretched between them, and each half keeps its shape.
 TEST(CutSurface, GoesWithItsPieces) {
     Scene scene = cube(6);
     const double height = double{scene.particles[0].position.z} + 2.6 * double{spacing};

@@ -1,5 +1,5 @@
-// The two skins that are hardest to cut, a knot four cells thick whose strands come near each other and an
-// organ with notches, by planes in general position: all that must hold after a cut is looked at.
+// Tests of the two skins that are hardest to cut, with planes in general position: a knot four cells thick
+// with close strands, and an organ with notches. All invariants are checked after each cut.
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
 #include "sim/cutting/stroke_check.hpp"
@@ -31,7 +31,7 @@ constexpr int planes = 10;
 struct Shape {
     const char* name;
     std::uint32_t detail, resolution;
-    std::size_t holes = 0; ///< more than 0: one in so many triangles is missing
+    std::size_t holes = 0; ///< if larger than 0, one of so many triangles is missing
 };
 constexpr Shape shapes[] = {{"torus_knot", 48, 18}, {"organ", 32, 14}};
 
@@ -47,7 +47,7 @@ Scene sceneOf(const Shape& shape) {
     return scene;
 }
 
-// Any direction is as likely, and any place within half of the body's size around its middle.
+// Random planes of any direction, within half of the body's size around its middle.
 class RandomPlanes {
 public:
     explicit RandomPlanes(const Shape& shape) {
@@ -77,7 +77,7 @@ struct Cuts {
     double errorAtRim() const { return (area - section) / rim; }
 };
 
-// Of one plane through the uncut body.
+// Areas of one plane's cut through the uncut body.
 Cuts cutOnce(StrokeCheck& check, const ClosedSurface& uncut, const CutPlane& plane, const std::string& what) {
     check.body().runner().reset();
     check.run(1);
@@ -96,8 +96,8 @@ Cuts cutOnce(StrokeCheck& check, const ClosedSurface& uncut, const CutPlane& pla
 
 } // namespace
 
-// Within 5 % of what the blade has swept, or 0.05 cells along its rim: there triangles are turned over beside
-// notches, which count twice, and a body four cells thick is nearly all rim.
+// Whether the area is within 5 % of the swept one, or within 0.05 cells along its rim. Triangles beside
+// notches are inverted and count twice, and a body four cells thick is nearly all rim.
 bool isNear(const Cuts& cuts) {
     return std::abs(cuts.area - cuts.section) < std::max(0.05 * cuts.section, 0.05 * cuts.rim);
 }
@@ -115,7 +115,7 @@ TEST(HardSkins, HoldByTenPlanesEach) {
     }
 }
 
-// The surface that is cut is then the one wrapped around the mesh.
+// For an open mesh, the cut surface is the one wrapped around it.
 TEST(HardSkins, OfOpenMeshesHoldByTenPlanes) {
     const Shape shape{"organ", 32, 14, 9};
     RandomPlanes random(shape);
@@ -128,7 +128,7 @@ TEST(HardSkins, OfOpenMeshesHoldByTenPlanes) {
     }
 }
 
-// Of bodies half as fine again 5 % is enough.
+// For bodies half as fine again, 5 % suffices.
 TEST(HardSkins, OfFinerBodiesHoldWithinFivePercent) {
     for (Shape shape : shapes) {
         RandomPlanes random(shape);
@@ -143,19 +143,19 @@ TEST(HardSkins, OfFinerBodiesHoldWithinFivePercent) {
     }
 }
 
-// Where two planes of one body meet inside of it.
+// Length inside the body of the line where two planes meet.
 double lengthBetween(const ClosedSurface& uncut, const CutPlane& a, const CutPlane& b) {
     const Vector3d along = a.normal.cross(b.normal);
     if (along.norm() < 1e-6) return 0;
     Eigen::Matrix3d rows;
     rows << a.normal.transpose(), b.normal.transpose(), along.transpose();
     const Vector3d point = rows.inverse() * Vector3d(a.normal.dot(a.point), b.normal.dot(b.point), 0);
-    const Vector3d way = 10 * along.normalized(); // [m]: farther than any body
+    const Vector3d way = 10 * along.normalized(); // longer than any body [m]
     return uncut.chord(point - way, point + way, uncut.rest()).length;
 }
 
-// One after another through the same body. Cuts nearer than a cell share cells, so where they cross up to a
-// cell beside the line is torn in another way than the blade went.
+// Ten successive cuts through one body. Cuts nearer than a cell share cells, so near a crossing line, up to a
+// cell beside it, the cut may differ from the blade.
 TEST(HardSkins, HoldByTenPlanesThatCross) {
     for (const Shape& shape : shapes) {
         RandomPlanes random(shape);
@@ -164,7 +164,7 @@ TEST(HardSkins, HoldByTenPlanesThatCross) {
         const double spacing = check.body().spacing();
         std::vector<CutPlane> done;
         Cuts cuts;
-        double crossing = 0; // cells
+        double crossing = 0; // in cells
         StrokeResult result;
         for (int p = 0; p < planes; ++p) {
             const CutPlane plane = random.next();

@@ -1,4 +1,5 @@
-// How mixed skins are lit: whole triangles and parts alike, beside cuts as before.
+// Tests of the normals of mixed skins: whole triangles and parts have equal normals, beside cuts as before
+// them.
 #include "sim/bodies.hpp"
 #include "sim/surface/mixed_skins.hpp"
 #include "sim/surface/rest_normals.hpp"
@@ -18,7 +19,7 @@ using namespace sinew::sim;
 using namespace sinew::test;
 using Eigen::Vector3d;
 
-// Not as parts, of which there are more, would have it: nobody sees a cut elsewhere.
+// Away from a cut, the normals must not become those of the more numerous parts.
 TEST(MixedSkin, IsLitAwayFromACutAsBefore) {
     const Scene scene = organScene();
     const Skin& skin = scene.skins[0];
@@ -56,7 +57,7 @@ Vector3d vectorOf(const surface::Point& point) {
     return {point.x, point.y, point.z};
 }
 
-// As it is lit at rest, by vertex.
+// Normals at rest, by vertex.
 std::vector<Vector3d> litNormals(const Skin& skin, const std::vector<surface::Point>& rest) {
     std::vector<Vector3d> normals;
     for (const auto& normal : surface::litNormals(skin, surface::partVertices(skin, rest), rest))
@@ -66,7 +67,7 @@ std::vector<Vector3d> litNormals(const Skin& skin, const std::vector<surface::Po
 
 } // namespace
 
-// Or a rim would be lit as no skin beside it is.
+// Compares the host's normals at rest with the device's; a difference would make rims visible.
 TEST(MixedSkin, HasTheNormalsAtRestThatTheDeviceMakes) {
     const Scene scene = organScene();
     test::Runner runner(scene, {.substeps = 2});
@@ -76,7 +77,7 @@ TEST(MixedSkin, HasTheNormalsAtRestThatTheDeviceMakes) {
         ASSERT_GT(normalOf(vertices[v]).dot(normals[v]), 1 - 1e-5) << v;
 }
 
-// What only parts have is lit as the whole triangle, in which it lies, is there: not as flat.
+// Vertices of parts must have the normal interpolated over their whole triangle, and not a flat one.
 TEST(MixedSkin, IsLitByItsPartsAsByWhatTheyArePartsOf) {
     const Scene scene = organScene();
     const Skin& skin = scene.skins[0];
@@ -105,7 +106,7 @@ TEST(MixedSkin, IsLitByItsPartsAsByWhatTheyArePartsOf) {
     EXPECT_LT(flat, parts.size() / 4) << "of " << parts.size();
 }
 
-// A skin that is not mixed is lit by its parts alone, which divide its angles.
+// A skin that is not mixed computes its normals from parts, which divide the angles.
 TEST(MixedSkin, WouldBeLitAlikeByItsParts) {
     Scene scene = organScene();
     scene.skins[0].wholeOf.clear();
@@ -123,7 +124,7 @@ TEST(MixedSkin, WouldBeLitAlikeByItsParts) {
 
 namespace {
 
-// Corners of pieces of the skin, by way of the surface of cuts.
+// Corners of the skin's pieces, from the cut surface.
 std::vector<layout::SkinVertex> piecesOf(const Simulation& simulation) {
     const CutSurface cut = simulation.cutSurface();
     const auto draws = test::queue().download<layout::DrawArguments>(cut.draws);
@@ -135,7 +136,7 @@ std::vector<layout::SkinVertex> piecesOf(const Simulation& simulation) {
     return corners;
 }
 
-// The normal in the nearest triangle of the mesh at rest.
+// Interpolated normal in the nearest triangle of the mesh at rest.
 Vector3d litAt(const Vector3d& x, const Skin& skin, const std::vector<surface::Point>& rest,
                const std::vector<Vector3d>& lit) {
     double nearest = 1e9;
@@ -156,8 +157,8 @@ Vector3d litAt(const Vector3d& x, const Skin& skin, const std::vector<surface::P
 
 } // namespace
 
-// Nothing has moved when a body at rest is cut: all that is drawn of its skin has the normal that it had,
-// beside the cut and away from it, on rims and in pieces, whatever folds lie upon each other there.
+// A cut of a body at rest moves nothing. All drawn vertices must keep their normals, beside the cut and away
+// from it, on rims and in pieces, also where the skin folds onto itself.
 TEST(MixedSkin, IsLitBesideACutAsBefore) {
     const Scene scene = organScene();
     const Skin& skin = scene.skins[0];
@@ -184,7 +185,7 @@ TEST(MixedSkin, IsLitBesideACutAsBefore) {
                     seen.size(), most * 180 / std::numbers::pi, pieces.size(),
                     std::sqrt(ofPieces) * 180 / std::numbers::pi);
         EXPECT_LT(most, 1e-4);
-        // those that moved onto the rim, by up to one and a half cells, have the normal of where they were
+        // Vertices that moved onto the rim, by up to 1.5 cells, have the normals of their old positions.
         EXPECT_LT(std::sqrt(ofPieces), 0.25);
         const auto third = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 3);
         std::ranges::nth_element(off, third);
@@ -195,7 +196,7 @@ TEST(MixedSkin, IsLitBesideACutAsBefore) {
     }
 }
 
-// Neither does a skin whose cut has no room to be drawn wait for that.
+// Normals are also kept if the cut surface exceeds its capacity and is not drawn.
 TEST(MixedSkin, IsLitBesideACutThatHasNoRoom) {
     const Scene scene = organScene();
     CutBody body(scene);
@@ -209,7 +210,7 @@ TEST(MixedSkin, IsLitBesideACutThatHasNoRoom) {
         for (const std::uint32_t v : triangle) ASSERT_LT((normalOf(vertices[v]) - lit[v]).norm(), 1e-4) << v;
 }
 
-// What stands alone is of the topology: what was made after another cut does not light this one.
+// Normals depend on the current topology: after an older one is loaded, none of a later cut may remain.
 TEST(MixedSkin, IsLitAsItWasWhereACutIsGoneBackTo) {
     const Scene scene = organScene();
     CutBody body(scene);
@@ -234,7 +235,7 @@ TEST(MixedSkin, IsLitAsItWasWhereACutIsGoneBackTo) {
         }
 }
 
-// Beside a sheet that is cut, too, no skin is mixed, and all is drawn of parts.
+// Beside a cuttable sheet no skin is mixed, and all of it is drawn as parts.
 TEST(MixedSkin, IsLitAsBeforeWhereSheetsAreCutAsWell) {
     Scene scene = organScene();
     addCloth(scene, {.origin = {0, 5, 0},

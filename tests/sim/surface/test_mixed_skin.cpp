@@ -1,5 +1,5 @@
-// Skins once something is cut: whole triangles away from cuts, their parts beside them, no gap between the
-// two.
+// Tests of skins after a cut: whole triangles away from cuts, their parts beside cuts, and no gap between
+// both.
 #include "layout.h"
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
@@ -33,10 +33,11 @@ std::vector<Vector3d> verticesOf(test::Runner& runner) {
     return places;
 }
 
-// Of what is drawn with an overlap everything, and of the rest less, is as if all were made.
+// Expects all vertices drawn with overlap to equal those of a full update, and a quarter of the others to be
+// left out.
 void expectMadeWhereDrawn(test::Runner& runner, const std::string& when) {
     SCOPED_TRACE(when);
-    constexpr std::uint32_t poison = 0x7fc12345; // not a number
+    constexpr std::uint32_t poison = 0x7fc12345; // a NaN
     const Simulation& simulation = runner.simulation();
     const auto cuts = [&] {
         return test::queue().download<layout::SkinVertex>(simulation.cutSurface().vertices);
@@ -185,14 +186,14 @@ TEST(MixedSkin, IsTheSameAfterEveryStrokeHoweverOftenItIsCut) {
     const auto plane = [](double x) { return sweepOf({{x, 0, 0}, Vector3d::UnitX()}, reach); };
     ASSERT_GT(once.cut(plane(0.03)).linksCutInAll, 0u);
     twice.cut(plane(0.03));
-    twice.cut(plane(0.03)); // nothing is left to be cut
+    twice.cut(plane(0.03)); // the second cut meets no link
     const auto all = [](CutBody& body) { return drawnOf(body.runner().simulation()); };
     EXPECT_EQ(all(once), all(twice));
     once.cut(plane(-0.05));
     EXPECT_NE(all(once), all(twice));
 }
 
-// A box has the outer faces of its cells for a skin, of which there are no fewer.
+// A box has the outer faces of its cells as a skin, which cannot be reduced.
 TEST(MixedSkin, LeavesOtherSkinsAsTheyAre) {
     Scene scene{.name = "both", .gravity = {0, 0, 0}};
     const std::array<std::uint32_t, 3> cells{4, 4, 4};
@@ -225,8 +226,8 @@ TEST(MixedSkin, LeavesOtherSkinsAsTheyAre) {
 
 namespace {
 
-// Strokes through the organ while it falls apart: a fast one, a slow one carried with it over some steps, and
-// one more after the topology before was put back. `look` is called after each of them.
+// Cuts the organ while it falls apart: a fast stroke, a slow one carried over some steps, and one after
+// loading an older topology. Calls `look` after each.
 template <typename Look> void cutInManyWays(CutBody& body, const Look& look) {
     test::Runner& runner = body.runner();
     const vk::Buffer uncut = runner.saveTopology();
@@ -260,7 +261,7 @@ Scene fallingOrgan() {
 
 } // namespace
 
-// While a body gapes, and in the middle of a slow stroke.
+// While a body gapes, and within a slow stroke.
 TEST(MixedSkin, IsMadeWhereItIsDrawnAlone) {
     for (const bool usesTexels : {true, false}) {
         CutBody body(fallingOrgan(), {.substeps = 2, .forms = {.usesTexels = usesTexels}});
@@ -268,7 +269,7 @@ TEST(MixedSkin, IsMadeWhereItIsDrawnAlone) {
     }
 }
 
-// Kernels of skins and of blades fetch texels, or load.
+// Kernels of skins and blades either fetch texels or load from buffers.
 TEST(MixedSkin, AndSurfaceOfCutsHaveTheSameBitsInBothForms) {
     std::vector<std::uint64_t> hashes[2];
     for (const bool usesTexels : {true, false}) {

@@ -1,5 +1,5 @@
-// Rims of cuts: where the skin of a mesh ends at the inside. They must move as smoothly as the skin beside
-// them, however slowly a body was cut and however it is bent.
+// Tests of the rims of cuts, where the skin of a mesh meets the inside. They must move as smoothly as the
+// skin beside them, for slow strokes and bent bodies.
 #include "layout.h"
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
@@ -29,7 +29,7 @@ namespace {
 
 using Neighbours = std::vector<std::set<std::uint32_t>>;
 
-// Along edges between the inside and what is left of the skin.
+// Neighbours along edges between the inside and the rest of the skin.
 Neighbours rimOf(const ClosedSurface& surface) {
     std::map<std::array<std::uint32_t, 2>, int> seen; // 1 = by the inside, 2 = by the skin
     for (const auto& triangle : surface.triangles())
@@ -46,7 +46,7 @@ Neighbours rimOf(const ClosedSurface& surface) {
     return neighbours;
 }
 
-// How points lie between their two neighbours on the rim [cells].
+// Distances of rim points from the line between their neighbours [cells].
 struct Roughness {
     double square = 0, most = 0;
     std::size_t count = 0;
@@ -59,10 +59,10 @@ struct Roughness {
 };
 
 struct Rim {
-    Roughness rest;   // off the line between the neighbours
-    Roughness motion; // ways off what those of the neighbours, in parts of their distances, would be
+    Roughness rest;   // distance from the line between the neighbours
+    Roughness motion; // difference between the displacement and that interpolated from the neighbours
     Roughness skin,
-        inside; // the same of other points, against the linear motion that fits their neighbours best
+        inside; // the same for other points, against the best linear fit of their neighbours' motion
 };
 
 Roughness measurePart(const ClosedSurface& surface, Part part, double spacing) {
@@ -112,7 +112,7 @@ Rim measureRim(const ClosedSurface& surface, double spacing) {
     return rim;
 }
 
-// Held at both ends, it hangs and gapes.
+// An organ held at both ends, which hangs and gapes.
 Scene hangingOrgan() {
     Scene scene{.name = "organ", .gravity = {0, -9.81f, 0}, .damping = 2};
     mesh::MeshBody body{.name = "organ", .youngModulus = 6e4f, .isCuttable = true};
@@ -127,7 +127,7 @@ struct Stage {
     int first, last;
 };
 
-// A slanted blade along z comes down to `bottom`.
+// Moves an inclined blade along z down to `bottom`.
 Status strokeDown(CutBody& body, int steps, double bottom, const Stage& stage) {
     constexpr double at = 0.02, slant = 0.2, top = 0.3;
     const auto edge = [&](int step) {
@@ -143,11 +143,11 @@ Status strokeDown(CutBody& body, int steps, double bottom, const Stage& stage) {
 
 } // namespace
 
-// Points of a rim that hung on one particle each stood out by up to 0.9 cells, 0.03 to 0.07 rms, wherever
-// those beside them hung on another one. The end of a cut that ends inside opens like a corner, which is no
-// roughness of the rim: there the most is not looked at. Points inside hung on one particle each likewise
-// (0.04 to 0.14 rms), and stood out of the rims. In slow strokes points of the skin leapt from step to step,
-// past the blade (rims at rest up to 0.23 cells off).
+// Regression test. Rim points attached to one particle each stood out by up to 0.9 cells, 0.03 to 0.07 rms,
+// where their neighbours were attached to another particle. Inner points attached in the same way (0.04 to
+// 0.14 rms) stood out of the rims. In slow strokes skin points jumped from step to step, past the blade (rims
+// at rest up to 0.23 cells off). The end of a cut inside the body opens like a corner, so the maximum is not
+// checked there.
 TEST(Rims, MoveAsSmoothlyAsTheSkin) {
     for (const int steps : {1, 30})
         for (const bool isThrough : {true, false}) {
@@ -179,7 +179,7 @@ TEST(Rims, MoveAsSmoothlyAsTheSkin) {
         }
 }
 
-// What a stroke has met so far, and where points of the skin were, go along.
+// The stroke so far and the positions of skin points are part of the state that is taken over.
 TEST(Rims, AreTheSameWhereAnotherSimulationTakesOverInAStroke) {
     constexpr int steps = 24;
     const Scene scene = hangingOrgan();
@@ -194,9 +194,9 @@ TEST(Rims, AreTheSameWhereAnotherSimulationTakesOverInAStroke) {
     EXPECT_EQ(surface.drawn(), expected.drawn());
 }
 
-// How the material has turned is known wherever a link is missing, also where nothing is parted: else
-// vertices there fall onto their particle. Many a small blade passes between a vertex and its particle, and
-// one cuts through, so that a surface is drawn.
+// The rotation of the material must be known wherever a link is missing, even if nothing is separated;
+// otherwise the vertices there fall onto their particle. Many small blades pass between vertices and their
+// particles, and one cuts through, so that a surface is drawn.
 TEST(Rims, AreWhereTheyWereBesideNicks) {
     Scene scene = hangingOrgan();
     scene.gravity = {0, 0, 0};
@@ -226,15 +226,15 @@ TEST(Rims, AreWhereTheyWereBesideNicks) {
 
 namespace {
 
-// Draws all triangles around a few vertices together to a point each, where they lie in one cell.
+// Contracts all triangles around a few vertices to a point each, if they lie in one cell.
 void fold(Skin& skin, int most) {
     std::vector<std::vector<std::uint32_t>> around(skin.cells.size());
     for (const auto& triangle : skin.triangles)
         for (const std::uint32_t v : triangle)
             around[v].insert(around[v].end(), triangle.begin(), triangle.end());
     for (const auto& triangle : skin.wholeTriangles)
-        for (const std::uint32_t v : triangle) around[v].clear();      // those have the normal of the mesh
-    for (std::uint32_t v = 0; v < around.size() && most > 0; v += 7) { // not all beside each other
+        for (const std::uint32_t v : triangle) around[v].clear();      // these have the mesh's normal
+    for (std::uint32_t v = 0; v < around.size() && most > 0; v += 7) { // avoids neighbours
         const auto isInCell = [&](std::uint32_t other) {
             return skin.cells[other].particles == skin.cells[v].particles;
         };
@@ -246,8 +246,8 @@ void fold(Skin& skin, int most) {
 
 } // namespace
 
-// A vertex whose triangles are folded upon each other faces no way: a blade between it and its particle
-// leaves it at a place all the same.
+// A vertex whose triangles are folded onto each other has no normal. A blade between it and its particle must
+// still leave it at a finite position.
 TEST(Rims, AreSomewhereWhereTheSkinFacesNoWay) {
     Scene scene{.name = "knot", .gravity = {0, 0, 0}};
     mesh::MeshBody knot{.name = "knot", .youngModulus = 1e5f, .isCuttable = true};

@@ -1,5 +1,5 @@
-// The skin of a sheet along a cut: nothing is stretched over it, nothing hangs on both sides, and no gap is
-// where nothing was cut.
+// Tests of the skin of a sheet along a cut: no triangle is stretched over the cut or spans both sides, and
+// there is no gap where nothing was cut.
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
@@ -48,10 +48,10 @@ double areaOf(const Scene& scene) { // of one side
 
 using Corners = std::array<Vector3d, 3>;
 
-// What is drawn of the only skin: side by side of the sheet, without what is degenerate.
+// Drawn triangles of the only skin on each side of the sheet, without degenerate ones.
 struct Drawn {
     std::vector<Corners> upper, lower;
-    double leastOfNormal = 1; // of a vertex along that of its triangle
+    double leastOfNormal = 1; // of a vertex normal along that of its triangle
     std::vector<std::uint32_t> indices;
     layout::DrawArguments pieces{};
 };
@@ -95,8 +95,8 @@ double longestEdge(const std::vector<Corners>& triangles) {
     return longest;
 }
 
-// Of the edges that one triangle alone has: their length, and where one ends in the middle of another, which
-// would be seen as a hair.
+// Edges of only one triangle: their length, and the number of T-junctions, which would be visible as
+// hairlines.
 struct Rim {
     double length = 0;
     std::size_t tees = 0;
@@ -108,7 +108,7 @@ bool isWithin(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
 }
 
 Rim rimOf(const std::vector<Corners>& triangles) {
-    using Place = std::array<double, 3>; // bit for bit
+    using Place = std::array<double, 3>; // compared bit by bit
     std::map<std::pair<Place, Place>, int> edges;
     for (const Corners& t : triangles)
         for (std::size_t n = 0; n < 3; ++n) {
@@ -134,13 +134,13 @@ Vector3d middle(const CutBody& body) {
     return 0.5 * (body.at(0) + body.at(static_cast<std::uint32_t>(body.scene().particles.size() - 1)));
 }
 
-// Upright, through a point of the sheet [cells from its middle].
+// A vertical plane through a point of the sheet [cells from its middle].
 CutPlane upright(const CutBody& body, double x, double z, double angle) {
     return {middle(body) + double{spacing} * Vector3d(x, 0, z),
             Vector3d(std::cos(angle), 0, std::sin(angle))};
 }
 
-// Parts what lies on both sides of a plane by a gap [m], by velocities in one step without links across.
+// Gives both sides of a plane opposite velocities [m/s], which open a gap once no link crosses it.
 void partAlong(Scene& scene, const Vector3d& point, const Vector3d& normal, double speed) {
     for (Particle& particle : scene.particles) {
         const double side = normal.dot(test::toVector(particle.position) - point) >= 0 ? 1 : -1;
@@ -215,7 +215,7 @@ TEST(SheetPieces, GoWithTheirHalvesUnstretched) {
     }
 }
 
-// A cut that ends inside: nothing is open but its lips, though these stand apart.
+// A cut that ends inside the sheet: only its lips are open, although they move apart.
 TEST(SheetPieces, CloseTheEndOfACut) {
     for (const double angle : {0.0, 0.3, 0.7854, -0.7854, -0.4}) {
         CutBody body(sheet());
@@ -225,7 +225,7 @@ TEST(SheetPieces, CloseTheEndOfACut) {
         const Sweep sweep{.from = {test::toFloats(outside - up), test::toFloats(outside + up)},
                           .to = {test::toFloats(tip - up), test::toFloats(tip + up)}};
         ASSERT_EQ(body.cut(sweep).pieces, 1u);
-        body.runner().writePosition(body.particleAt(6, 0, 1), 0.32f); // pulls at the lips
+        body.runner().writePosition(body.particleAt(6, 0, 1), 0.32f); // pulls the lips apart
         body.runner().run(2);
         const Rim rim = rimOf(drawn(body).upper);
         const double around = 2 * (12 + 8) * double{spacing}, lip = (tip.z() - 0) / std::cos(angle);
@@ -341,7 +341,7 @@ TEST(SheetPieces, AreInNoOtherScene) {
 
 namespace {
 
-// A sheet held at its rim with a small ball above the middle of one of its rows of cells, in one cell.
+// A sheet held at its rim, with a small ball above the middle of a row of cells, within one cell.
 Scene sheetUnderABall(float facesThickness, float sheetSpacing) {
     Scene scene{.name = "sheet under a ball", .damping = 2};
     ClothSheet cloth{.origin = {0, 0, 0},
@@ -367,7 +367,7 @@ TEST(CutFaces, LetABallThrough) {
         const Scene scene = sheetUnderABall(0.02f, 0.1f);
         const std::size_t ball = scene.particles.size() - 1;
         CutBody body(scene, {.substeps = 8, .isReversed = isReversed});
-        // a slot from one rim to the other, along x below the ball
+        // A slot from one rim to the other, along x below the ball.
         const Sweep slot{.from = {{-0.05f, -1, 0.452f}, {-0.05f, 1, 0.452f}},
                          .to = {{0.85f, -1, 0.452f}, {0.85f, 1, 0.452f}}};
         EXPECT_GT(body.cut(slot).linksCut, 20u);
