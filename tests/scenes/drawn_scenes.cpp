@@ -1,4 +1,4 @@
-// One to three bodies, and each thing that a body, a scene or the settings may have with a chance of its own.
+// Draws one to three bodies, and each property of a body, a scene or the settings with its own probability.
 #include "scenes/drawn_scenes.hpp"
 
 #include "sim/bodies.hpp"
@@ -14,13 +14,13 @@ namespace {
 
 constexpr float spacing = 0.1f, radius = 0.03f;
 
-/// Draws; not by the standard's distributions, whose values differ from library to library.
+/// Random draws that are equal in all standard libraries, unlike those of the standard's distributions.
 class Lots {
 public:
     explicit Lots(std::uint32_t seed) : random_(seed), isPlain_(oneIn(2)) {}
     std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(random_() >> 8) % count; }
     bool oneIn(std::uint32_t count) { return below(count) == 0; }
-    /// Likewise, but not in half of all scenes: some kernels are of scenes that have little.
+    /// Like oneIn(), but never true in half of all scenes: some kernels exist only for simple scenes.
     bool extraIn(std::uint32_t count) { return !isPlain_ && oneIn(count); }
 
 private:
@@ -28,9 +28,9 @@ private:
     bool isPlain_;
 };
 
-/// Properties that all bodies of a scene have in common.
+/// Properties shared by all bodies of a scene.
 struct Kind {
-    float radius = 0; ///< of particles; 0 = touch nothing
+    float radius = 0; ///< of particles; 0 = no contacts
     bool isCuttable = false, tears = false, hasVolumes = false;
     float height = 0;
 };
@@ -42,7 +42,7 @@ void addLoose(Scene& scene, Lots&, const Kind& kind) {
         addParticles(scene, {.center = {0, kind.height, 0}, .count = {2, 2, 2}, .radius = kind.radius});
 }
 
-// In steps of one length, of two, or of as many as there are links.
+// A chain whose links have one rest length, or a different one each.
 void addLinks(Scene& scene, Lots& lots, const Kind& kind) {
     const std::uint32_t first = addChain(scene, {.origin = {0, kind.height, 0},
                                                  .direction = {1, 0, 0},
@@ -55,7 +55,7 @@ void addLinks(Scene& scene, Lots& lots, const Kind& kind) {
         if (link.a >= first) link.restLength *= 1 + 0.01f * static_cast<float>(link.a - first);
 }
 
-// Some particles have many links, most have one: too different for as many places a particle.
+// A hub: a few particles have many links and most have one, which is too uneven for equal slots a particle.
 void addHub(Scene& scene, Lots&, const Kind& kind) {
     const auto hub = static_cast<std::uint32_t>(scene.particles.size());
     for (std::uint32_t i = 0; i < 40; ++i) {
@@ -67,7 +67,7 @@ void addHub(Scene& scene, Lots&, const Kind& kind) {
 
 void addSheet(Scene& scene, Lots& lots, const Kind& kind) {
     const bool isPinned = lots.oneIn(2);
-    const float thickness = kind.radius * static_cast<float>(lots.below(3)); // more keeps edges apart, too
+    const float thickness = kind.radius * static_cast<float>(lots.below(3)); // more separates edges, too
     addCloth(scene, {.origin = {0, kind.height, 0},
                      .size = {5, 5},
                      .spacing = spacing,
@@ -98,7 +98,7 @@ void addVoxels(Scene& scene, Lots& lots, const Kind& kind) {
     if (kind.radius > 0 && lots.oneIn(3)) addSurfaceFaces(scene, scene.grids.back());
 }
 
-// Two triangles whose edges cross: edges touch edges in no shipped scene.
+// Two triangles whose edges cross, because no shipped scene has edge contacts.
 void addTriangles(Scene& scene, Lots&, const Kind& kind) {
     const auto first = static_cast<std::uint32_t>(scene.particles.size());
     for (const Vec3& x : {Vec3{-0.9f, 0, 0.02f},

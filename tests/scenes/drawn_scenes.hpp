@@ -1,5 +1,5 @@
-// Small scenes drawn at random, which have between them everything that a scene can have: for tests that need
-// every kernel, not what it computes.
+// Small random scenes that together use every feature of a scene, for tests that need every kernel and not
+// its results.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -11,8 +11,8 @@ struct DrawnScene {
     sim::Settings settings;
 };
 
-/// A scene for a number, the same on every machine. Not every one is valid: some have what their solver has
-/// no form for.
+/// The scene for a number, equal on all machines. Some scenes are invalid, because their solver lacks a
+/// feature.
 DrawnScene drawScene(std::uint32_t seed);
 
 } // namespace sinew::test

@@ -1,4 +1,4 @@
-// Loads scene files from a folder that each test has for itself.
+// A fixture that loads scene files from a folder of its own for each test.
 #pragma once
 
 #include "mesh/export.hpp"
@@ -29,7 +29,7 @@ protected:
         return scenes::load(write("scene.toml", text));
     }
 
-    /// What follows "cannot read scene: <folder>/"; "" where nothing was wrong.
+    /// The error's text after "cannot read scene: <folder>/"; "" if the file loads.
     std::string errorOf(const fs::path& file, const scenes::Overrides& overrides = {}) const {
         try {
             scenes::load(file, overrides);

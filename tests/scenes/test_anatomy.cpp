@@ -1,4 +1,4 @@
-// Bodies as an anatomy has them: an organ of coarse voxels inside of a finely meshed wall that it touches all
+// Tests an anatomy-like scene: an organ of coarse voxels inside a finely meshed wall that touches it all
 // around.
 #include "scenes/load.hpp"
 #include "sim/runner.hpp"
@@ -28,7 +28,7 @@ scenes::LoadedScene organInWall(const std::string& restContact) {
     return loaded;
 }
 
-// The farthest that a particle has gone in some steps [radii].
+// Largest displacement of a particle over some steps [radii].
 double wayIn(const scenes::LoadedScene& loaded, int steps) {
     test::Runner runner(loaded.scene, loaded.settings);
     const sim::Status status = runner.run(steps);

@@ -1,4 +1,4 @@
-// Cuttable bodies touch by default: an organ cut flat lies on itself.
+// Tests that cuttable bodies have contacts by default: a horizontally cut organ rests on its own lower half.
 #include "scenes/load.hpp"
 #include "sim/cutting/cut_body.hpp"
 
@@ -35,7 +35,7 @@ double nearest(const std::vector<Vector3d>& x, const Halves& halves) {
     return least;
 }
 
-// The shipped organ, at rest on the floor, cut through its middle by a horizontal plane.
+// The shipped organ at rest on the floor, cut by a horizontal plane through its middle.
 struct CutOrgan {
     scenes::LoadedScene loaded;
     std::unique_ptr<test::CutBody> body;
@@ -91,7 +91,7 @@ TEST(AnOrganCutFlat, LiesOnItsOtherHalf) {
         cut.halves.upper.size(), upper, middle(x, cut.halves.upper), cut.halves.lower.size(), lower,
         middle(x, cut.halves.lower), least / double{voxel});
     EXPECT_NEAR(gap, upper - lower, 0.5 * double{voxel});
-    // in the middle of a cell of the other half it would be 0.87
+    // In the middle of a cell of the other half, the distance would be 0.87 voxels.
     EXPECT_GT(least, 0.93 * double{voxel}) << "no particle of one is inside of the other";
 }
 

@@ -1,8 +1,7 @@
-// Every shipped scene in which something is cut or tears, with all that must hold after each of its strokes,
-// and in steps in which something tears, looked at (sim/cutting/stroke_check). Scenes are found in their
-// folder, so that a new one is held to it as well. So that it takes seconds, voxels are coarser, substeps and
-// strokes few, and after the first one nobody waits between strokes for bodies to come to rest:
-// SINEW_FULL=1 in the environment plays scenes as they are, but that what is looked at wakes.
+// Plays every shipped scene with cuts or tears, with all checks of sim/cutting/stroke_check after each
+// stroke, and in some steps of a tear. Scenes are found in their folder, so new ones are included. To take
+// only seconds, the test uses coarser voxels and fewer substeps and strokes, and waits for rest only before
+// the first stroke. SINEW_FULL=1 plays the scenes as they are, except that checked bodies stay awake.
 #include "scenes/blades.hpp"
 #include "sim/cutting/stroke_check.hpp"
 #include "sim/cutting/swept_area.hpp"
@@ -26,7 +25,7 @@ namespace {
 
 constexpr std::uint32_t fewSubsteps = 8, roomForContacts = 160, roomForSurface = 1u << 19;
 constexpr float coarseVoxel = 0.025f;                 // [m]
-constexpr std::uint64_t fewSteps = 2, someSteps = 90; // between strokes; of what tears
+constexpr std::uint64_t fewSteps = 2, someSteps = 90; // between strokes; of a scene that tears
 constexpr std::size_t fewStrokes = 5;
 
 std::vector<std::string> cutSceneNames() {
@@ -54,8 +53,7 @@ scenes::LoadedScene loadScene(const std::string& name) {
     return loaded;
 }
 
-// The steps of a scene in which somebody looks: those with a blade, or every few of those in which something
-// may tear.
+// The checked steps of a scene: those with a blade, or every few of those in which the body may tear.
 std::vector<std::uint64_t> stepsToLookAt(const scenes::LoadedScene& loaded) {
     scenes::ScriptedBlades blades(loaded.blades, loaded.scene.dt);
     const bool tears = loaded.scene.grids[0].tearStrain > 0;
@@ -71,10 +69,11 @@ std::vector<std::uint64_t> stepsToLookAt(const scenes::LoadedScene& loaded) {
     return steps;
 }
 
-// A particle alone cannot be cut: of what is crumbs a blade's way says nothing.
+// Single particles cannot be cut, so the swept area is meaningless for fragments.
 constexpr std::uint32_t mostPieces = 10;
 
-// A cut that ends inside of a body ends between particles. False where its end says as much as all the rest.
+// Compares the areas of a cut. Returns false if the cut ends inside of a body and the uncertainty of this
+// end, between particles, is as large as the rest.
 bool checkArea(const test::CutArea& cut, double cell, const std::string& what) {
     const double ofEnd = 2 * cell * cut.front;
     const bool isSure = cut.swept > 0 && cut.swept >= 1.5 * ofEnd;
@@ -97,8 +96,8 @@ TEST_P(CutScenes, HoldAfterEveryStroke) {
     ASSERT_EQ(loaded.scene.grids.size(), 1u) << "one body a scene";
     scenes::ScriptedBlades blades(loaded.blades, loaded.scene.dt);
     StrokeCheck check(loaded.scene, loaded.settings, false);
-    std::uint64_t done = 1;                           // the check has taken the first
-    std::size_t looked = 0, inVain = 0, measured = 0; // areas
+    std::uint64_t done = 1;                           // the check has taken the first step
+    std::size_t looked = 0, inVain = 0, measured = 0; // numbers of areas
     double volumeError = 0;
     StrokeResult last;
     for (const std::uint64_t step : stepsToLookAt(loaded)) {
@@ -121,7 +120,7 @@ TEST_P(CutScenes, HoldAfterEveryStroke) {
         if (!blade.from.empty() && !blade.isCarried && last.triangles > 0 && last.status.pieces <= mostPieces)
             measured +=
                 checkArea(test::cutArea(check.body(), before, blade), check.body().spacing(), what) ? 1 : 0;
-        ASSERT_FALSE(HasFailure()); // what follows would only repeat it
+        ASSERT_FALSE(HasFailure()); // later failures would only repeat it
     }
     EXPECT_GT(looked, 0u) << "nothing was cut";
     const bool isSheet = sim::lattice::isSheet(loaded.scene.grids[0]);

@@ -1,7 +1,7 @@
-// Every kernel of the simulation with the constants of shipped and of drawn scenes, made by the compiler of a
-// real GPU, on a machine that has none (support/null_hardware.hpp). Families are the newest and the oldest
-// that a driver of 2022 knows well, more with SINEW_FULL=1. The variable SINEW_KERNEL_TABLE names a folder
-// for a table of all kernels.
+// Makes every kernel of the simulation, with the constants of shipped and random scenes, by the compiler of a
+// real GPU that need not be present (support/null_hardware.hpp). Uses the newest and the oldest GPU family
+// that a driver of 2022 supports well, and more with SINEW_FULL=1. SINEW_KERNEL_TABLE names a folder for a
+// table of all kernels.
 #include "all_kernels.hpp"
 #include "scenes/drawn_scenes.hpp"
 #include "scenes/load.hpp"
@@ -25,7 +25,7 @@ using test::PipelineFacts;
 
 namespace {
 
-constexpr std::uint32_t fewSubsteps = 3; // the first, the last and one between: all kernels of a step
+constexpr std::uint32_t fewSubsteps = 3; // the first, the last and one between use all kernels of a step
 
 constexpr std::uint32_t drawnScenes = 2000;
 
@@ -45,7 +45,7 @@ std::vector<sim::Forms> formsOf(const vk::Device& device, const sim::Settings& s
     return forms;
 }
 
-/// Makes the kernels of scenes on a device, and knows of which code.
+/// Makes the kernels of scenes on a device, and records their shader code.
 struct Maker {
     const vk::Device& device;
     std::set<const vk::ShaderCode*> made{};
@@ -60,13 +60,13 @@ struct Maker {
     }
 };
 
-// The scene so far from the origin that its positions keep what rounding takes from them (sim/rounding.hpp).
+// The scene far from the origin, so that positions need rounding remainders (sim/rounding.hpp).
 sim::Scene farAway(sim::Scene scene) {
     for (sim::Particle& particle : scene.particles) particle.position.x += 100;
     return scene;
 }
 
-// The forms of kernels that keep forces, where the scene may have them: with `jacobi` without links.
+// Makes the kernels that keep forces, if the scene supports them; for `jacobi`, without its links.
 void makeKept(Maker& maker, sim::Scene scene, sim::Settings settings) {
     settings.keepsForces = true;
     if (settings.solver == sim::Solver::jacobi) {
@@ -77,7 +77,8 @@ void makeKept(Maker& maker, sim::Scene scene, sim::Settings settings) {
     if (sim::validate(scene, settings).empty()) maker.make(scene, settings);
 }
 
-// A scene in all its forms, without and with hands and pokes, which a resident body has not; and far away.
+// Makes a scene in all its forms, with and without grabs and pokes, which exclude resident bodies, and far
+// away.
 void makeForms(Maker& maker, const sim::Scene& scene, sim::Settings settings) {
     for (const sim::Forms& forms : formsOf(maker.device, settings)) {
         settings.forms = forms;
@@ -90,8 +91,8 @@ void makeForms(Maker& maker, const sim::Scene& scene, sim::Settings settings) {
     makeKept(maker, scene, settings);
 }
 
-// The scene with pieces too small to stay, and skins as they were before mesh::addMesh split them, or such
-// that stretch over cuts.
+// The scene with removal of fragments, and with skins either as before mesh::addMesh split them, or
+// stretching over cuts.
 sim::Scene crumbling(sim::Scene scene, bool stretches) {
     scene.crumbs = 4;
     for (sim::Skin& skin : scene.skins) {
@@ -102,7 +103,7 @@ sim::Scene crumbling(sim::Scene scene, bool stretches) {
     return scene;
 }
 
-// The scene with cells that come back from being turned inside out, as bodies of a user's mesh do.
+// The scene with cells that recover from inversion, as the bodies of a user's mesh do.
 sim::Scene recovering(sim::Scene scene) {
     for (sim::Grid& grid : scene.grids)
         if (grid.nodes[1] > 1) grid.recoveryPressure = std::max(grid.recoveryPressure, 100.0f);
@@ -118,7 +119,7 @@ std::vector<fs::path> sceneFiles() {
     return files;
 }
 
-// None where the scene has something that the solver has no form for.
+// Loads the scene for this solver; empty if the solver lacks a feature of the scene.
 std::optional<scenes::LoadedScene> loadFor(const fs::path& file, const char* solver) {
     try {
         return scenes::load(file, {.solver = solver});
@@ -151,7 +152,7 @@ void makeKernelsOfDrawnScenes(Maker& maker) {
         auto [scene, settings] = test::drawScene(seed);
         if (!sim::validate(scene, settings).empty()) continue;
         maker.make(scene, settings);
-        settings.forms.columns = settings.forms.chunk = 1; // one node an invocation
+        settings.forms.columns = settings.forms.chunk = 1; // one node for each invocation
         maker.make(scene, settings);
         makeKept(maker, scene, settings);
         ++valid;
@@ -178,7 +179,7 @@ void writeTable(const std::vector<PipelineFacts>& pipelines, const std::string& 
 
 struct Family {
     const char* name;
-    /// At how many of its 256 registers the compiler of Mesa 22.3 stops, and spills the rest; 0 = at all.
+    /// Registers, of 256, above which the compiler of Mesa 22.3 spills; 0 = it never does.
     std::uint64_t mostRegisters = 0;
 };
 
@@ -191,7 +192,7 @@ void expectNoSpill(const PipelineFacts& facts) {
     }
 }
 
-// Every kernel of the build, but for those that no scene can have.
+// Expects every kernel of the build except those that no scene can use.
 void expectAllKernels(const std::set<const vk::ShaderCode*>& made) {
     struct Never {
         const vk::ShaderCode* code;
@@ -215,7 +216,7 @@ TEST_P(GpuCompiler, MakesEveryKernelWithoutSpilling) {
     const auto hardware = NullHardware::make(family.name);
     if (!hardware)
         GTEST_SKIP() << "no driver here compiles for " << family.name << ": install mesa-vulkan-drivers";
-    const vk::KeptKernels kept(hardware->device()); // each is made once
+    const vk::KeptKernels kept(hardware->device()); // makes each kernel only once
     Maker maker{hardware->device()};
     makeKernelsOfAllScenes(maker);
     makeKernelsOfDrawnScenes(maker);

@@ -1,4 +1,4 @@
-// Blades and bodies that may be cut, as a scene file says them.
+// Tests of blades and cuttable bodies in scene files.
 #include "scenes/blades.hpp"
 #include "scenes/load_fixture.hpp"
 
@@ -137,7 +137,7 @@ TEST_F(LoadBlades, OfStrokesAreSquaresInTheirCuboidInAnyDirection) {
     const scenes::LoadedScene loaded = load(box + strokes);
     ASSERT_EQ(loaded.blades.size(), 300u);
     Eigen::Vector3d mean = Eigen::Vector3d::Zero(), low = mean, high = mean;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(); // of the normals
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(); // covariance of the normals
     for (const scenes::BladeMotion& motion : loaded.blades) {
         std::vector<Eigen::Vector3d> corners;
         for (const auto& edge : motion.edges)
@@ -178,7 +178,7 @@ TEST_F(LoadBlades, OfStrokesComeInWholeStepsOneAfterTheOther) {
     const auto framesOf = [&](const std::string& keys) {
         const scenes::LoadedScene loaded = load(box + strokes + keys);
         scenes::ScriptedBlades blades(loaded.blades, loaded.scene.dt);
-        std::vector<int> frames; // negative: goes on
+        std::vector<int> frames; // a negative number continues the stroke before
         for (int frame = 0; frame < 20; ++frame) {
             const sim::Blade cut = blades.at(static_cast<std::uint64_t>(frame));
             if (!cut.from.empty()) frames.push_back(cut.isCarried ? -frame : frame);

@@ -1,4 +1,4 @@
-// Scene files about particles that touch each other: bodies that collide, loose particles, [contacts].
+// Tests of scene files with particle contacts: colliding bodies, loose particles, [contacts].
 #include "scenes/load_fixture.hpp"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST_F(LoadContacts, GivesParticlesOfABodyARadiusOnlyWhereItCollides) {
     EXPECT_EQ(radiiOf(load(smallCloth + "collides = true\nradius = 0.01\n").scene), std::set<float>{0.01f});
 }
 
-// Pieces that a cut parts must not fall through itself. Only `split` has contacts, and knows cuts.
+// The pieces of a cut must not fall through each other. Only `split` supports contacts and cuts.
 TEST_F(LoadContacts, LetsWhatIsCuttableCollideByDefault) {
     const std::string mesh =
         "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\ncuttable = true\n";
@@ -74,12 +74,12 @@ TEST_F(LoadContacts, LetsWhatIsCuttableCollideByDefault) {
     EXPECT_FALSE(thick.scene.faces.empty());
 }
 
-// All scenes in which something may be cut.
+// Covers all shipped scenes with cuttable bodies.
 TEST_F(LoadContacts, LetsAllCuttableBodiesOfTheScenesTouch) {
     std::size_t count = 0;
     for (const fs::directory_entry& file : fs::directory_iterator(SINEW_SOURCE_FOLDER "/scenes")) {
         if (file.path().extension() != ".toml") continue;
-        if (file.path().stem() == "drop_mesh") continue; // has the mesh of the command line
+        if (file.path().stem() == "drop_mesh") continue; // needs the mesh of the command line
         const scenes::LoadedScene loaded = scenes::load(file.path());
         if (loaded.settings.solver != sim::Solver::split) continue;
         for (const sim::Grid& grid : loaded.scene.grids) {
@@ -436,7 +436,7 @@ TEST_F(LoadContacts, ReadsEveryShippedSceneOfContacts) {
     }
 }
 
-// A body has them if something smaller than the holes between its particles collides, or the file asks for
+// A body has faces if an object smaller than the gaps between its particles collides, or if the file requests
 // them.
 TEST_F(LoadContacts, GivesVoxelBodiesFacesWhereTheyNeedThem) {
     const std::string

@@ -1,4 +1,4 @@
-// What a path may be and what a text may hold, whatever it says.
+// Tests of file paths and file contents, independent of the scene's keys.
 #include "scenes/load_fixture.hpp"
 
 #include <clocale>
@@ -45,7 +45,7 @@ TEST_F(Load, ReadsNumbersAlikeInALocaleWithDecimalCommas) {
 }
 
 TEST_F(Load, SurvivesDeepNestingOnASmallStack) {
-    // A stack of 256 KiB: recursion over 10,000 brackets or dots would not fit.
+    // With a stack of 256 KiB, recursion over 10,000 brackets or dots would overflow.
     const pid_t child = ::fork();
     if (child == 0) {
         rlimit limit{256 << 10, 256 << 10};

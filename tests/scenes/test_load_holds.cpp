@@ -1,4 +1,4 @@
-// [[hold]], and how bodies begin.
+// Tests of [[hold]] and of the initial state of bodies.
 #include "scenes/load_fixture.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace {
 
 class LoadHolds : public test::LoadFixture {};
 
-// 5 x 3 x 3 particles of 0.1 m from (0, 0, 0) to (0.4, 0.2, 0.2).
+// A beam of 5 x 3 x 3 particles with a spacing of 0.1 m, from (0, 0, 0) to (0.4, 0.2, 0.2).
 const std::string beam =
     "[[box]]\nname = \"beam\"\nparticles = [5, 3, 3]\nspacing = 0.1\norigin = [0, 0, 0]\n";
 const std::string chain = "[[chain]]\nparticles = 5\nlength = 0.4\norigin = [0, 1, 0]\npinned = []\n";
@@ -74,7 +74,7 @@ TEST_F(LoadHolds, ThatTakeNobodyOrNameNobodyAreRefusedInASentence) {
                 "scene.toml:9: hold[0].bodies names no body: name some, or leave the key out");
 }
 
-// The printed distance is enough: a radius larger by that takes somebody.
+// The printed distance suffices: a radius larger by it holds a particle.
 TEST_F(LoadHolds, ThatTakeNobodySayAtLeastHowFarTheNearestIs) {
     for (const double x : {-0.12341, -0.12344, -0.50001, -1.0 / 3}) {
         const auto sphere = [&](double radius) {
@@ -180,7 +180,7 @@ TEST_F(LoadHolds, BodiesOfEveryKindBeginAsTheirTablesSay) {
                     2 * (double{last.position.x} - double{first.position.x}), 1e-5)
             << body;
     }
-    const auto loaded = load(beam + turned); // about its middle, (0.2, 0.1, 0.1)
+    const auto loaded = load(beam + turned); // rotated about its middle, (0.2, 0.1, 0.1)
     EXPECT_NEAR(double{loaded.scene.particles[0].position.x}, 0.3, 1e-6);
     EXPECT_NEAR(double{loaded.scene.particles[0].position.y}, -0.1, 1e-6);
 }

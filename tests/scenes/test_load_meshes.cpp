@@ -1,4 +1,4 @@
-// Meshes in scenes: where they may come from, how they are placed, what is said about them.
+// Tests of meshes in scenes: their sources, their placement, and the messages about them.
 #include "mesh/generate.hpp"
 #include "scenes/load_fixture.hpp"
 #include "scenes/mesh_notes.hpp"
@@ -19,7 +19,7 @@ double width(const scenes::LoadedScene& loaded) {
     return double{surface.high.x} - double{surface.low.x};
 }
 
-/// How many lines hold a text.
+/// Number of lines that contain a text.
 std::ptrdiff_t count(const std::vector<std::string>& lines, const std::string& text) {
     return std::ranges::count_if(lines,
                                  [&](const std::string& line) { return line.find(text) != line.npos; });
@@ -28,7 +28,7 @@ std::ptrdiff_t count(const std::vector<std::string>& lines, const std::string& t
 } // namespace
 
 TEST_F(Load, DropsTheMeshOfTheCommandLine) {
-    mesh::exportObj(folder_ / "tetrahedron.obj", tetrahedron(7)); // millimetres, metres: the scene scales it
+    mesh::exportObj(folder_ / "tetrahedron.obj", tetrahedron(7)); // in any unit: the scene scales it
     const scenes::LoadedScene loaded = scenes::load(folder_ / "tetrahedron.obj");
     ASSERT_EQ(loaded.meshes.size(), 1u);
     EXPECT_EQ(loaded.meshes[0].file, "tetrahedron.obj");
@@ -202,7 +202,7 @@ TEST_F(Load, GeneratesShapesByName) {
                 "scene.toml:5: mesh[0].voxel is too small");
 }
 
-// A mesh in millimetres that is taken for metres, with a voxel in metres.
+// A mesh in millimetres that is read as metres, with a voxel size in metres.
 TEST_F(Load, NamesTheUnitWhereVoxelsAreTooSmallForIt) {
     mesh::exportObj(folder_ / "m.obj", tetrahedron(200));
     const std::string error = errorOfText("[[mesh]]\nfile = \"m.obj\"\nvoxel = 0.01\n");
@@ -239,7 +239,7 @@ TEST_F(Load, ReadsAMeshInItsUnit) {
     EXPECT_NEAR(width(centered), 0.2, 1e-6);
 }
 
-// Two organs in millimetres, whose corners touch at (30, 40, 50) of their file.
+// Two organs in millimetres whose corners touch at (30, 40, 50) of their file.
 TEST_F(Load, KeepsMeshesOfOneFileSystemTogether) {
     mesh::TriangleMesh first = tetrahedron(100), second = tetrahedron(60);
     for (sim::Vec3& x : first.positions) x = {30 + x.x, 40 + x.y, 50 + x.z};
@@ -254,7 +254,7 @@ TEST_F(Load, KeepsMeshesOfOneFileSystemTogether) {
              "translation = [0.5, 0.25, -0.05]\n");
     ASSERT_EQ(loaded.meshes.size(), 2u);
     const mesh::MeshReport &a = loaded.meshes[0].surface, &b = loaded.meshes[1].surface;
-    // (x, y, z) becomes (-y, x, z), then moves
+    // (x, y, z) becomes (-y, x, z), and is then translated.
     EXPECT_NEAR(double{a.high.x}, 0.5 - 0.04, 1e-6);
     EXPECT_NEAR(double{a.low.y}, 0.25 + 0.03, 1e-6);
     EXPECT_NEAR(double{a.low.z}, 0, 1e-6);
@@ -318,7 +318,8 @@ TEST_F(Load, NotesHowLargeAMeshIsAndWarnsOfAnotherUnit) {
 
 namespace {
 
-/// A box of a size with a corner at `low`, as lines of an OBJ whose first vertex has an index.
+/// Lines of an OBJ file: `head`, then a cube of `size` with a corner at `low`, whose first vertex has index
+/// `first`.
 std::string objCube(const std::string& head, int first, sim::Vec3 low, float size) {
     std::string text = head;
     for (int corner = 0; corner < 8; ++corner)
@@ -394,7 +395,7 @@ TEST_F(Load, ChoosesObjectsOfAMesh) {
                 "scene.toml:6: mesh_collider[0].object names \"x\"");
 }
 
-// Voxels of 0.2 m bridge a gap of 0.1 m, those of 0.025 m do not.
+// Voxels of 0.2 m bridge a gap of 0.1 m, voxels of 0.025 m do not.
 TEST_F(Load, SaysWhereVoxelsJoinWhatIsApart) {
     write("gap.obj", objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {1.1f, 0, 0}, 1));
     const std::string scene = "[[mesh]]\nfile = \"gap.obj\"\nvoxel = ";
@@ -421,7 +422,7 @@ TEST_F(Load, SaysWhereVoxelsJoinWhatIsApart) {
     EXPECT_EQ(joined(objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {1.7f, 0, 0}, 1)), 0);
 }
 
-// Crossed bars have no vertex inside of each other, and their vertices are far apart.
+// No vertex of crossed bars lies inside the other bar, and their vertices are far apart.
 TEST_F(Load, SaysThatCrossedBarsOverlapAndHowFarCoarseOnesAreApart) {
     const auto bars = [](const std::string& low, const std::string& high) {
         const std::string faces[] = {"f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n",
@@ -537,7 +538,7 @@ TEST_F(Load, RefusesPartsThatCannotBe) {
         "some of them by object");
 }
 
-// A plate of 6 mm, 0.4 m long: 2 x 0.4 / 0.006 = 134 voxels make two of its thickness.
+// A plate of 6 mm, 0.4 m long: 2 x 0.4 / 0.006 = 134 voxels give two across its thickness.
 TEST_F(Load, WarnsOfAWallThinnerThanTwoVoxels) {
     write("plate.obj", "v -0.2 0 -0.2\nv 0.2 0 -0.2\nv 0.2 0 0.2\nv -0.2 0 0.2\n"
                        "v -0.2 0.006 -0.2\nv 0.2 0.006 -0.2\nv 0.2 0.006 0.2\nv -0.2 0.006 0.2\n"

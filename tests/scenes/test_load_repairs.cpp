@@ -1,4 +1,4 @@
-// Notes and warnings about repairs of meshes in scenes, and the key that joins a wide seam.
+// Tests of notes and warnings about mesh repairs in scenes, and of the key that joins a wide seam.
 #include "mesh/generate.hpp"
 #include "scenes/load_fixture.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 
 class Load : public test::LoadFixture {};
 
-/// How many lines hold a text.
+/// Number of lines that contain a text.
 std::ptrdiff_t count(const std::vector<std::string>& lines, const std::string& text) {
     return std::ranges::count_if(lines,
                                  [&](const std::string& line) { return line.find(text) != line.npos; });
@@ -82,7 +82,7 @@ TEST_F(Load, NotesAWeldThatJoinsNothing) {
 
 namespace {
 
-/// Spheres of these sizes beside each other along x, at 0, 2, 4, ...
+/// Spheres of these sizes along x at 0, 2, 4, ...
 mesh::TriangleMesh spheres(const std::vector<float>& sizes) {
     const mesh::TriangleMesh one = mesh::generate("sphere", 12);
     mesh::TriangleMesh all;
@@ -99,7 +99,8 @@ mesh::TriangleMesh spheres(const std::vector<float>& sizes) {
 
 } // namespace
 
-// A number of a part means another one after a weld: what it is now is noted, and the advice says so before.
+// A weld changes the meaning of a component's number. A note gives the new one, and the advice announces it
+// before.
 TEST_F(Load, SaysWhichPartAnObjectIs) {
     mesh::TriangleMesh mesh = spheres({1, 0.5f});
     mesh.positions.insert(mesh.positions.end(),
@@ -132,8 +133,8 @@ TEST_F(Load, NamesMeshesOfOneFileByTheirBodies) {
     EXPECT_EQ(count(load(mesh).notes, "mesh s.obj: "), 1);
 }
 
-// A sphere that faces inward within an open one is left out of it. Within a closed one it is a cavity, beside
-// it it is turned.
+// An inverted sphere within an open one is left out. Within a closed one it is a cavity, and beside it, it is
+// turned.
 TEST_F(Load, WarnsOfAComponentThatIsInsideOut) {
     const auto warned = [&](bool isOpen, bool isNested) {
         mesh::TriangleMesh mesh = spheres({1, 0.3f});

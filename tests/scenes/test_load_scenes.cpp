@@ -1,4 +1,4 @@
-// From the tables of a file to a scene.
+// Tests of the conversion of a file's tables to a scene.
 #include "scenes/load_fixture.hpp"
 
 #include "sim/validate.hpp"
@@ -269,7 +269,7 @@ TEST_F(Load, LeavesOutTheRecoveryOfAMeshThatNobodyAskedForAndNothingComputes) {
 }
 
 TEST_F(Load, RefusesVolumesThatItCannotCompute) {
-    const std::string atHome = smallCloth + "origin = [0, 0, 0]\n"; // the scene is local to its first body
+    const std::string atHome = smallCloth + "origin = [0, 0, 0]\n"; // relative to the first body
     const std::string box = "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\n";
     const std::string here = box + "center = [0, 0, 0]\n", far = atHome + box + "center = [9e5, 0, 0]\n";
     expectError(here + "poisson_ratio = 0.5\n", "scene.toml:5: box[0].poisson_ratio is 0.5: ");
@@ -392,7 +392,7 @@ TEST_F(Load, ChoosesSubstepsWhereTheFileDoesNotSay) {
     const std::string box = "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\n";
     for (const char* solver : {"", "[solver]\nsubsteps = \"auto\"\n"}) {
         const scenes::LoadedScene loaded = load(solver + box);
-        // 1e5 Pa: 22.4 substeps would be exact
+        // With 1e5 Pa, 22.4 substeps would be exact.
         EXPECT_EQ(loaded.settings.substeps, 22u);
         EXPECT_EQ(loaded.substeps.reason, sim::SubstepReason::stiffness);
     }

@@ -1,4 +1,4 @@
-// Warnings of scenes that load.
+// Tests of the warnings for scenes that load.
 #include "scenes/load_fixture.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ TEST_F(LoadWarnings, MeasuresFreeParticlesByTheirDiameter) {
     EXPECT_TRUE(warnings("count = [1, 1, 1]\nradius = 6e-5\n").empty());
     EXPECT_TRUE(warnings("count = [1, 10, 1]\nspacing = 150\nradius = 0.05\n").empty());
     const std::vector<std::string> scattered = warnings("count = [1, 10, 1]\nspacing = 300\nradius = 0.05\n");
-    ASSERT_EQ(scattered.size(), 1u); // rounded, but none of them is large
+    ASSERT_EQ(scattered.size(), 1u); // positions are rounded, but no body is large
     EXPECT_TRUE(scattered[0].starts_with("positions are rounded to 0.12 mm at 1350 m")) << scattered[0];
 }
 
@@ -47,7 +47,7 @@ TEST_F(LoadWarnings, WarnsWherePositionsAreTooCoarse) {
             .warnings;
     };
     EXPECT_TRUE(warnings("15", "16").empty());
-    EXPECT_TRUE(warnings("15", "256").empty()); // what is slow moves on (tests/sim/test_slow_motion.cpp)
+    EXPECT_TRUE(warnings("15", "256").empty()); // slow motion is handled (tests/sim/test_slow_motion.cpp)
     EXPECT_EQ(warnings("1000", "10"),
               std::vector<std::string>{
                   "positions are rounded to 0.061 mm at 1000 m from the origin, where body \"box\" is, which "
@@ -58,7 +58,7 @@ TEST_F(LoadWarnings, WarnsWherePositionsAreTooCoarse) {
     EXPECT_EQ(warnings("900000", "10").size(), 1u);
 }
 
-// A plate that nothing touches is never compared with a position, its thickness is of no matter.
+// A plate without contacts is never compared with a position, so its thickness is irrelevant.
 TEST_F(LoadWarnings, HoldsRoundingAgainstWhatMoves) {
     mesh::exportObj(folder_ / "t.obj", test::tetrahedron(0.1f));
     const auto coarse = [&](const std::string& more) {
@@ -123,9 +123,9 @@ TEST_F(LoadWarnings, SaysHowManySubstepsAStiffBodyNeeds) {
     const std::vector<std::string> warnings = load(box).warnings;
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find(" elastic links are softer than asked"), std::string::npos);
-    // Stiffness and mass are assembled alike, so that each particle has sum k / m = 18 x 0.4 E a / (density
-    // a^3) and h^2 sum k / m <= 1: 1/60 s sqrt(7.2 E / density) / spacing = 316.2 substeps; sqrt(0.95) of it
-    // leave a link at most 5 % too soft.
+    // Stiffness and mass are assembled alike, so each particle has sum k / m = 18 x 0.4 E a / (density a^3).
+    // The condition h^2 sum k / m <= 1 gives 1/60 s sqrt(7.2 E / density) / spacing = 316.2 substeps;
+    // sqrt(0.95) of them leave a link at most 5 % too soft.
     EXPECT_NE(warnings[0].find(": 309 substeps would keep all links of the scene within 5 %"),
               std::string::npos)
         << warnings[0];
@@ -293,7 +293,7 @@ TEST_F(LoadWarnings, NamesNoNumberOfSubstepsWhereAveragingIsTooSoft) {
     EXPECT_EQ(loaded.warnings[0].find("would keep"), std::string::npos);
 }
 
-// The advised dt is no longer warned of, a longer one is.
+// The advised dt gives no warning, a longer one does.
 TEST_F(LoadWarnings, NameTheStepThatCures) {
     const std::string stiff = "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\n";
     const auto saying = [&](const std::string& head, const std::string& said) {
@@ -338,7 +338,7 @@ TEST_F(LoadWarnings, SayWhatNothingCanTouch) {
     EXPECT_EQ(says(box + plane), "");
 }
 
-// The words of the API stand in validate() alone.
+// Terms of the API occur only in validate(); these messages use the words of the file.
 TEST_F(LoadWarnings, AreRefusalsInTheWordsOfTheFileWhereASolverHasNoForm) {
     mesh::exportObj(folder_ / "t.obj", test::tetrahedron(0.1f));
     const std::string solver = "[solver]\nname = \"gauss_seidel\"\n",

@@ -1,5 +1,5 @@
-// A shipped scene in which cuts leave a lobe that lies on its own wound, with faces: it does not enter the
-// body.
+// Tests a shipped scene with faces in which cuts leave a lobe that lies on its own cut surface: it must not
+// enter the body.
 #include "scenes/blades.hpp"
 #include "scenes/load.hpp"
 #include "sim/bodies.hpp"

@@ -1,4 +1,4 @@
-// The table of keys against what else speaks of them: the documentation, the defaults of the structs,
+// Compares the table of keys with the documentation and with the defaults of the structs, and tests
 // suggestions.
 #include "scenes/schema.hpp"
 
@@ -28,7 +28,7 @@ std::string code(std::string_view text) {
     return quoted.append(text).append("`");
 }
 
-/// The line of docs/scene-files.md that describes a key.
+/// The row of docs/scene-files.md that describes a key.
 std::string rowOf(const Key& key) {
     const scenes::KindRule& rule = scenes::ruleOf(key.kind);
     const std::string fallback = key.isRequired ? "required" : key.fallback.empty() ? "" : code(key.fallback);
@@ -40,10 +40,10 @@ std::string rowOf(const Key& key) {
     return row;
 }
 
-/// The part of the documentation from a section's heading to the next one.
+/// The part of the documentation from a section's heading to the next heading.
 std::string partOf(const std::string& text, const Key& key) {
     std::string heading = "\n## Top level\n";
-    const std::size_t dot = key.section.rfind('.'); // of a table in a table
+    const std::size_t dot = key.section.rfind('.'); // the table of a nested table
     const bool isInner = dot != std::string_view::npos;
     const std::string_view outer = isInner ? key.section.substr(0, dot) : "";
     const Key* table = scenes::findKey(outer, isInner ? key.section.substr(dot + 1) : key.section);
@@ -106,7 +106,7 @@ TEST(EditDistance, CountsInsertionsDeletionsReplacementsAndSwaps) {
 
 TEST(Suggestions, FindEveryKeyFromOneMisspelling) {
     for (const Key& key : scenes::schema()) {
-        if (key.name.size() < 5) continue; // shorter ones may be as near to another key
+        if (key.name.size() < 5) continue; // shorter names may be as similar to another key
         for (const std::string& wrong :
              {std::string(key.name) + "s", std::string(key.name.substr(1)),
               std::string(1, key.name[1]) + key.name[0] + std::string(key.name.substr(2))})

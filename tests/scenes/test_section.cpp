@@ -1,5 +1,5 @@
-// Every key of the schema against values at, below and above its range, against NaN, infinities and wrong
-// types. The tables are made from the schema: a key that is added is tested.
+// Tests every key of the schema with values at, below and above its range, with NaN, infinities and wrong
+// types. The tables are made from the schema, so new keys are included.
 #include "scenes/section.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ std::string shortest(double value) {
     return {text, std::to_chars(std::begin(text), std::end(text), value).ptr};
 }
 
-/// `text` as the value of a key: as often as the key has components.
+/// `text` as the value of a key, repeated for each of its components.
 std::string repeated(const Key& key, const std::string& text) {
     const std::size_t components = scenes::ruleOf(key.kind).components;
     if (components == 1) return text;
@@ -27,7 +27,7 @@ std::string repeated(const Key& key, const std::string& text) {
     return list + "]";
 }
 
-/// A right value for a key that must be there.
+/// A valid value for a required key.
 std::string filler(const Key& key) {
     if (!key.fallback.empty()) return std::string(key.fallback);
     if (key.kind == Kind::lines) return "[[[0, 0, 0], [0, 0, 1]]]";
@@ -35,8 +35,8 @@ std::string filler(const Key& key) {
     return key.kind == Kind::text ? "\"x\"" : repeated(key, "1");
 }
 
-/// The error of a section in which `key` has `value` and all other required keys are right; "" if there is
-/// none.
+/// The error of a section in which `key` has `value` and all other required keys are valid; "" without an
+/// error.
 std::string errorOf(const Key& key, const std::string& value) {
     std::string text = std::string(key.name) + " = " + value + "\n";
     for (const Key& other : scenes::schema())
@@ -154,7 +154,7 @@ TEST(EveryRequiredKey, IsMissedAtTheHeadOfItsTable) {
     const std::string file = "test.toml";
     for (const Key& key : scenes::schema()) {
         if (!key.isRequired) continue;
-        const std::string name(key.section.substr(key.section.rfind('.') + 1)); // of a table in a table
+        const std::string name(key.section.substr(key.section.rfind('.') + 1)); // the table of a nested table
         std::string text = "\n[[" + name + "]]\n";
         for (const Key& other : scenes::schema())
             if (other.section == key.section && other.isRequired && other.name != key.name)

@@ -1,4 +1,4 @@
-// A GoogleTest environment owns the device, a listener turns messages into failures.
+// A GoogleTest environment owns the device, and a listener turns validation messages into failures.
 #include "support/device.hpp"
 
 #include "support/full.hpp"
@@ -13,8 +13,8 @@
 #include <optional>
 #include <utility>
 
-// The validation layer keeps memory until the process ends, which the leak detector reports in every binary
-// that loads it. Device objects that leak are reported by the layer itself.
+// The validation layer keeps memory until the process ends, and the leak detector would report it in every
+// binary that loads the layer. The layer itself reports leaked device objects.
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() {
     return "detect_leaks=0";
@@ -43,7 +43,7 @@ public:
         return *this;
     }
 
-    void TearDown() override { // GoogleTest's spelling
+    void TearDown() override { // name given by GoogleTest
         kept_.reset();
         queue_.reset();
         device_.reset();
@@ -65,7 +65,7 @@ private:
     std::vector<std::string> messages_;
     std::unique_ptr<vk::Device> device_;
     std::unique_ptr<vk::Queue> queue_;
-    std::optional<vk::KeptKernels> kept_; // many a test makes one simulation after the other
+    std::optional<vk::KeptKernels> kept_; // tests often make several simulations in a row
 };
 
 class MessagesFailTests final : public testing::EmptyTestEventListener {
@@ -80,7 +80,7 @@ private:
 };
 
 SharedDevice& registerSharedDevice(bool hasValidation) {
-    auto* shared = new SharedDevice(hasValidation); // GoogleTest owns environment and listener
+    auto* shared = new SharedDevice(hasValidation); // GoogleTest owns the environment and the listener
     testing::AddGlobalTestEnvironment(shared);
     testing::UnitTest::GetInstance()->listeners().Append(new MessagesFailTests(*shared));
     return *shared;

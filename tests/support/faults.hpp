@@ -1,4 +1,4 @@
-// Makes Vulkan functions of a HostDevice fail when a test says so.
+// Makes Vulkan functions of a HostDevice fail on request.
 #pragma once
 
 #include "support/host_device.hpp"
@@ -10,11 +10,11 @@ namespace sinew::test {
 
 inline constexpr int never = std::numeric_limits<int>::max();
 
-// Vulkan's entry points carry no user pointer.
+// Global state of the replaced Vulkan functions, which have no user pointer.
 struct Fault {
-    int callsToGo = never; ///< succeed before the one that fails
+    int callsToGo = never; ///< number of successful calls before the failure
     VkResult result = VK_SUCCESS;
-    std::string struck; ///< the call that failed
+    std::string struck; ///< name of the call that failed
 };
 inline Fault fault;
 

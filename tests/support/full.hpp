@@ -1,4 +1,4 @@
-// Tests that have a longer form: more of the same in the same way, for whoever has the time (SINEW_FULL=1).
+// Whether tests run in their longer form (SINEW_FULL=1), which has more cases of the same kind.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Raw Vulkan on purpose: what Device::create does must not be needed by Device::borrow.
+// Uses raw Vulkan, so that Device::borrow is tested without help from Device::create.
 #include "support/host_device.hpp"
 
 #include "vk/check.hpp"
@@ -13,7 +13,7 @@ namespace sinew::test {
 
 namespace {
 
-// Vulkan's entry points carry no user pointer, so that what a test replaces has to be found from here.
+// Global state of the replaced Vulkan functions, which have no user pointer.
 struct Replacements {
     PFN_vkGetInstanceProcAddr real = nullptr;
     PFN_vkGetDeviceProcAddr realDevice = nullptr;
@@ -40,7 +40,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT,
     return VK_FALSE;
 }
 
-// Without destructors, which wait for the device.
+// Ends without destructors, because these wait for the device.
 [[noreturn]] void endProgram() {
     std::fprintf(
         stderr,

@@ -1,5 +1,5 @@
-// Instance and device as a foreign engine makes them: by hand, no optional feature, one queue, its own
-// messenger and, where a test wants it, its own idea of what some Vulkan functions do.
+// Instance and device as another engine makes them: without optional features, with one queue, its own
+// messenger and, if a test requests it, replaced Vulkan functions.
 #pragma once
 
 #include "vk/device.hpp"
@@ -12,10 +12,10 @@ namespace sinew::test {
 
 struct HostRequest {
     bool hasGpuAssistedValidation = false; ///< instead of synchronisation validation
-    bool hasDebugUtils = true;             ///< passed on to Sinew; the host itself always has a messenger
+    bool hasDebugUtils = true;             ///< whether Sinew gets it; the host always has a messenger
 };
 
-/// One at a time. Destroys device and instance, which is when the layer reports what leaked.
+/// One object at a time. The destructor destroys device and instance, upon which the layer reports leaks.
 class HostDevice {
 public:
     explicit HostDevice(const HostRequest& request = {});
@@ -23,20 +23,21 @@ public:
     HostDevice(const HostDevice&) = delete;
     HostDevice& operator=(const HostDevice&) = delete;
 
-    /// What an engine would pass on. The spans in it live as long as this object.
+    /// The handles that an engine would pass. The spans in it live as long as this object.
     vk::HostDevice handles() const;
     const vk::InstanceFunctions& instanceFunctions() const noexcept { return instanceFunctions_; }
     const vk::DeviceFunctions& functions() const noexcept { return functions_; }
 
-    /// Sinew gets `replacement` instead of the function `name`, of instance or device.
+    /// Gives Sinew `replacement` instead of the instance or device function `name`.
     void replace(const std::string& name, PFN_vkVoidFunction replacement);
-    /// What the loader has under this name, for a replacement that passes calls on.
+    /// The loader's function of this name, for a replacement that forwards calls.
     PFN_vkVoidFunction original(const std::string& name) const;
-    /// Runs one recording on the host's queue and waits with a fence. Ends the program with a sentence where
-    /// the device has not come back after `longestSubmission`: nothing that it uses can be destroyed then.
+    /// Runs one recording on the host's queue and waits with a fence. Ends the program with a message if the
+    /// device does not finish within `longestSubmission`, because no object that it uses can then be
+    /// destroyed.
     void submit(const std::function<void(VkCommandBuffer)>& record);
     static constexpr std::chrono::seconds longestSubmission{10};
-    /// Destroys the device and returns all validation messages so far, leaks included.
+    /// Destroys the device and returns all validation messages so far, including leaks.
     std::vector<std::string> finish();
 
 private:

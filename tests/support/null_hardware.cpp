@@ -1,4 +1,4 @@
-// The device is borrowed, so that the functions that make and name pipelines can be wrapped.
+// Borrows the device, so that the functions that make and name pipelines can be wrapped.
 #include "support/null_hardware.hpp"
 
 #include "vk/check.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* statisticsExtension = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
 
-// Vulkan's entry points carry no user pointer.
+// Global state of the wrapped Vulkan functions, which have no user pointer.
 struct Capture {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     PFN_vkGetDeviceProcAddr getDeviceProcAddr = nullptr;
@@ -27,9 +27,9 @@ struct Capture {
     PFN_vkCreateGraphicsPipelines createGraphics = nullptr;
     PFN_vkGetPipelineExecutablePropertiesKHR properties = nullptr;
     PFN_vkGetPipelineExecutableStatisticsKHR statistics = nullptr;
-    std::set<const std::uint32_t*> codes; // of all modules
+    std::set<const std::uint32_t*> codes; // code of all modules
     std::vector<PipelineFacts> pipelines;
-    std::multimap<VkPipeline, std::size_t> newest; // a handle comes again after its pipeline is destroyed
+    std::multimap<VkPipeline, std::size_t> newest; // the driver reuses the handles of destroyed pipelines
 };
 Capture capture;
 
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> constantsOf(const VkSpecializationInfo* info) {
     return values;
 }
 
-// One entry for each shader of the pipeline.
+// Reads one entry for each shader of the pipeline.
 void read(VkDevice device, VkPipeline pipeline, const std::vector<std::uint32_t>& constants) {
     const VkPipelineInfoKHR info{.sType = VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR, .pipeline = pipeline};
     std::uint32_t count = 0;
@@ -125,7 +125,7 @@ VKAPI_ATTR VkResult VKAPI_CALL readName(VkDevice, const VkDebugUtilsObjectNameIn
     return VK_SUCCESS;
 }
 
-// The driver names no heap and no type of memory, but gives memory of the host for type 0.
+// The driver reports no memory heap and no memory type, but allocates host memory for type 0.
 VKAPI_ATTR void VKAPI_CALL readMemory(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* properties) {
     constexpr VkMemoryPropertyFlags ofAll = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT |
                                             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
@@ -141,7 +141,7 @@ VKAPI_ATTR void VKAPI_CALL readBufferNeed(VkDevice device, VkBuffer buffer, VkMe
     need->memoryTypeBits = 1;
 }
 
-// The driver lays no image out: images, what is made of them and descriptors are handles of nothing.
+// The driver lays out no images, so images, views and descriptors are dummy handles.
 template <class Object> const Object nothing = reinterpret_cast<Object>(std::uintptr_t{1});
 
 template <class Object, class Info>
@@ -174,7 +174,7 @@ template <class Function> PFN_vkVoidFunction anyFunction(Function function) {
     return reinterpret_cast<PFN_vkVoidFunction>(function);
 }
 
-// Null for what is not wrapped.
+// The wrapper of a function; null if the function is not wrapped.
 PFN_vkVoidFunction findWrapped(std::span<const Wrapped> wrapped, std::string_view name) {
     const auto found = std::ranges::find(wrapped, name, &Wrapped::name);
     return found == wrapped.end() ? nullptr : found->function;
@@ -207,7 +207,7 @@ PFN_vkVoidFunction VKAPI_CALL instanceProcAddr(VkInstance instance, const char* 
     return found != nullptr ? found : capture.getInstanceProcAddr(instance, name);
 }
 
-/// Sets a variable of the environment for as long as it lives.
+/// Sets an environment variable for the lifetime of the object.
 class Variable {
 public:
     Variable(const char* name, const std::string& value) : name_(name) {
@@ -228,7 +228,7 @@ private:
     std::optional<std::string> before_;
 };
 
-/// Path of a driver's description, or an empty path.
+/// Path of the driver's manifest, or an empty path.
 std::string findDriver() {
     for (const char* folder :
          {"/usr/share/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/etc/vulkan/icd.d"}) {
@@ -252,7 +252,7 @@ std::unique_ptr<NullHardware> NullHardware::make(const std::string& family) {
     const std::string driver = findDriver();
     if (driver.empty()) return nullptr;
     const Variable forced("RADV_FORCE_FAMILY", family), only("VK_ICD_FILENAMES", driver),
-        anew("MESA_SHADER_CACHE_DISABLE", "true"); // what comes from a cache on disk has no statistics
+        anew("MESA_SHADER_CACHE_DISABLE", "true"); // a cached pipeline has no statistics
     std::unique_ptr<NullHardware> hardware(new NullHardware);
     if (!hardware->makeInstance() || !hardware->makeDevice()) return nullptr;
     hardware->borrow();
@@ -309,7 +309,7 @@ void NullHardware::borrow() {
     load(capture.createGraphics, "vkCreateGraphicsPipelines");
     load(capture.properties, "vkGetPipelineExecutablePropertiesKHR");
     load(capture.statistics, "vkGetPipelineExecutableStatisticsKHR");
-    const char* names = VK_EXT_DEBUG_UTILS_EXTENSION_NAME; // readName answers for it
+    const char* names = VK_EXT_DEBUG_UTILS_EXTENSION_NAME; // readName implements it
     device_.emplace(vk::Device::borrow({.getInstanceProcAddr = instanceProcAddr,
                                         .instance = instance_,
                                         .physicalDevice = physical_,

@@ -1,5 +1,5 @@
-// A GPU that is not there, with the compiler of one that is: Mesa's RADV makes pipelines for any family of
-// AMD GPUs on any machine. Nothing can be submitted, and no buffer can be made.
+// A GPU that is not present, with its real compiler: Mesa's RADV makes pipelines for any family of AMD GPUs
+// on any machine. Nothing can be submitted, and no buffer can be made.
 #pragma once
 
 #include "vk/device.hpp"
@@ -14,21 +14,21 @@
 
 namespace sinew::test {
 
-/// Figures that the driver gives about a shader of a pipeline.
+/// Statistics of one shader of a pipeline.
 struct PipelineFacts {
-    std::string kernel;                              ///< the debug name that Sinew gave it
+    std::string kernel;                              ///< the debug name given by Sinew
     std::string shader;                              ///< the driver's name of it, such as "Fragment Shader"
     std::vector<std::uint32_t> constants;            ///< values of its specialisation constants
     std::map<std::string, std::uint64_t> statistics; ///< by the driver's names, such as "VGPRs"
 
-    /// 0 where the driver has no such statistic.
+    /// Value of a statistic; 0 if the driver does not provide it.
     std::uint64_t operator[](const std::string& statistic) const;
 };
 
-/// One at a time, since the driver reads its family from the environment, which is put back.
+/// One object at a time, because the driver reads its family from an environment variable, which is restored.
 class NullHardware {
 public:
-    /// `family` as RADV_FORCE_FAMILY has it, such as "NAVI21". Empty where the driver is not installed or
+    /// `family` is a value of RADV_FORCE_FAMILY, such as "NAVI21". Null if the driver is not installed or
     /// does not know the family.
     static std::unique_ptr<NullHardware> make(const std::string& family);
     NullHardware(const NullHardware&) = delete;
@@ -36,9 +36,9 @@ public:
     ~NullHardware();
 
     const vk::Device& device() const { return *device_; }
-    /// Whether a shader module was made of this code as it is: of kernels modules are made of copies.
+    /// Whether a shader module was made from this code itself. Modules of kernels are made from copies.
     bool hasModuleOf(const vk::ShaderCode& code) const;
-    /// The shaders of all pipelines that were made on the device so far.
+    /// The shaders of all pipelines made on the device so far.
     const std::vector<PipelineFacts>& pipelines() const;
 
 private:

@@ -1,5 +1,5 @@
-// The processor time of a piece of code, for tests that hold it to its growth, such as linear and not
-// quadratic. Other programs that run at once do not count, and a sanitized build has more time.
+// Processor time of a piece of code, for tests that limit its growth, for example to linear. Excludes other
+// programs and allows more time under a sanitizer.
 #pragma once
 
 #include <ctime>
@@ -13,14 +13,14 @@ namespace sinew::test {
 #endif
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || SINEW_HAS_FEATURE(address_sanitizer) || \
     SINEW_HAS_FEATURE(thread_sanitizer)
-/// How many times as long as without a sanitizer code may take.
+/// Factor by which a sanitizer may slow code down.
 inline constexpr double slowness = 5;
 #else
 inline constexpr double slowness = 1;
 #endif
 #undef SINEW_HAS_FEATURE
 
-/// The processor time of the process since this was made, divided by slowness.
+/// Processor time of the process since construction, divided by slowness.
 class ProcessorTime {
 public:
     [[nodiscard]] double seconds() const {

@@ -1,7 +1,6 @@
-// Prints how deep particles are in each other in columns, stacks, a drop and clutter at 8, 16 and 32
-// substeps: the scenes by which the ways to share out contacts were compared. docs/accuracy.md holds the
-// figures side by side. Not a test: what can fail of it is one in test_particle_contacts and
-// test_contact_cases.
+// Prints the overlap of particles in columns, stacks, a collision and clutter with 8, 16 and 32 substeps.
+// These scenes served to compare divisions of contacts; docs/accuracy.md has the figures. Not a test:
+// test_particle_contacts and test_contact_cases check the same properties.
 //   measure_contacts [part of a scene's name]
 #include "sinew/overlap.hpp"
 #include "sinew/runner.hpp"
@@ -21,17 +20,17 @@ using namespace sinew::tools;
 namespace {
 
 constexpr float spacing = 0.05f, half = spacing / 2; // of lattices, and the radius of their particles
-constexpr std::uint32_t samples = 4;                 // a frame of 1/60 s: what rings shows its peaks
+constexpr std::uint32_t samples = 4;                 // a frame of 1/60 s, to see peaks
 
 struct Measured {
     std::string name;
     double seconds;
-    double radius; // that depths are given in [m]
+    double radius; // unit of the printed depths [m]
     sim::Scene scene;
 };
 
-/// As the prototype had them: they keep their radius from the floor, and every particle has the mass of a
-/// cell. (Those of a lattice on its faces have half and less, and give the more.)
+/// Adds a cube as in the prototype: particles keep their radius from the floor, and each has the mass of a
+/// cell. (Particles on the faces of a lattice have half of it or less, and yield more.)
 void addCube(sim::Scene& scene, std::uint32_t side, float youngModulus, const sim::Vec3& lowest) {
     const std::size_t first = scene.particles.size();
     sim::addLattice(scene, {.name = "cube",
@@ -54,7 +53,7 @@ sim::Scene onAFloor(float damping) {
     return scene;
 }
 
-/// `count` cubes of 8^3 on each other, every second one aside by `offset` of a cell along x and z.
+/// `count` cubes of 8^3 above each other, every second one shifted by `offset` of a cell along x and z.
 sim::Scene stack(std::uint32_t count, float offset) {
     sim::Scene scene = onAFloor(1);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -64,7 +63,7 @@ sim::Scene stack(std::uint32_t count, float offset) {
     return scene;
 }
 
-/// Two cubes of 8^3 without gravity or friction that meet, each at 1 m/s.
+/// Two cubes of 8^3 that collide at 1 m/s each, without gravity and friction.
 sim::Scene collision() {
     sim::Scene scene;
     scene.gravity = {};
@@ -75,7 +74,7 @@ sim::Scene collision() {
     return scene;
 }
 
-/// 27 cubes of 5^3, a cell apart and every layer beside the one below by a third of one, 1 m above a floor.
+/// 27 cubes of 5^3, a cell apart, 1 m above a floor; each layer is shifted by a third of a cell.
 sim::Scene heap() {
     sim::Scene scene = onAFloor(1);
     for (std::uint32_t i = 0; i < 27; ++i) {
@@ -104,7 +103,8 @@ sim::Scene column(float ratio) {
     return scene;
 }
 
-/// Packed rows in a box that they fill, or as many at random places above its floor, to `high` [m].
+/// Balls in packed rows in a box that they fill, or `random` balls at random places above its floor up to
+/// `high` [m].
 sim::Scene clutter(std::uint32_t random, float wide = 0.6f, float high = 1.6f) {
     constexpr float radius = 0.05f, friction = 0.3f;
     sim::Scene scene;
@@ -133,7 +133,7 @@ double speedOf(const State& state) {
 
 struct Motion {
     std::array<double, 3> momentum{}; // [kg m/s]
-    double sum = 0, kinetic = 0;      // of the lengths [kg m/s]; [J]
+    double sum = 0, kinetic = 0;      // sum of lengths [kg m/s], energy [J]
 };
 
 Motion motionOf(const sim::Scene& scene, const State& state) {
@@ -174,7 +174,7 @@ void measure(Session& session, Measured measured, std::uint32_t substeps) {
         highest = std::max(highest, topOf(state));
         const double speed = speedOf(state);
         if (speed > 0.01) slowSince = double{scene.dt} * step;
-        if (step + 30 * samples <= steps) continue; // the last half second
+        if (step + 30 * samples <= steps) continue; // only the last half second counts
         squares += speed * speed;
         ++late;
     }

@@ -1,4 +1,4 @@
-// fork and exec by hand: a shell would hide signals and quote arguments.
+// Uses fork and exec, because a shell would hide signals and require quoted arguments.
 #include "tools/program.hpp"
 
 #include <algorithm>

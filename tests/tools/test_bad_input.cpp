@@ -1,4 +1,4 @@
-// Each way in which input, device or output can be bad: one line, the right exit code, and nothing left
+// Tests bad input, devices and outputs: each gives one line and the right exit code, and leaves no file
 // behind.
 #include "tools/program.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 
 class BadInput : public sinew::test::Program {
 protected:
-    /// The error of `run` on a file with this content. It must leave nothing but the file.
+    /// Expects this error from `run` on a file with this content, and no new files.
     void expectBad(const std::string& name, const std::string& text, const std::string& part) const {
         write(name, text);
         expectOneError(run({"run", name, "--frames", "1"}), 3, part);

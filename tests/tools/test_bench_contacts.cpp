@@ -1,4 +1,4 @@
-// The table of contacts for a program that is known, and that it leaves out contacts alone.
+// Tests the table of contact costs: counts and predicted times of a known program, and its row names.
 #include "sinew/bench_contacts.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,8 @@ sim::Pass passOf(sim::PassKind kind, std::uint32_t substep, bool isIndirect = fa
     return pass;
 }
 
-// Two substeps of two direct dispatches, an indirect one and a copy; the second with one indirect more.
+// Two substeps with two direct dispatches, an indirect one and a copy; the second has one more indirect
+// dispatch.
 sim::StepProgram program() {
     using enum sim::PassKind;
     sim::StepProgram program;
@@ -29,7 +30,7 @@ sim::StepProgram program() {
     }
     program.step.push_back(passOf(dispatch, 2, true));
     program.step.back().isOfLists = true;
-    program.step.back().barriers[sim::calmStep.index()] = true; // of no recording that has the pass
+    program.step.back().barriers[sim::calmStep.index()] = true; // for a recording without this pass
     program.step.push_back(passOf(dispatch, 0));
     sim::Pass ofCut = passOf(dispatch, 1);
     ofCut.isOfCut = true;

@@ -1,4 +1,4 @@
-// That the peer is told the same scene: a comparison with an engine that was set up wrongly is worth nothing.
+// Tests that Bullet simulates the same scene, without which the comparison would be invalid.
 #include "sinew/bullet_body.hpp"
 
 #include "scenes/load.hpp"
@@ -12,7 +12,7 @@ using tools::BulletBody;
 
 namespace {
 
-/// RMS distance [by body size] from the true motion over some frames.
+/// RMS distance over some frames from the exact motion [body sizes].
 double errorOf(const sim::Scene& scene, std::uint32_t substeps, std::uint32_t iterations) {
     constexpr std::uint32_t frames = 12;
     const auto truth = sim::reference::trueTrajectory(scene, {.frames = frames, .dt = double{scene.dt}});
@@ -27,7 +27,7 @@ double errorOf(const sim::Scene& scene, std::uint32_t substeps, std::uint32_t it
            sim::reference::bodySize(scene);
 }
 
-/// A mass on a spring, which hangs m g c below its rest length in the mean.
+/// A mass on a spring, with a mean position m g c below its rest length.
 sim::Scene spring(float compliance) {
     sim::Scene scene;
     sim::addChain(scene, {.particles = 2, .length = 1, .mass = 2, .compliance = compliance, .pinned = {0}});
@@ -47,9 +47,9 @@ TEST(BulletBody, FallsAsItsOwnIntegratorDoes) {
 }
 
 TEST(BulletBody, HasTheStiffnessOfTheSceneWhateverTheSubstepsAndIterations) {
-    // 1 kg on 1000 N/m swings about 9.81 mm below its rest length, up to twice as far. Little strain:
-    // Bullet's law of a link, (l^2 - L^2) / (l^2 + L^2), is ours for small ones only (8 % stiffer at a strain
-    // of 20 %).
+    // 1 kg on 1000 N/m swings about 9.81 mm below its rest length, down to twice as far. The strain is small,
+    // because Bullet's law of a link, (l^2 - L^2) / (l^2 + L^2), equals ours only for small strains (8 %
+    // stiffer at 20 %).
     const sim::Scene scene = spring(0.001f);
     for (const auto& [substeps, iterations] : {std::pair{64u, 1u}, std::pair{256u, 1u}, std::pair{64u, 4u}}) {
         BulletBody body(scene, substeps, iterations);

@@ -1,5 +1,5 @@
-// The programs on the CPU that `sinew bench --scene clutter` holds the device against: they must solve the
-// same problem, or their times say nothing.
+// Tests the CPU programs with which `sinew bench --scene clutter` compares the device: they must solve the
+// same problem.
 #include "sinew/clutter/jacobi.hpp"
 #include "sinew/clutter/sequential.hpp"
 #include "sinew/overlap.hpp"
@@ -59,7 +59,7 @@ template <typename Program> State after(Program& program, int steps) {
     return stateOf(program.balls());
 }
 
-/// Five layers of balls in a box that they fill; `deep` [m].
+/// Expects five layers of balls at rest in a box that they fill, with overlaps up to `deep` [m].
 void expectSettled(const sim::Scene& scene, const State& state, double deep) {
     EXPECT_LE(overlapOf(scene, state)->max, deep);
     EXPECT_LE(deepestBehindAPlane(scene, state), deep);

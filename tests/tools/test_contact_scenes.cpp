@@ -1,7 +1,6 @@
-// Every shipped scene in which anything may touch, a few frames after the first contact (of particles or
-// faces where it has such, for which lists are made): the same bits from run to run, with one thread and two,
-// in reversed order and with other lists. Scenes are found in their folder, so that a new one is held to it
-// as well.
+// Plays every shipped scene with contacts until a few frames after the first one (a contact between particles
+// or faces, if the scene has such). Bits must be equal from run to run, with one thread and two, in reversed
+// order and with other lists. Scenes are found in their folder, so new ones are included.
 #include "sinew/study/plan.hpp"
 #include "sinew/study/truth.hpp"
 #include "support/full.hpp"
@@ -16,9 +15,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t framesAfterContact = 4, mostFrames = 60;
-constexpr double moved = 1e-3; // [m] off the way without contacts, beyond any rounding
+constexpr double moved = 1e-3; // deviation from the motion without contacts that exceeds any rounding [m]
 
-/// With all of its particles, which are what a large scene is there for, but fewer substeps.
+/// Large scenes keep all of their particles, but use fewer substeps.
 constexpr std::size_t large = 10'000;
 constexpr std::uint32_t substepsOfLarge = 4;
 
@@ -30,9 +29,9 @@ std::vector<std::string> sceneNames() {
     return names;
 }
 
-/// Those in which something may touch. The one that drops a mesh has none yet, but a floor. Of cloth_cut
-/// nothing does before its first strip has come down, long after the cut: its bits are a matter of
-/// test_cut_sheets. The organ of organ_held reaches its floor only once somebody cuts it.
+/// Names of the scenes with contacts. drop_mesh has no mesh yet, but a floor. cloth_cut has contacts only
+/// when its first strip has fallen, long after the cut; test_cut_sheets covers it. The organ of organ_held
+/// reaches its floor only after a cut.
 std::vector<std::string> contactSceneNames() {
     std::vector<std::string> names = sceneNames();
     std::erase_if(names, [](const std::string& name) {
@@ -59,8 +58,8 @@ protected:
     }
 };
 
-/// Where particles or faces touch, what is left is a floor and colliders: they may not be what moves things
-/// first.
+/// The scene without contacts of particles and faces. A floor and colliders remain, so that only such
+/// contacts count as the first.
 sim::Scene withoutContacts(sim::Scene scene) {
     const bool hasLists =
         std::ranges::any_of(scene.particles, [](const sim::Particle& p) { return p.radius > 0; });
@@ -90,7 +89,7 @@ std::string hashOf(tools::Session& session, const scenes::LoadedScene& loaded, c
 
 struct FirstRun {
     std::uint64_t frames =
-        0; ///< until contacts have moved something, and a little longer; 0 where they never do
+        0; ///< number of frames until contacts have moved a particle, and a few more; 0 = never
     std::string hash;
 };
 
@@ -104,7 +103,7 @@ FirstRun firstRun(tools::Session& session, const scenes::LoadedScene& loaded) {
                    b = tools::study::positionsOf(falling.readState());
         if (tools::study::distanceOf(a, b).max <= moved) continue;
         const std::uint64_t frames = frame + framesAfterContact;
-        // a blade would be no contact, so that neither of the two has one
+        // A blade changes the motion, too, so the search used neither; runs the scene again with it.
         if (!loaded.blades.empty()) return {frames, hashOf(session, loaded, loaded.settings, frames)};
         touching.advance(framesAfterContact, 1);
         EXPECT_EQ(touching.steps(), frames);
@@ -134,8 +133,8 @@ TEST_P(ContactScenes, EndInTheSameBitsWhateverRunsThem) {
     }
     other.contactMargin *= 0.4f;
     EXPECT_EQ(hash(other), first) << "reversed, another margin";
-    for (const char* threads : {"1", "2"}) {                // which are second and third runs as well
-        if (threads[0] == '2' && !test::isFull()) continue; // the first run has as many as the machine
+    for (const char* threads : {"1", "2"}) {                // these are also second and third runs
+        if (threads[0] == '2' && !test::isFull()) continue; // the first run uses all threads of the machine
         EXPECT_EQ(report({argument(), "--frames", std::to_string(frames), "--substeps",
                           std::to_string(settings.substeps)},
                          {{"LP_NUM_THREADS", threads}})["state_hash"],
@@ -151,7 +150,7 @@ TEST(ShippedScenes, HaveContactsInMoreThanAFew) {
     EXPECT_GE(contactSceneNames().size(), 16u);
 }
 
-// The shipped strip that falls onto itself: with too few substeps it passes through its own folds, and
+// The shipped strip that falls onto itself. With too few substeps it passes through its own folds, and
 // contacts on the wrong side keep it moving.
 TEST_F(FoldedCloth, ComesToRestOutsideItself) {
     const nlohmann::json report = this->report(

@@ -1,5 +1,5 @@
-// Whichever call fails while steps are in flight, nothing that they use is destroyed before they have
-// finished: the validation layer would say so.
+// Lets calls fail while steps are in flight. No object may be destroyed before these steps have finished,
+// which the validation layer checks.
 #include "support/faults.hpp"
 
 #include "app/guard.hpp"
@@ -18,7 +18,7 @@ using test::fault;
 
 namespace {
 
-// Balls that lie on each other: the first room for contacts is too small, so the simulation grows.
+// Overlapping balls whose first contact capacity is too small, so the simulation is enlarged.
 constexpr const char* balls = "[solver]\nsubsteps = 4\n[contacts]\n[[particles]]\nradius = 0.02\n"
                               "count = [8, 8, 8]\nspacing = 0.04\ncenter = [0, 0.4, 0]\n[[plane]]\n";
 
@@ -45,7 +45,7 @@ protected:
     }
     ~InFlight() override { std::filesystem::remove(file_); }
 
-    /// Steps with `prepare` called between the set-up and the steps; returns what was thrown.
+    /// Runs steps, with `prepare` called before the first one; returns the message of the exception.
     std::string runWith(const std::function<void()>& prepare,
                         const std::function<void(std::uint64_t)>& onStep = {}) {
         fault = {};
@@ -66,7 +66,7 @@ protected:
         return thrown;
     }
 
-    /// Each call in turn fails; how many could.
+    /// Lets each call fail in turn; returns the number of calls.
     int sweep(VkResult result, int stride) {
         for (int n = 0;; n += stride) {
             const std::string thrown = runWith([&] { fault = {n, result, {}}; });

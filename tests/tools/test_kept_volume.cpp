@@ -1,5 +1,5 @@
-// No default of a mesh body loses volume: shipped scenes with meshes, files that are dropped and shapes in a
-// scene keep it within 5 % once they lie still, and a cut through one that was squashed leaves no shards.
+// Tests that no default of a mesh body loses volume: shipped scenes, dropped files and generated shapes keep
+// it within 5 % at rest, and a cut through a squashed body leaves no fragments.
 #include "tools/program.hpp"
 
 #include "mesh/export.hpp"
@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double most = 0.05; // of the volume at rest
+constexpr double most = 0.05; // relative change from the volume at rest
 
 class KeptVolume : public test::Program {
 protected:
-    /// The change of the volume of the body that lost or won most, in parts of it.
+    /// Largest relative change of a body's volume.
     double change(const std::string& scene, int frames, std::vector<std::string> more = {}) const {
         std::vector<std::string> arguments{"run", scene, "--frames", std::to_string(frames), "--json", "-"};
         arguments.insert(arguments.end(), more.begin(), more.end());
@@ -31,7 +31,7 @@ protected:
         std::printf("%s: %+.2f %%\n", fs::path(scene).stem().c_str(), 100 * volume);
         return volume;
     }
-    /// A mesh of the defaults of [[mesh]], 0.4 m long, that falls onto a floor.
+    /// A mesh of 0.4 m with the defaults of [[mesh]] that falls onto a floor.
     std::string falling(const std::string& keys) const {
         return write("falling.toml", "damping = 1.5\n[[mesh]]\nsize = 0.4\ncenter = [0, 0.3, 0]\n" + keys +
                                          "\n[[plane]]\nfriction = 0.4\n")
@@ -39,7 +39,7 @@ protected:
     }
 };
 
-/// Around z; both radii in any unit, since what is dropped is scaled.
+/// A ring around z; both radii in any unit, because dropped files are scaled.
 mesh::TriangleMesh ring(double radius, double thickness) {
     constexpr std::uint32_t around = 64, across = 24;
     mesh::TriangleMesh mesh{.name = "ring"};
@@ -59,7 +59,7 @@ mesh::TriangleMesh ring(double radius, double thickness) {
     return mesh;
 }
 
-mesh::TriangleMesh turned(mesh::TriangleMesh mesh) { // from on edge to flat
+mesh::TriangleMesh turned(mesh::TriangleMesh mesh) { // from upright to flat
     for (sim::Vec3& p : mesh.positions) p = {p.x, p.z, -p.y};
     return mesh;
 }
@@ -82,7 +82,7 @@ double longestEdge(const mesh::TriangleMesh& mesh) {
 
 } // namespace
 
-// Cut or torn, hung up or fallen, with voxels coarse enough for seconds.
+// Covers cut, torn, suspended and falling bodies, with coarse voxels to save time.
 TEST_F(KeptVolume, OfEveryShippedSceneWithAMesh) {
     std::size_t count = 0;
     for (const fs::directory_entry& file : fs::directory_iterator(SINEW_SOURCE_FOLDER "/scenes")) {
@@ -125,7 +125,7 @@ TEST_F(KeptVolume, OfShapesAtTheDefaultsOfAScene) {
                 << shape << ", " << resolution << " voxels";
 }
 
-// The middle of a ring that stands on its edge is still open: its height is what it was.
+// A ring that stands on its edge is still open at rest: it keeps its height.
 TEST_F(KeptVolume, LeavesADroppedRingARing) {
     const fs::path file = folder_ / "ring.obj", out = folder_ / "out";
     mesh::exportObj(file, ring(0.2, 0.06));
@@ -159,7 +159,7 @@ TEST_F(KeptVolume, LeavesNoShardsWhereASquashedBodyIsCut) {
                     .string();
             const fs::path out = folder_ / "out";
             const double volume = change(scene, frames, {"--out", out.string()});
-            if (frames > 30) { // it is no longer being squashed
+            if (frames > 30) { // the impact is over
                 EXPECT_LE(std::abs(volume), most) << rotation << ", frame " << frames;
             }
             mesh::MeshDefects defects;

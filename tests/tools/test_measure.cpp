@@ -1,4 +1,4 @@
-// The figures of a report against states whose answer is known.
+// Tests the figures of a report on states with known results.
 #include "sinew/crossings.hpp"
 #include "sinew/measure.hpp"
 #include "sinew/overlap.hpp"
@@ -41,7 +41,7 @@ sim::Scene cube() {
     return scene;
 }
 
-/// The skins of a scene whose particles are at `scale` times their place.
+/// The skins of a scene whose particle positions are scaled by `scale`.
 std::vector<mesh::TriangleMesh> skinsOf(sim::Scene scene, float scale) {
     for (sim::Particle& p : scene.particles)
         p.position = {p.position.x * scale, p.position.y * scale, p.position.z * scale};
@@ -71,7 +71,7 @@ TEST(Strain, HasNoMeaningWithoutConstraints) {
     EXPECT_FALSE(errors.strainMax.has_value());
 }
 
-// Two balls in each other below the floor, linked to a third: of crumbs nothing is measured.
+// Two overlapping balls below the floor, linked to a third. Removed fragments are not measured.
 TEST(Removed, CountsInNoFigure) {
     sim::Scene scene = twoLinks();
     for (sim::Particle& particle : scene.particles) particle.radius = 0.3f;
@@ -142,13 +142,13 @@ TEST(Penetration, IsThatOfTheDeepestParticleWithItsOffset) {
     EXPECT_FALSE(tools::measure(scene, stateOf(scene), {}, 0).penetrationMax.has_value());
     scene.planes.push_back({.offset = 0.25f});
     scene.particles[1].contactOffset = -0.125f;
-    scene.particles[0].inverseMass = 0; // held behind the plane: no plane is to blame
+    scene.particles[0].inverseMass = 0; // a fixed particle behind a plane does not count
     EXPECT_NEAR(tools::measure(scene, stateOf(scene), {}, 0).penetrationMax.value(), 0.125, 1e-6);
 }
 
 TEST(Overlap, IsThatOfEveryPairThatMayTouch) {
     sim::Scene scene;
-    // Far from the origin, on both sides of 0, of different sizes: 0.2 and 0.05 deep.
+    // Pairs far from the origin, on both sides of 0 and with different sizes, 0.2 and 0.05 deep.
     scene.particles = {{.position = {-0.45f, 0, 0}, .radius = 0.5f},
                        {.position = {0.35f, 0, 0}, .radius = 0.5f},
                        {.position = {0.35f, 0.7f, 0}, .radius = 0.25f},
@@ -192,9 +192,9 @@ TEST(Overlap, LeavesOutLinkedPairsAndNearOnesOfOneBody) {
     sim::Scene scene;
     sim::addLattice(scene, {.cells = {3, 3, 3}, .spacing = 0.1f, .radius = 0.05f});
     State state = stateOf(scene);
-    for (auto& x : state.positions) x[0] *= 0.8f; // neighbours come as near as 0.08
+    for (auto& x : state.positions) x[0] *= 0.8f; // neighbours approach to 0.08
     EXPECT_EQ(tools::overlapOf(scene, state)->pairs, 0u);
-    for (auto& x : state.positions) x[0] = 0; // those two cells apart may touch
+    for (auto& x : state.positions) x[0] = 0; // particles two cells apart may touch
     EXPECT_GT(tools::overlapOf(scene, state)->pairs, 0u);
     EXPECT_FALSE(tools::overlapOf(cube(), stateOf(cube())).has_value()) << "no radius";
 }
@@ -208,7 +208,7 @@ TEST(Overlap, SurvivesAStateThatIsNoLongerFinite) {
     EXPECT_EQ(tools::overlapOf(scene, state)->max, 0);
 }
 
-// Against all edges and all faces, by signs of volumes.
+// Compares with a test of all edges and all faces by signs of volumes.
 TEST(Crossings, AreThoseOfEveryEdgeThroughEveryFace) {
     using Vector = std::array<double, 3>;
     std::mt19937 random(7);
@@ -289,7 +289,7 @@ TEST(Penetration, IsCountedWhereACollidersPathHasLedIt) {
 
 TEST(StateHash, ChangesWithEveryBitAndOrder) {
     const State state = stateOf(twoLinks());
-    EXPECT_EQ(tools::stateHash({}), 0xcbf29ce484222325u); // FNV-1a of nothing
+    EXPECT_EQ(tools::stateHash({}), 0xcbf29ce484222325u); // FNV-1a of an empty input
     State other = state;
     other.velocities[2][2] = std::nextafter(0.0f, 1.0f);
     EXPECT_NE(tools::stateHash(other), tools::stateHash(state));
@@ -301,7 +301,7 @@ TEST(StateHash, ChangesWithEveryBitAndOrder) {
 TEST(SkinMesh, JoinsCreasesAndTheTwoSidesOfACloth) {
     const sim::Scene scene = cube();
     const mesh::TriangleMesh skin = skinsOf(scene, 1)[0];
-    EXPECT_EQ(skin.positions.size(), 26u); // 27 corners but the inner one
+    EXPECT_EQ(skin.positions.size(), 26u); // 27 corners except the inner one
     EXPECT_EQ(skin.triangles.size(), 48u);
     EXPECT_TRUE(mesh::inspect(skin).defects.isClosed());
     sim::Scene cloth;

@@ -1,4 +1,4 @@
-// Where results go: what is refused before a run, and what a name becomes as a file.
+// Tests of output paths: which ones are refused before a run, and the file names of bodies.
 #include "sinew/outputs.hpp"
 
 #include "app/guard.hpp"
@@ -98,16 +98,16 @@ TEST(FileName, KeepsLettersOfEveryScript) {
 }
 
 TEST(FileName, ReplacesWhatIsNoUtf8AndWhatTurnsTextAround) {
-    EXPECT_EQ(tools::fileName("a\xff\xc3z"), "a__z");      // no start, and no continuation
+    EXPECT_EQ(tools::fileName("a\xff\xc3z"), "a__z");      // no start byte, and no continuation byte
     EXPECT_EQ(tools::fileName("a\xc0\xafz"), "a__z");      // "/" in two bytes
     EXPECT_EQ(tools::fileName("a\xed\xa0\x80z"), "a___z"); // half of a surrogate pair
     EXPECT_EQ(tools::fileName("a\xe2\x80\xaez"), "a___z"); // right-to-left override
-    EXPECT_EQ(tools::fileName("a\xc2\x85z"), "a__z");      // a control
-    EXPECT_EQ(tools::fileName("a\xe8\x82"), "a__");        // cut off
+    EXPECT_EQ(tools::fileName("a\xc2\x85z"), "a__z");      // a control character
+    EXPECT_EQ(tools::fileName("a\xe8\x82"), "a__");        // truncated
 }
 
 TEST(FileName, EndsBetweenLetters) {
     std::string name;
-    for (int i = 0; i < 40; ++i) name += "\xe8\x82\x9d"; // 3 bytes each: 21 of them in 64
+    for (int i = 0; i < 40; ++i) name += "\xe8\x82\x9d"; // 3 bytes each: 21 fit into 64
     EXPECT_EQ(tools::fileName(name), name.substr(0, 63));
 }

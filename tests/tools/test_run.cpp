@@ -1,4 +1,4 @@
-// `sinew run`: the report, the files, and how a run ends early.
+// Tests of `sinew run`: its report, its files, and the early end of a run.
 #include "tools/program.hpp"
 
 #include "mesh/export.hpp"
@@ -28,19 +28,19 @@ class Run : public test::Program {};
 
 const std::string sheet = "[[cloth]]\nname = \"sheet\"\nsize = [4, 4]\nspacing = 0.1\n";
 const std::string box = "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [0, 0.3, 0]\n";
-// Balls that fall on each other within four walls.
+// Balls that fall onto each other within four walls.
 const std::string balls =
     "[solver]\nsubsteps = 8\n[[particles]]\nradius = 0.05\njitter = 0.005\ncount = [4, 6, 4]\n"
     "center = [0, 0.4, 0]\n[[plane]]\n[[plane]]\nnormal = [1, 0, 0]\noffset = -0.25\n"
     "[[plane]]\nnormal = [-1, 0, 0]\noffset = -0.25\n[[plane]]\nnormal = [0, 0, 1]\n"
     "offset = -0.25\n[[plane]]\nnormal = [0, 0, -1]\noffset = -0.25\n";
-// Compliance 0 at mass 1e-35 kg: the first correction overflows.
+// Compliance 0 with a mass of 1e-35 kg: the first correction overflows.
 const std::string bomb =
     "name = \"bomb\"\ngravity = [0, -1e6, 0]\ndt = 0.1\n[solver]\nname = \"jacobi\"\nsubsteps = "
     "1\nover_relaxation = 1.99\n"
     "weight = 1\n[[cloth]]\nname = \"fuse\"\nsize = [16, 16]\nspacing = 1\npinned = [\"first_row\"]\n";
 
-// As docs/report.md lists them.
+// The fields that docs/report.md lists.
 // clang-format off
 constexpr const char* reportFields[] = {
     "schema", "scene", "device", "solver", "substeps", "substep_choice", "forms", "iterations", "reversed",
@@ -74,7 +74,7 @@ TEST_F(Run, TracesEnergyOverlapAndSleepOverTime) {
     EXPECT_NEAR(fields(3)[1], 10 / 60.0, 1e-5);
     EXPECT_GT(fields(1)[2], 0) << "they fall";
     EXPECT_EQ(fields(3)[5], 0);
-    // What the report says of the end, and the trace changes nothing of the motion.
+    // The trace agrees with the report at the end and does not change the motion.
     const json traced =
         report({"balls.toml", "--frames", "10", "--trace", "trace.csv", "--trace-every", "3"});
     EXPECT_NEAR(fields(3)[3], traced["error"]["penetration_max"].get<double>(), 1e-6);
@@ -96,7 +96,7 @@ TEST_F(Run, SaysThatABladeHasCutNothing) {
         << "in millimetres";
 }
 
-// A box falls while a blade goes through it.
+// A blade cuts a falling box.
 TEST_F(Run, GoesOnFromASavedStateToTheSameBits) {
     write("cut.toml",
           box + "cuttable = true\nyoung_modulus = 1e5\n[solver]\nsubsteps = 8\n[[plane]]\n"
@@ -109,7 +109,7 @@ TEST_F(Run, GoesOnFromASavedStateToTheSameBits) {
     EXPECT_EQ(rest["cut"]["links"], whole["cut"]["links"]) << "the blade goes on where it was";
     EXPECT_GT(rest["cut"]["links"], 0);
     EXPECT_EQ(rest["scene"], whole["scene"]);
-    const json later = report({"end.state", "--frames", "1"}); // saved of what went on from one
+    const json later = report({"end.state", "--frames", "1"}); // from a resumed run
     EXPECT_EQ(later["state_hash"], report({"cut.toml", "--frames", "41"})["state_hash"]);
 }
 
@@ -121,7 +121,7 @@ TEST_F(Run, RefusesAStateThatItCannotGoOnFrom) {
     expectOneError(run({"run", "sheet.state", "--frames", "1", "--solver", "jacobi"}), 3,
                    "another simulation");
     expectOneError(run({"run", "nothing.state", "--frames", "1"}), 3, "nothing.state");
-    write("scene.toml", box); // the scene has changed since then
+    write("scene.toml", box); // the scene has changed since the state was saved
     expectOneError(run({"run", "sheet.state", "--frames", "1"}), 3, "has the scene");
 }
 
@@ -184,7 +184,7 @@ TEST_F(Run, DoesAStepWithoutRoomForItsContactsAgainWithMore) {
 }
 
 TEST_F(Run, WarnsOfParticlesThatWereSlowedDownForSafety) {
-    // One more than are searched for one by one, at more than a radius a substep: 60 m/s against 48 m/s.
+    // One particle more than the search along paths takes, faster than a radius a substep (48 m/s): 60 m/s.
     const auto swarm = [](const std::string& speed) {
         return "gravity = [0, 0, 0]\n[solver]\nsubsteps = 16\n[[particles]]\nradius = 0.05\nspacing = 0.2\n"
                "count = [1, 1, 257]\nvelocity = [" +
@@ -228,7 +228,7 @@ TEST_F(Run, WarnsOfRigidLinksThatAreTooLong) {
 }
 
 TEST_F(Run, StopsWithASentenceWhereNoRoomIsEnough) {
-    // Four heaps of balls in one place: each is near most of the 2,916.
+    // Four heaps of balls at one place: each ball is near most of the 2,916.
     std::string scene = "gravity = [0, 0, 0]\n[contacts]\nmargin = 10\n";
     for (const std::string center : {"[0, 0, 0]", "[0.04, 0, 0]", "[0, 0.04, 0]", "[0, 0, 0.04]"})
         scene += "[[particles]]\nradius = 0.05\ncount = [9, 9, 9]\ncenter = " + center + "\n";
@@ -305,7 +305,7 @@ json gltfOf(const std::filesystem::path& file) {
 
 } // namespace
 
-// A corner of a cube is cut off, and removed: it is in nothing that is written, and the report says so.
+// A removed corner of a cube is in no output, and the report counts it.
 TEST_F(Run, LeavesOutCrumbsAndSaysHowManyThereAre) {
     const std::string scene =
         "dt = 0.01\ngravity = [0, 0, 0]\n[solver]\nsubsteps = 4\n[[box]]\nname = \"box\"\n"
@@ -335,7 +335,7 @@ TEST_F(Run, LeavesOutCrumbsAndSaysHowManyThereAre) {
     }
 }
 
-// Links that a cut has parted say nothing of how a body is stretched.
+// Cut links do not count as strain.
 TEST_F(Run, CountsNoCutLinkAsStrain) {
     const std::string blade = "[[blade]]\ntimes = [0, 0.01]\nedges = [[[0.06, 2, -2], [0.06, 2, 2]], "
                               "[[0.06, -2, -2], [0.06, -2, 2]]]\n";
@@ -378,7 +378,7 @@ TEST_F(Run, CountsThePiecesThatItsMeshesShow) {
         }
 }
 
-// A cube that is cut in two as it lands and spreads: the skin is clipped along the cut and closed by the
+// A cube is cut in two while it lands and spreads. Its skin is clipped along the cut and closed by the
 // inside.
 TEST_F(Run, WritesWhatWasCutAsAClosedMeshWithItsInside) {
     write("cut.toml", "dt = 0.01\n[solver]\nsubsteps = 8\n[[plane]]\nfriction = 0\n[[box]]\nname = \"box\"\n"
@@ -400,7 +400,7 @@ TEST_F(Run, WritesWhatWasCutAsAClosedMeshWithItsInside) {
     EXPECT_NEAR(mesh::inspect(pieces).area, report.area, 1e-5);
     const json document = gltfOf(folder_ / "out/box.glb");
     ASSERT_EQ(document["meshes"].size(), 2u) << "a mesh for each piece";
-    std::vector<std::array<double, 2>> reach; // of each along x
+    std::vector<std::array<double, 2>> reach; // extent of each piece along x
     for (const json& mesh : document["meshes"]) {
         std::set<std::string> materials;
         reach.push_back({1, -1});
@@ -423,7 +423,7 @@ TEST_F(Run, WritesWhatWasCutAsAClosedMeshWithItsInside) {
     EXPECT_TRUE(defects.isClosed());
 }
 
-// Sixty cuts through a box have more surface than it has room for at first.
+// Sixty cuts through a box exceed the initial capacity for cut surfaces.
 TEST_F(Run, MakesRoomForTheSurfaceOfCuts) {
     write("shred.toml", "gravity = [0, -0.5, 0]\n[solver]\nsubsteps = 8\n[[box]]\nname = \"box\"\n"
                         "particles = [10, 10, 10]\nspacing = 0.1\ncenter = [0, 0, 0]\ncuttable = "
@@ -481,7 +481,7 @@ TEST_F(Run, DivergenceNamesStepAndBodyAndKeepsTheLastFiniteState) {
         EXPECT_TRUE(std::isfinite(particle.position.x) && std::isfinite(particle.velocity.y));
 }
 
-// Averaging is what keeps jacobi stable: without it corrections of a stiff block add up.
+// Averaging keeps jacobi stable: without it, the corrections of a stiff block add up.
 TEST_F(Run, TimesTheStepThatDivergesBeItTheFirst) {
     write("scene.toml",
           "[[box]]\ncenter = [0, 0, 0]\nparticles = [8, 3, 3]\nspacing = 0.1\nyoung_modulus = 1e7\n"
@@ -507,7 +507,7 @@ TEST_F(Run, AnInterruptedRunWritesWholeOutputs) {
                                                  "out/sheet.ply", "out/state.ply", "scene.toml"}));
 }
 
-// A step of this scene takes a software device minutes.
+// A step of this scene takes minutes on a software device.
 TEST_F(Run, ARunWhoseStepTakesLongEndsWithinSecondsOfASignal) {
     write("scene.toml", "[[box]]\nparticles = [60, 60, 60]\nspacing = 0.01\ncenter = [0, 1, 0]\n"
                         "[solver]\nsubsteps = 1000\n");
@@ -524,7 +524,7 @@ TEST_F(Run, ARunWhoseStepTakesLongEndsWithinSecondsOfASignal) {
     EXPECT_LT(taken.count(), 60 * test::slowness) << "most of it to load the scene";
 }
 
-// By the loader, and not once more by the simulation.
+// The loader gives this warning, and the simulation must not repeat it.
 TEST_F(Run, SaysOnceHowCoarsePositionsAre) {
     write("scene.toml", "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [0, 0, 0]\n"
                         "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [2000, 0, 0]\n");
@@ -560,7 +560,7 @@ TEST_F(Run, BodiesInOneSpotAreRefusedWithTheirNames) {
          "300 particles that touch each other");
 }
 
-// A sheet that is thick beside its own spacing is near itself at rest, and no crowd.
+// A cloth thicker than its spacing is near itself at rest, which must not count as crowding.
 TEST_F(Run, AThickClothOfFineMeshIsNoCrowd) {
     write("scene.toml", "[[cloth]]\nsize = [24, 24]\nspacing = 0.001\nthickness = 0.02\n");
     const Outcome outcome = run({"describe", "scene.toml"});
@@ -591,7 +591,7 @@ TEST_F(Run, KeepsOutOfAFolderInUse) {
     write("scene.toml", sheet);
     std::filesystem::create_directory(folder_ / "out");
     const int lock =
-        ::open((folder_ / "out/.sinew-lock").c_str(), O_CREAT | O_RDWR, 0600); // as a run holds it
+        ::open((folder_ / "out/.sinew-lock").c_str(), O_CREAT | O_RDWR, 0600); // locked as in a run
     ASSERT_EQ(::flock(lock, LOCK_EX), 0);
     expectOneError(run({"run", "scene.toml", "--frames", "1", "--out", "out"}), 6,
                    "out: another run writes there");

@@ -1,4 +1,4 @@
-// The state hash of a run must not depend on when it ran, on threads, or on the order of invocations.
+// Tests that the state hash does not depend on the run, on threads, or on the order of invocations.
 #include "tools/program.hpp"
 
 #include <fstream>
@@ -23,7 +23,7 @@ protected:
     }
 };
 
-/// The cube touches the floor within the frames that are compared.
+/// A cube that touches the floor within the compared frames.
 std::string landedCube(const std::filesystem::path& folder) {
     std::ifstream stream(shippedScene("cube"));
     std::string text(std::istreambuf_iterator<char>(stream), {});
@@ -41,7 +41,7 @@ TEST_F(SameState, OverRunsThreadsAndReversedOrder) {
     for (const std::string& scene : {shippedScene("cloth"), shippedScene("cube"), landedCube(folder_)})
         for (const char* solver : {"split", "jacobi", "gauss_seidel"}) {
             const std::string first = hash(scene, solver);
-            for (const char* threads : {"0", "1", "2"}) // one of them a second run of the same
+            for (const char* threads : {"0", "1", "2"}) // one of them repeats the same run
                 EXPECT_EQ(hash(scene, solver, {}, {{"LP_NUM_THREADS", threads}}), first)
                     << scene << ", threads " << threads;
             EXPECT_EQ(hash(scene, solver, {"--reversed"}), first) << scene << ", reversed";
@@ -75,7 +75,7 @@ TEST_F(SameState, IsAnotherStateWithAnotherSolverOrNumberOfSubsteps) {
     EXPECT_NE(hash(scene, "split", {"--substeps", "65"}), split);
 }
 
-// --pass-times puts timestamps around every pass, and changes nothing else.
+// --pass-times adds timestamps around every pass and must not change the state.
 TEST_F(SameState, WithEveryKindOfPassTimedByItself) {
     const std::vector<std::string> arguments{shippedScene("cube"), "--frames", "3"};
     std::vector<std::string> timing = arguments;

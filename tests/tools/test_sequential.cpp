@@ -1,4 +1,4 @@
-// The sequential program against the reference in double precision, which shares no code with it.
+// Compares the sequential program with the reference in double precision, which shares no code with it.
 #include "sinew/sequential.hpp"
 
 #include "scenes/load.hpp"
@@ -12,12 +12,12 @@ using tools::Sequential;
 
 namespace {
 
-/// The largest distance [m] between a sequential run and the reference after some steps.
+/// Largest distance [m] between a sequential run and the reference after some steps.
 double distanceFromReference(const scenes::LoadedScene& loaded, int steps) {
     Sequential sequential(loaded.scene, loaded.settings, ConstraintOrder::natural);
     sim::reference::State state = sim::reference::initialState(loaded.scene);
     sim::Settings cold = loaded.settings;
-    cold.warmStart = 0; // the slides' version, which the sequential rows time, starts every substep afresh
+    cold.warmStart = 0; // the sequential rows time this form, which starts every substep cold
     sim::reference::GaussSeidel reference(loaded.scene, cold);
     double largest = 0;
     for (int step = 0; step < steps; ++step) {
@@ -36,7 +36,7 @@ double distanceFromReference(const scenes::LoadedScene& loaded, int steps) {
 
 TEST(Sequential, FollowsTheReferenceOnElasticBodies) {
     // Few substeps: v = corrections / h turns the rounding of a position (1.2e-7 m at 1 m) into 6e-5 m/s a
-    // substep, which 32 substeps in 0.07 s leave as a random walk of some 2e-5 m.
+    // substep. 32 substeps in 0.07 s would add it up to a random walk of about 2e-5 m.
     for (const char* name : {"beam", "cloth_study"}) {
         const scenes::LoadedScene loaded = scenes::loadBuiltIn(name, {.substeps = 8});
         EXPECT_LT(distanceFromReference(loaded, 4), 3e-5) << name;

@@ -1,4 +1,4 @@
-// What a study concludes from its points, and how it draws them.
+// Tests of the conclusions that a study draws from its points, and of its plots.
 #include "sinew/study/analysis.hpp"
 #include "sinew/study/plan.hpp"
 #include "sinew/study/plot_axes.hpp"
@@ -26,7 +26,8 @@ std::size_t count(const std::string& text, const std::string& part) {
     return found;
 }
 
-/// A trial that took `ms` a frame and was `error` off in each of two frames; no error = diverged.
+/// A trial that takes `ms` a frame with the error `error` in each of two frames; without an error it
+/// diverged.
 Trial trialOf(sim::Solver solver, double ms, std::optional<double> error) {
     Trial trial{.settings = {.solver = solver}, .sweeps = 8, .barriers = 9, .isRun = true};
     trial.isDiverged = !error;
@@ -43,7 +44,7 @@ SceneResult resultOf(std::vector<Trial> trials) {
     return result;
 }
 
-/// Samples of (time [s], kinetic energy [J]), 0.1 m deep before 4 s and 0.04 m then.
+/// Samples of (time [s], kinetic energy [J]), with a depth of 0.1 m before 4 s and 0.04 m afterwards.
 RestRun restOf(const std::vector<std::pair<double, double>>& samples) {
     RestRun run{.settings = {.substeps = 16}, .isRun = true};
     for (const auto& [time, energy] : samples)
@@ -79,9 +80,10 @@ TEST(ComparableFrames, AreAllWhereNothingGrows) {
 
 TEST(ComparableFrames, EndWhereADisturbanceReachesATenthOfTheError) {
     const std::vector<double> growth{1e-7, 1e-5, 2e-3, 0.5};
-    // Over four frames the error is 0.1, and the last frame's growth is beyond a tenth of it.
+    // Over four frames the error is 0.1, and the growth of the last frame exceeds a tenth of it.
     EXPECT_EQ(comparableFrames(std::vector{0.1, 0.1, 0.1, 0.1}, growth, 1e-7), 3u);
-    // Over three it is 1e-3, whose tenth the third frame exceeds; over two it is 1e-3 still.
+    // Over three frames it is 1e-3, and the third frame's growth exceeds a tenth of it; over two it is still
+    // 1e-3.
     EXPECT_EQ(comparableFrames(std::vector{1e-3, 1e-3, 1e-3, 5e-3}, growth, 1e-7), 2u);
     EXPECT_EQ(comparableFrames(std::vector{1e-6, 1e-6, 1e-6, 1e-6}, growth, 1e-7), 1u);
 }
@@ -143,7 +145,7 @@ TEST(Plan, SearchesIterationsOfColoredSweepsWarmAndCold) {
 
 TEST(Plan, SplitsOneNumberOfSweepsWithoutTryingAnythingTwice) {
     for (const sim::Solver solver : {sim::Solver::jacobi, sim::Solver::split, sim::Solver::gaussSeidel})
-        for (const std::uint32_t sweeps : {4u, 8u, 16u}) { // some splits of them are the whole frame
+        for (const std::uint32_t sweeps : {4u, 8u, 16u}) { // some of them take the whole frame
             using Key = std::tuple<std::uint32_t, float, float, float, float>;
             std::set<Key> tried;
             const std::vector<sim::Settings> list = settingsAt(solver, sweeps);

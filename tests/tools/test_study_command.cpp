@@ -1,5 +1,4 @@
-// `sinew study` on a scene that takes a second: what it writes, that it goes on where it was, and what it
-// refuses.
+// Tests of `sinew study` on a scene that takes a second: its output, its resumption, and its errors.
 #include "tools/program.hpp"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ const std::string scene =
     "name = \"tiny\"\n[[chain]]\nlength = 0.3\nparticles = 4\nstretch_compliance = 1e-2\n"
     "direction = [1, 0, 0]\n";
 
-// Falls on a floor and on each other.
+// Balls that fall onto a floor and onto each other.
 const std::string balls = "name = \"tiny\"\n[contacts]\nfriction = 0.3\n[[particles]]\ncount = [2, 3, 2]\n"
                           "radius = 0.05\njitter = 0.01\nspacing = 0.13\ncenter = [0, 0.19, 0]\n[[plane]]\n";
 
@@ -77,7 +76,7 @@ TEST_F(Study, WritesWhatItsDocumentationSays) {
             EXPECT_GE(point["frames_timed"], 4);
         }
     }
-    // A soft chain of four needs no more than eight substeps.
+    // A soft chain of four needs at most eight substeps.
     EXPECT_TRUE(tiny["ms_to_1_percent"]["split"].is_number()) << tiny["ms_to_1_percent"];
     for (const char* name : {"tiny-time.svg", "tiny-sweeps.svg", "tiny-barriers.svg"})
         EXPECT_EQ(text(name).substr(0, 4), "<svg") << name;
@@ -107,7 +106,7 @@ TEST_F(Study, GivesEverySolverTheSameMesh) {
     for (const Json& curve : json["curves"]) solvers.insert(curve["solver"]);
     for (const char* solver : {"split", "jacobi", "gauss_seidel"})
         EXPECT_TRUE(solvers.contains(solver)) << solver;
-    // what the file itself asks for is another scene, which only split can do
+    // The settings of the file itself give another scene, which only split supports.
     write("scene.toml", "name = \"tiny\"\n[[mesh]]\nname = \"ball\"\ngenerate = \"sphere\"\nsize = 0.2\n"
                         "resolution = 4\nyoung_modulus = 2e3\nrecovery = 1\n[[plane]]\noffset = -1\n");
     const Outcome asked = study();
@@ -171,7 +170,7 @@ TEST_F(Study, RunsAgainWhatIsMissingOrDamaged) {
     std::ofstream(runs().at(0)) << "{\"identity\": \"";
     fs::remove(runs().at(1));
     Json untimed = Json::parse(std::ifstream(runs().at(2)));
-    untimed["frame_ms"] = Json::array(); // it would stand at 0 ms, which no logarithm bears
+    untimed["frame_ms"] = Json::array(); // it would be at 0 ms, outside of a logarithmic axis
     std::ofstream(runs().at(2)) << untimed;
     const Outcome again = study();
     ASSERT_EQ(again.code, 0) << again.error;

@@ -1,4 +1,4 @@
-// Help and wrong usage, and the commands that need no device.
+// Tests of help, of wrong usage, and of the commands that need no device.
 #include "tools/program.hpp"
 
 #include <set>
@@ -100,7 +100,7 @@ TEST_F(Usage, DescribeNeedsNoDevice) {
 }
 
 TEST_F(Usage, MeshRepairsAndSaysSo) {
-    // A cube whose top meets a wall at a T-junction.
+    // A cube whose top meets a wall in a T-junction.
     const auto mesh =
         write("t.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\nv 0.5 1 0\n"
                        "f 1 2 3\nf 1 3 4\nf 5 8 9\nf 9 8 7\nf 9 7 6\nf 1 5 6\nf 1 6 2\nf 2 6 7\nf 2 7 3\n"

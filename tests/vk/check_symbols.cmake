@@ -1,4 +1,5 @@
-# The core calls Vulkan through its tables only: an undefined vk* symbol in its library would make it need a loader.
+# Checks that the core calls Vulkan only through its tables: an undefined vk* symbol would make it need a
+# loader.
 execute_process(COMMAND ${NM} --undefined-only ${LIBRARY} OUTPUT_VARIABLE symbols RESULT_VARIABLE result)
 if(NOT result EQUAL 0 OR NOT symbols MATCHES "U memcpy")
     message(FATAL_ERROR "cannot list the symbols of ${LIBRARY}")

@@ -1,4 +1,5 @@
-// Cost of recording one pass: bind, set, push-free dispatch and barrier, without validation.
+// Prints the cost of recording one pass without validation: bind, descriptor set, dispatch without push
+// constants, barrier.
 #include "measured_kernels.hpp"
 #include "vk/loader.hpp"
 #include "vk/queue.hpp"

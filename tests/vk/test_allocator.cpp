@@ -1,5 +1,5 @@
-// The block allocator: free lists against an oracle, choice of memory on pretended devices, a host's own
-// functions.
+// Tests of the block allocator: free lists against a reference, choice of memory on simulated devices, and a
+// host's own functions.
 #include "support/device.hpp"
 #include "support/host_device.hpp"
 
@@ -43,7 +43,7 @@ VkBufferCreateInfo bufferOf(VkDeviceSize size) {
             .sharingMode = VK_SHARING_MODE_EXCLUSIVE};
 }
 
-/// An allocator of its own on the shared device, with one heap of this size.
+/// A separate allocator on the shared device, with one heap of this size.
 std::unique_ptr<vk::Allocator> allocatorWithHeap(VkDeviceSize size) {
     VkPhysicalDeviceMemoryProperties memory;
     device().instanceFunctions().vkGetPhysicalDeviceMemoryProperties(device().physical(), &memory);
@@ -102,9 +102,9 @@ TEST(FreeRanges, FindTheLastByteAndRefuseOneMore) {
 TEST(FreeRanges, SkipWhatAlignmentLeavesTooSmall) {
     vk::FreeRanges free(96);
     EXPECT_EQ(free.take(1, 1), 0u);
-    EXPECT_FALSE(free.take(48, 64).has_value()); // 64 to 96 is all there is at that alignment
+    EXPECT_FALSE(free.take(48, 64).has_value()); // at this alignment only 64 to 96 is free
     EXPECT_EQ(free.take(32, 64), 64u);
-    EXPECT_EQ(free.take(63, 1), 1u); // the padding stayed free
+    EXPECT_EQ(free.take(63, 1), 1u); // the padding is still free
 }
 
 TEST(MemoryChoice, OnADiscreteGpuKeepsKernelsLocalAndUploadsOffTheSmallHeap) {
@@ -216,7 +216,7 @@ TEST(BufferHook, GetsEveryBufferAndEveryDestruction) {
     vk::HostDevice handles = host.handles();
     VkPhysicalDeviceMemoryProperties memory;
     host.instanceFunctions().vkGetPhysicalDeviceMemoryProperties(handles.physicalDevice, &memory);
-    const auto engine = vk::makeBlockAllocator(handles.device, host.functions(), memory); // an engine's own
+    const auto engine = vk::makeBlockAllocator(handles.device, host.functions(), memory); // as in an engine
     std::vector<std::string> created;
     std::size_t destroyed = 0;
     handles.buffers = {.create =

@@ -1,4 +1,4 @@
-// Buffers: sizes, names, moves.
+// Tests of buffers: sizes, names, moves.
 #include "support/device.hpp"
 
 #include "vk/allocator.hpp"
@@ -37,7 +37,7 @@ TEST(Buffer, WithoutElementsCanStillBeBound) {
 
 TEST(Buffer, MayFillMaxStorageBufferRangeButNotExceedIt) {
     const VkDeviceSize largest = device().limits().maxStorageBufferRange;
-    if (largest <= 256u << 20) { // beyond that the machine may honestly lack the memory
+    if (largest <= 256u << 20) { // a machine may lack the memory for larger ones
         EXPECT_NO_THROW(vk::Buffer(device(), {.name = "full", .count = largest / 16, .stride = 16}));
     }
     const vk::Error error = errorOf({.name = "lattice.links", .count = largest / 16 + 1, .stride = 16});
@@ -83,7 +83,7 @@ TEST(Buffer, MovesWithoutReleasingTwice) {
 TEST(Buffer, IsNamedInValidationMessages) {
     const vk::Buffer buffer(device(), {.name = "cloth.positions", .count = 4, .stride = 4});
     VkCommandBuffer commands = queue().begin();
-    device().functions().vkCmdFillBuffer(commands, buffer.view().buffer, 1024, 4, 0); // behind its end
+    device().functions().vkCmdFillBuffer(commands, buffer.view().buffer, 1024, 4, 0); // beyond its end
     queue().wait(queue().submit(commands));
     const auto messages = takeMessages();
     ASSERT_FALSE(messages.empty());

@@ -1,4 +1,4 @@
-// What is recorded: right numbers, right stages.
+// Tests of recorded commands: correct results and correct stages.
 #include "support/device.hpp"
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
@@ -13,7 +13,7 @@ namespace sinew::test {
 
 namespace {
 
-/// Records, submits, waits.
+/// Records, submits and waits.
 void run(const std::function<void(vk::Commands&)>& record) {
     VkCommandBuffer handle = queue().begin();
     vk::Commands commands(device(), handle);
@@ -99,7 +99,7 @@ TEST(Commands, PushConstantsArriveInTheKernel) {
     const vk::BindingRequest request{&kernel, {buffer.view()}};
     const vk::BindingSets sets(device(), {&request, 1});
     run([&](vk::Commands& commands) {
-        const std::uint32_t past = ~0u; // -1: the last but one
+        const std::uint32_t past = ~0u; // -1: the last index but one
         commands.bind(kernel, sets[0]);
         commands.push(kernel, &past, sizeof past);
         commands.dispatch(1);
@@ -182,7 +182,8 @@ void VKAPI_CALL keepBarrier(VkCommandBuffer, VkPipelineStageFlags from, VkPipeli
     barriers.push_back({from, to, memory->srcAccessMask, memory->dstAccessMask});
 }
 
-/// The barriers of begin, middle, end and host hand-over of a step on a family without the hidden abilities.
+/// The barriers of a step (begin, middle, end, hand-over to the host) on a queue family without the hidden
+/// abilities.
 std::vector<Barrier> barriersWithout(VkQueueFlags hidden) {
     HostDevice host;
     realFamilies = host.instanceFunctions().vkGetPhysicalDeviceQueueFamilyProperties;

@@ -1,4 +1,4 @@
-// Choosing a device, and borrowing one that somebody else made.
+// Tests of the choice of a device, and of borrowed devices.
 #include "support/device.hpp"
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
@@ -39,7 +39,7 @@ void expectPart(const std::string& message, const std::string& part) {
     EXPECT_NE(message.find(part), std::string::npos) << '"' << part << "\" is not in: " << message;
 }
 
-/// Sets an environment variable for the life of the object.
+/// Sets an environment variable for the lifetime of the object.
 class Environment {
 public:
     Environment(const char* name, const char* value) : name_(name) {
@@ -177,11 +177,11 @@ VkResult VKAPI_CALL oldVersion(std::uint32_t* version) {
     return VK_SUCCESS;
 }
 
-/// The system's loader, but for what `replace` names.
+/// The system's loader with replaced functions.
 class ReplacedLoader {
 public:
     void replace(const char* name, PFN_vkVoidFunction function) { host_.replace(name, function); }
-    /// The same, with what was there before in `original`.
+    /// Replaces a function and stores the former one in `original`.
     template <typename Function> void wrap(const char* name, Function& original, Function replacement) {
         original = reinterpret_cast<Function>(host_.original(name));
         replace(name, reinterpret_cast<PFN_vkVoidFunction>(replacement));
@@ -196,7 +196,7 @@ private:
 
 namespace {
 
-// A device that does a part of Vulkan only, and what was asked of its driver.
+// A driver that supports only a part of Vulkan, with the requests that it received.
 struct PortabilityDriver {
     PFN_vkCreateInstance createInstance = nullptr;
     PFN_vkEnumerateDeviceExtensionProperties extensions = nullptr;
@@ -264,7 +264,7 @@ void VKAPI_CALL incoherentMemory(VkPhysicalDevice physical, VkPhysicalDeviceMemo
 
 } // namespace
 
-// Programs neither flush nor invalidate what they map.
+// Programs neither flush nor invalidate mapped memory.
 TEST(Device, WithoutCoherentMemoryIsRefusedForPrograms) {
     ReplacedLoader loader;
     loader.wrap("vkGetPhysicalDeviceMemoryProperties", trueMemory, &incoherentMemory);
@@ -272,7 +272,7 @@ TEST(Device, WithoutCoherentMemoryIsRefusedForPrograms) {
                "none of its memory is host visible and host coherent");
 }
 
-// The host says where its own memory is not.
+// A host reports whether its own memory is coherent.
 TEST(BorrowedDevice, NeedsNoCoherentMemory) {
     HostDevice host;
     trueMemory = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
@@ -355,7 +355,7 @@ TEST(Device, MayMoveUnderAQueue) {
     EXPECT_EQ(moved.validationMessages(), std::vector<std::string>{});
 }
 
-// A device that computes, and has nothing that draws, waits for fences or is called by nobody.
+// A device for compute alone, without the functions for drawing, fences and others that the core never calls.
 TEST(BorrowedDevice, NeedsNoFunctionThatTheCoreDoesNotCall) {
     HostDevice host;
     for (const char* name :
@@ -398,7 +398,7 @@ TEST(BorrowedDevice, RunsADispatchWithoutAnyFeatureOrAnyMessage) {
             EXPECT_EQ(std::vector<std::uint32_t>(values, values + 65), std::vector<std::uint32_t>(65, 42));
             EXPECT_TRUE(borrowed.validationMessages().empty());
         }
-        EXPECT_EQ(host.finish(), std::vector<std::string>{}); // nor does anything leak
+        EXPECT_EQ(host.finish(), std::vector<std::string>{}); // there are no leaks either
     }
 }
 

@@ -1,9 +1,8 @@
-// Sums and products that are the same on every device; roots and quotients are not looked at. A compiler may
-// fuse a product and a sum that are not decorated with NoContraction: vk::withoutContraction decorates all of
-// them. Dot products and the like it computes as it wants: none is in the functions of which the result must
-// be the same bits wherever it is computed, which are predicates that several kernels ask, signs of
-// determinants, and all that forms of one step have in common. Both are read out of the SPIR-V of every
-// kernel in the build.
+// Tests that sums and products are equal on every device; roots and quotients are not tested. A compiler may
+// fuse a product and a sum unless they are decorated with NoContraction, which vk::withoutContraction adds to
+// all of them. Dot products and similar instructions remain free. They must not occur in functions whose
+// results must have equal bits everywhere: predicates used by several kernels, signs of determinants, and
+// code shared by the forms of a step. The test reads the SPIR-V of every kernel in the build.
 #include "vk/device.hpp"
 #include "vk/exact.hpp"
 #include "vk/spirv.hpp"
@@ -24,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names as the compiler mangles them, up to where they differ from others.
+/// Names as mangled by the compiler, up to the first difference from other names.
 const std::vector<std::string> exactFunctions{// math.glsl
                                               "dot3(", "cross3(", "length3(", "sizeOf(",
                                               // hash grids
@@ -39,7 +38,7 @@ const std::vector<std::string> exactFunctions{// math.glsl
                                               "linkImpulse(", "latticeLink(", "pressCell(", "ofCorner(",
                                               "pressCells(", "advance(", "rebound(", "projectOntoPlane("};
 
-/// Functions that decide, in several kernels, and are not exact: why that does no harm.
+/// Functions that decide in several kernels and are not exact, with the reason why this is harmless.
 const std::map<std::string, std::string> looseDecisions{
     {"isBesideWay(struct-Searched", "a face is searched by find_faces or by find_wide_faces"},
     {"isInBox(struct-Searched", "a face is searched by find_faces or by find_wide_faces"},
@@ -50,13 +49,13 @@ const std::map<std::string, std::string> looseDecisions{
 constexpr std::uint32_t opName = 5, opExtInst = 12, opTypeBool = 20, opFunction = 54, opFunctionCall = 57,
                         opDecorate = 71, noContraction = 42, opDot = 148;
 
-// Operations on floats that may be fused: OpFAdd, OpFSub, OpFMul, and products with vectors and matrices.
+// Float operations that may be fused: OpFAdd, OpFSub, OpFMul, and products with vectors and matrices.
 bool mayBeFused(std::uint32_t op) {
     return op == 129 || op == 131 || op == 133 || (op >= 142 && op <= 147);
 }
 
-// Instructions of GLSL.std.450 that are made of products and sums: FMix, SmoothStep, Length, Distance, Cross,
-// Normalize, FaceForward, Reflect.
+// GLSL.std.450 instructions made of products and sums: FMix, SmoothStep, Length, Distance, Cross, Normalize,
+// FaceForward, Reflect.
 bool isLoose(std::uint32_t extended) {
     return std::set<std::uint32_t>{46, 49, 66, 67, 68, 69, 70, 71}.contains(extended);
 }
@@ -70,13 +69,13 @@ std::vector<std::uint32_t> wordsOf(const fs::path& file) {
 }
 
 struct Inexact {
-    std::set<std::string> functions;  ///< all that the module has
-    int fused = 0;                    ///< operations that a compiler may fuse, of all functions
-    std::map<std::string, int> loose; ///< instructions that are not exact, by function
+    std::set<std::string> functions;  ///< all functions of the module
+    int fused = 0;                    ///< fusible operations in all functions
+    std::map<std::string, int> loose; ///< number of inexact instructions by function
     std::set<std::string> decisions;  ///< functions that return a bool
     std::map<std::string, std::set<std::string>> calls;
 
-    /// Whether a function, or one that it calls, has instructions that are not exact.
+    /// Whether a function, or one that it calls, has inexact instructions.
     bool isLoose(const std::string& function) const {
         if (loose.contains(function)) return true;
         const auto called = calls.find(function);
@@ -114,7 +113,7 @@ std::vector<fs::path> kernelsIn(const fs::path& folder) {
     return files;
 }
 
-// The kernel of which this is a form: forms are named after their source.
+// The kernel of a form. A form's name begins with that of its source.
 std::string kernelOf(const fs::path& file) {
     const std::string whole = file.stem().stem().string();
     for (std::size_t end = whole.size(); end != std::string::npos && end > 0; end = whole.rfind('_', end - 1))
@@ -129,7 +128,7 @@ TEST(ExactKernels, LeaveACompilerNothingToFuseWhereBitsMustAgree) {
     ASSERT_GE(kernels.size(), 300u) << "the kernels of src/sim are built with the library that this links";
     std::set<std::string> found;
     for (const fs::path& kernel : kernels) {
-        const Inexact inexact = inspect(vk::withoutContraction(wordsOf(kernel))); // as it is made
+        const Inexact inexact = inspect(vk::withoutContraction(wordsOf(kernel))); // as drivers get it
         for (const std::string& exact : exactFunctions)
             for (const std::string& function : inexact.functions) {
                 if (!function.starts_with(exact)) continue;
@@ -137,11 +136,11 @@ TEST(ExactKernels, LeaveACompilerNothingToFuseWhereBitsMustAgree) {
                 EXPECT_FALSE(inexact.loose.contains(function)) << kernel.filename() << ": " << function;
             }
     }
-    EXPECT_EQ(found.size(), exactFunctions.size()); // a promise about nothing
+    EXPECT_EQ(found.size(), exactFunctions.size()); // each entry must match a function
 }
 
-// Two kernels must decide alike. Else one takes a particle for fast and the other for slow,
-// and a pair is listed twice or never.
+// Two kernels must decide alike. Otherwise one takes a particle for fast and the other for slow, and a pair
+// is listed twice or never.
 TEST(ExactKernels, DecideNothingTwiceThatIsNotExact) {
     const std::vector<fs::path> kernels = kernelsIn(KERNEL_FOLDER);
     ASSERT_GE(kernels.size(), 300u) << "the kernels of src/sim are built with the library that this links";
@@ -180,7 +179,7 @@ TEST(ExactKernels, AreMadeWithoutAnOperationThatMayBeFused) {
     EXPECT_GT(before, 1000) << "without it there are many";
 }
 
-// The largest kernel binds as many storage buffers as `sinew devices` and the documents say.
+// The largest kernel binds as many storage buffers as `sinew devices` and the documentation state.
 TEST(Kernels, BindAsManyStorageBuffersAsIsSaid) {
     const std::vector<fs::path> kernels = kernelsIn(KERNEL_FOLDER);
     ASSERT_GE(kernels.size(), 300u) << "the kernels of src/sim are built with the library that this links";
@@ -203,9 +202,9 @@ TEST(ExactKernels, AreToldFromLooseOnes) {
             if (function.starts_with(name)) count += loose;
         return count;
     };
-    EXPECT_EQ(looseIn("fused("), 2); // a product, a sum
+    EXPECT_EQ(looseIn("fused("), 2); // a product and a sum
     EXPECT_EQ(looseIn("exact("), 0);
-    EXPECT_EQ(looseIn("dotted("), 1); // `precise` does not reach it
+    EXPECT_EQ(looseIn("dotted("), 1); // `precise` does not affect it
     EXPECT_EQ(looseIn("crossed("), 1);
 }
 

@@ -1,5 +1,5 @@
-// Every fallible Vulkan call is made to fail in turn: each time there is a vk::Error, nothing leaks, and the
-// next try works.
+// Lets every fallible Vulkan call fail in turn. Each failure must throw a vk::Error without leaks, and a
+// second try must succeed.
 #include "support/device.hpp"
 #include "support/faults.hpp"
 #include "test_kernels.hpp"
@@ -46,8 +46,8 @@ void makeSubmissionFallible(HostDevice& host) {
     FALLIBLE(vkGetQueryPoolResults);
 }
 
-/// Makes one of everything and runs it once; returns what it computed. Messages go to `messages`, leaks
-/// included.
+/// Makes one object of each kind and runs it once; returns the result. `messages` receives messages,
+/// including leaks.
 std::vector<std::uint32_t> runOnce(HostDevice& host, std::vector<std::string>& messages) {
     const auto keep = [&](const std::string& message) { messages.push_back(message); };
     const vk::Device own = vk::Device::create(host.handles().getInstanceProcAddr,
@@ -74,7 +74,7 @@ std::vector<std::uint32_t> runOnce(HostDevice& host, std::vector<std::string>& m
     return queue.download<std::uint32_t>(buffer.view());
 }
 
-/// Lets the 1st, 2nd, 3rd ... call fail until a whole run gets through; returns the calls that were struck.
+/// Lets the 1st, 2nd, 3rd ... call fail until a whole run succeeds; returns the names of the failed calls.
 std::vector<std::string> sweep(HostDevice& host, VkResult result, vk::Failure expected) {
     std::vector<std::string> struck;
     for (int n = 0;; ++n) {
@@ -91,7 +91,7 @@ std::vector<std::string> sweep(HostDevice& host, VkResult result, vk::Failure ex
         if (fault.struck.empty()) return struck;
         const bool hasSecondWay = result != VK_ERROR_DEVICE_LOST &&
                                   (fault.struck == "vkAllocateMemory" || fault.struck == "vkMapMemory");
-        EXPECT_TRUE(hasThrown || hasSecondWay) << fault.struck; // a block refused, the buffer alone fits
+        EXPECT_TRUE(hasThrown || hasSecondWay) << fault.struck; // or the buffer fits without a block
         struck.push_back(fault.struck);
     }
 }

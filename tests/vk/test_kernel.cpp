@@ -1,4 +1,4 @@
-// Pipelines and binding sets: every disagreement between C++ and GLSL is refused by name.
+// Tests of pipelines and binding sets: every mismatch between C++ and GLSL is refused by name.
 #include "support/device.hpp"
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
@@ -12,7 +12,7 @@ namespace sinew::test {
 
 namespace {
 
-/// What the vk::Error says that `make` must throw with this failure.
+/// Message of the vk::Error with this failure that `make` must throw.
 std::string complaint(vk::Failure failure, const std::function<void()>& make) {
     try {
         make();
@@ -91,7 +91,7 @@ TEST(Kernel, NamesBothFiguresWhereALimitIsTooLow) {
     expectParts(complaintUnder(4, 128, 1024), {"everything", "5 storage buffers", "has 4"});
     expectParts(complaintUnder(8, 44, 1024), {"everything", "48 bytes of push constants", "has 44"});
     expectParts(complaintUnder(8, 128, 100), {"everything", "164 bytes of shared memory", "has 100"});
-    constants = {{7, 40}}; // two vectors each
+    constants = {{7, 40}}; // two vectors for each
     expectParts(complaintUnder(8, 128, 1024), {"everything", "1284 bytes of shared memory", "has 1024"});
 }
 

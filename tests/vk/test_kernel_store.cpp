@@ -1,4 +1,4 @@
-// What several users of a device share, and how long it is kept.
+// Tests of kernels shared by several users of a device, and of their lifetime.
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
 
@@ -12,7 +12,7 @@ namespace sinew::test {
 
 namespace {
 
-// A device whose store nobody else keeps anything in; leaks fail the test.
+// A device with a kernel store of its own; leaks fail the test.
 class KernelStore : public testing::Test {
 protected:
     std::shared_ptr<const vk::Kernel> get(const vk::ShaderCode& code,

@@ -1,4 +1,4 @@
-// Submission, reuse of command buffers, transfers.
+// Tests of submission, reuse of command buffers, and transfers.
 #include "support/device.hpp"
 
 #include "vk/check.hpp"
@@ -35,7 +35,7 @@ TEST(Queue, NeverReusesOneThatIsStillRecording) {
 }
 
 TEST(Queue, CarriesBytesThereAndBackBeyondTheStagingSize) {
-    std::vector<std::uint32_t> sent((20u << 20) / 4 + 1); // 20 MiB and a bit
+    std::vector<std::uint32_t> sent((20u << 20) / 4 + 1); // slightly more than 20 MiB
     std::iota(sent.begin(), sent.end(), 17u);
     const vk::Buffer buffer = upload("large", sent);
     EXPECT_EQ(queue().download<std::uint32_t>(buffer.view()), sent);

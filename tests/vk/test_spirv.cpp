@@ -1,4 +1,4 @@
-// The reader of kernel interfaces: what it reads, what it refuses, and that spirv-cross reads the same.
+// Tests of the reader of kernel interfaces: its results, its refusals, and its agreement with spirv-cross.
 #include "test_kernels.hpp"
 #include "vk/spirv.hpp"
 
@@ -30,7 +30,7 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// Words before the first OpFunction, where interfaces end.
+/// Number of words before the first OpFunction, where interfaces end.
 std::size_t interfaceLength(std::span<const std::uint32_t> words) {
     constexpr std::uint32_t opFunction = 54;
     std::size_t at = 5;
@@ -128,7 +128,7 @@ TEST(KernelInterface, SurvivesEverySingleDamagedWord) {
             refused += complaintAbout({"damaged", damaged}) != "none" ? 1 : 0;
             damaged[at] = words[at];
         }
-    EXPECT_GT(refused, interfaceLength(words)); // most of them, and none may crash or hang
+    EXPECT_GT(refused, interfaceLength(words)); // most are refused, and none may crash or hang
 }
 
 namespace {
@@ -151,7 +151,8 @@ nlohmann::json reflect(const std::filesystem::path& file) {
     return nlohmann::json::parse(output);
 }
 
-// What a kernel's interface says of a binding of its reflection: they are sorted, with a gap before the last.
+// The binding of a kernel's interface for a resource of its reflection. Bindings are sorted, with a gap
+// before the last.
 const vk::KernelBinding& bindingOf(const vk::KernelInterface& interface, const nlohmann::json& resource) {
     const auto found = std::ranges::find(interface.bindings, resource["binding"].get<std::uint32_t>(),
                                          &vk::KernelBinding::binding);
@@ -223,8 +224,8 @@ TEST(KernelInterface, AgreesWithSpirvCrossOnEveryKernelInTheBuild) {
         std::string name;
         const vk::ShaderCode code = load(file, words, name);
         if (complaintAbout(code) != "none")
-            continue; // the ones above that break a rule on purpose; the others are created by their own
-                      // tests
+            continue; // kernels that deliberately break a rule; the others have their
+                      // own tests
         SCOPED_TRACE(file.filename().string());
         const vk::KernelInterface interface = readInterface(code);
         const nlohmann::json reflection = reflect(file);
@@ -235,7 +236,7 @@ TEST(KernelInterface, AgreesWithSpirvCrossOnEveryKernelInTheBuild) {
                   reflection.value("specialization_constants", nlohmann::json::array()).size());
         ++compared;
     }
-    EXPECT_GE(compared, 7u); // the good ones of this folder at least
+    EXPECT_GE(compared, 7u); // at least the valid kernels of this folder
 }
 
 } // namespace sinew::test

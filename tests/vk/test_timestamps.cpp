@@ -1,4 +1,4 @@
-// GPU times per span.
+// Tests of GPU times of spans.
 #include "support/device.hpp"
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
@@ -28,7 +28,7 @@ TEST(Timestamps, GiveADurationForEachRecordedSpan) {
     ASSERT_EQ(durations.size(), 2u);
     for (const double duration : durations) {
         EXPECT_GT(duration, 0);
-        EXPECT_LT(duration, 60e3); // a unit error of the period would show here
+        EXPECT_LT(duration, 60e3); // detects a wrong unit of the period
     }
 }
 
@@ -60,12 +60,12 @@ void VKAPI_CALL familiesWithBits(VkPhysicalDevice physical, std::uint32_t* count
 
 VkResult VKAPI_CALL wrappedTicks(VkDevice, VkQueryPool, std::uint32_t, std::uint32_t, std::size_t, void* data,
                                  VkDeviceSize, VkQueryResultFlags) {
-    const std::uint64_t ticks[] = {0xfffffff0, 0x10}; // 32 ticks across the end of a 32-bit counter
+    const std::uint64_t ticks[] = {0xfffffff0, 0x10}; // 32 ticks with an overflow of a 32-bit counter
     std::memcpy(data, ticks, sizeof ticks);
     return VK_SUCCESS;
 }
 
-/// One recorded span on a host's device whose queue family has that many valid bits.
+/// Records one span on a host's device whose queue family has `bits` valid bits.
 std::vector<double> spanWithBits(HostDevice& host, std::uint32_t bits, double& period) {
     realFamilies = host.instanceFunctions().vkGetPhysicalDeviceQueueFamilyProperties;
     pretendedBits = bits;

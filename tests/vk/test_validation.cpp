@@ -1,5 +1,5 @@
-// Canaries: hazards on purpose. Where the installed layer sees one it must go on seeing it, or every other
-// device test proves less than it claims; where it is blind, a layer that learns to see should tell us so.
+// Deliberate hazards. A hazard that the installed layer reports must stay reported, because the other device
+// tests rely on it. A hazard that it does not report fails the test as soon as a layer reports it.
 #include "support/device.hpp"
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
@@ -24,7 +24,7 @@ struct Barrier {
     Access written = shaderWrite, visible = shaderRead | shaderWrite;
 };
 
-/// Three buffers, a kernel per kind of access, and every pass that the hazards below are made of.
+/// Three buffers, a kernel for each kind of access, and the passes of all hazards below.
 class Hazard {
 public:
     Hazard(const vk::Device& device, vk::Queue& queue)
@@ -50,7 +50,7 @@ public:
     void copyAToB() { pass(copy_, 0); }
     void copyBToC() { pass(copy_, 1); }
     void copyBToA() { pass(copy_, 2); }
-    void copyAToA() { pass(copy_, 3); } ///< bound as readonly and as writeonly
+    void copyAToA() { pass(copy_, 3); } ///< bound both as readonly and as writeonly
     void addToA() { pass(add_, 4); }
     void addToATwiceBound() { pass(addTwiceBound_, 5); }
     void shiftA() { pass(shift_, 6); }
@@ -101,7 +101,7 @@ private:
     std::optional<vk::Commands> commands_;
 };
 
-/// What the layer says about these passes in one command buffer, up to their end on the device.
+/// Messages of the layer for these passes in one command buffer, until they have finished.
 std::vector<std::string> messagesOf(const std::function<void(Hazard&)>& record) {
     Hazard hazard(device(), queue());
     EXPECT_EQ(takeMessages(), std::vector<std::string>{}) << "before the hazard";
@@ -204,7 +204,8 @@ TEST(Layer, MissesABarrierOfExecutionAloneBetweenPassesInPlace) {
     });
 }
 
-// Why a test build of passes in place may bind their buffer twice: then the layer sees both hazards above.
+// A build for tests may bind the buffer of a pass in place twice, because the layer then reports both hazards
+// above.
 TEST(Layer, ReportsPassesInPlaceThatBindTheirBufferTwice) {
     expectReported("AFTER_", [](Hazard& hazard) {
         hazard.addToATwiceBound();
@@ -253,7 +254,7 @@ TEST(Layer, MissesAHostReadWithoutItsBarrier) {
     hazard.submit();
     queue().waitIdle();
     const std::uint32_t value = *reinterpret_cast<const std::uint32_t*>(hazard.a().mapped());
-    EXPECT_TRUE(value == 1 || value == 2) << value; // before or after: that is the hazard
+    EXPECT_TRUE(value == 1 || value == 2) << value; // either order, because the hazard leaves it open
     EXPECT_EQ(takeMessages(), std::vector<std::string>{});
 }
 
@@ -263,7 +264,7 @@ TEST(Layer, MissesARaceInsideOneDispatch) {
 
 namespace {
 
-/// Two submissions, the second of which reads what the first writes, on a device of its own.
+/// Messages of two submissions on a separate device, the second of which reads what the first writes.
 std::vector<std::string> messagesAcrossSubmissions(bool areOneSubmit) {
     const vk::Device own = vk::Device::create(device().getInstanceProcAddr(), {.hasValidation = true});
     vk::Queue queue(own);
@@ -302,7 +303,7 @@ TEST(Layer, LooksAcrossCommandBuffersAndSubmissionsWithItsSwitch) {
 }
 
 TEST(Layer, LooksAcrossNothingWithoutItsSwitch) {
-    device(); // the shared device has read the switch before it goes
+    device(); // the shared device must read the variable before it is restored
     unsetenv("VK_LAYER_ENABLES");
     for (const bool areOneSubmit : {true, false})
         EXPECT_EQ(messagesAcrossSubmissions(areOneSubmit), std::vector<std::string>{})
@@ -326,7 +327,7 @@ TEST(Layer, ReportsWhatLeaksByName) {
 
 namespace {
 
-/// Messages of a dispatch that writes so many elements behind the end of a buffer with memory of its own.
+/// Messages of a dispatch that writes `past` elements behind the end of a buffer with its own memory.
 std::vector<std::string> messagesOfWriteBehindEnd(bool isGpuAssisted, std::uint32_t past) {
     HostDevice host({.hasGpuAssistedValidation = isGpuAssisted});
     {
@@ -354,13 +355,13 @@ bool mentions(const std::vector<std::string>& messages, const char* part) {
 
 TEST(Layer, FindsAWriteBehindTheEndOnTheGpuOnly) {
     constexpr const char* outOfBounds =
-        "ut of bounds"; // "Descriptor index ..." and "Access ... out of bounds" differ
+        "ut of bounds"; // the messages differ: "Descriptor index ..." and "Access ... out of bounds"
     EXPECT_TRUE(mentions(messagesOfWriteBehindEnd(true, 1), outOfBounds));
     EXPECT_FALSE(mentions(messagesOfWriteBehindEnd(true, 0), outOfBounds));
     EXPECT_EQ(messagesOfWriteBehindEnd(false, 1), std::vector<std::string>{});
 }
 
-// The detector for what the layer misses. Groups of so many values do not all run at once on any device.
+// The order switch detects races that the layer misses. No device runs so many groups at the same time.
 TEST(OrderSwitch, ShowsARaceInTwoRuns) {
     constexpr std::uint32_t groups = 1 << 14, groupSize = 64;
     std::vector<std::vector<std::uint32_t>> results;
@@ -379,7 +380,7 @@ TEST(OrderSwitch, ShowsARaceInTwoRuns) {
         queue().submit(handle);
         results.push_back(queue().download<std::uint32_t>(buffer.view()));
     }
-    EXPECT_FALSE(results[0] == results[1]); // too many to print
+    EXPECT_FALSE(results[0] == results[1]); // too large to print
 }
 
 } // namespace sinew::test

@@ -1,4 +1,4 @@
-// In place: the layer must see that one buffer is read and written.
+// Works in place: the reader must report one buffer as read and written.
 #version 460
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Values { uint values[]; };

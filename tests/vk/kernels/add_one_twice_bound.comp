@@ -1,4 +1,4 @@
-// In place, with the buffer bound once for writing only and once for reading only.
+// Works in place, with the buffer bound once as writeonly and once as readonly.
 #version 460
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) writeonly buffer After { uint after[]; };

@@ -1,4 +1,4 @@
-// One of each thing the reader has to understand.
+// Contains one of each construct that the reader must support.
 #version 460
 layout(local_size_x_id = 3, local_size_y = 2, local_size_z = 1) in;
 layout(constant_id = 0) const bool isReversed = false;

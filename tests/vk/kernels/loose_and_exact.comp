@@ -1,5 +1,5 @@
 #version 460
-// Functions that a compiler may fuse, and one that it may not.
+// Functions that a compiler may fuse, and one that it must not.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Values { vec4 values[]; };
 

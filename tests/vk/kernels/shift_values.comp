@@ -1,4 +1,5 @@
-// A race on purpose: every invocation reads what another one writes. The order switch shows it in two runs.
+// A deliberate race: every invocation reads a value that another one writes. Two runs with the order switch
+// differ.
 #version 460
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool isReversed = false;

@@ -1,4 +1,4 @@
-// Breaks the rule: an image of two dimensions.
+// Breaks the rule: no images of two dimensions.
 #version 460
 layout(binding = 0) uniform sampler2D picture;
 layout(std430, binding = 1) buffer Values { vec4 values[]; };

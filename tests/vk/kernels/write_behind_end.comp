@@ -1,4 +1,4 @@
-// Out of bounds on purpose: writes `past` elements behind the end.
+// Deliberately out of bounds: writes `past` elements behind the end.
 #version 460
 layout(local_size_x = 1) in;
 layout(push_constant) uniform Push { uint past; } push;
