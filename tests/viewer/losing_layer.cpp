@@ -1,12 +1,13 @@
-// A Vulkan layer whose devices are lost as soon as the file that SINEW_LOSE_DEVICES names is there: they take
-// no more work, and waits fail. Where that file says a number, so many of those that are made afterwards are
-// lost from the beginning, and those that follow only once the file says something else.
-// SINEW_FAIL_CALL=N lets the Nth call that may fail return SINEW_FAIL_RESULT (a number,
-// VK_ERROR_OUT_OF_DEVICE_MEMORY unless given) and do nothing else, and SINEW_FAIL_TIMES calls in all from
-// that one on (one unless given). Calls count once the file SINEW_FAIL_FROM is there, where that is given.
-// Names of struck calls are lines of the file SINEW_FAIL_REPORT.
-// SINEW_BLOCK_CALL names a call that never comes back once the file SINEW_BLOCK_FROM is there; it then makes
-// the file SINEW_BLOCK_REPORT.
+// A Vulkan layer for tests of lost devices and failing calls, controlled by environment variables.
+// Devices are lost while the file SINEW_LOSE_DEVICES exists: they accept no work, and waits fail. If the file
+// holds a number, that many devices made afterwards are lost at once; later ones are lost when the file's
+// contents change.
+// SINEW_FAIL_CALL=N lets the Nth fallible call return SINEW_FAIL_RESULT (a number, by default
+// VK_ERROR_OUT_OF_DEVICE_MEMORY) without effect. SINEW_FAIL_TIMES is the number of consecutive failing calls
+// (default one). If SINEW_FAIL_FROM is given, calls count only once this file exists. The file
+// SINEW_FAIL_REPORT receives the names of failed calls, one a line.
+// SINEW_BLOCK_CALL names a call that never returns once the file SINEW_BLOCK_FROM exists; the layer then
+// makes the file SINEW_BLOCK_REPORT.
 #include <vulkan/vk_layer.h>
 
 #include <chrono>
@@ -25,19 +26,19 @@ namespace {
 struct Next {
     PFN_vkGetInstanceProcAddr instance = nullptr;
     PFN_vkGetDeviceProcAddr device = nullptr;
-    VkInstance handle = VK_NULL_HANDLE;  // of an instance
-    VkDevice owner = VK_NULL_HANDLE;     // of a device
-    std::optional<std::string> sparedBy; // likewise: what the file said
+    VkInstance handle = VK_NULL_HANDLE;  // for instances
+    VkDevice owner = VK_NULL_HANDLE;     // for devices
+    std::optional<std::string> sparedBy; // for devices: contents of the file under which it was made
 };
 
-// Everything that is dispatched begins with a pointer to its instance's or device's table.
+// Key of a dispatchable handle: each begins with a pointer to its instance's or device's table.
 template <typename Handle> void* keyOf(Handle handle) {
     return *reinterpret_cast<void**>(handle);
 }
 
 std::mutex mutex;
 std::map<void*, Next> instances, devices;
-std::map<std::string, int> madeUnder; // devices, by what the file said
+std::map<std::string, int> madeUnder; // number of devices by contents of the file
 
 Next nextOf(const std::map<void*, Next>& all, void* key) {
     const std::lock_guard lock(mutex);
@@ -49,14 +50,14 @@ const char* lossFile() {
     return std::getenv("SINEW_LOSE_DEVICES");
 }
 
-// What it says; nothing where there is none.
+// Contents of the file; empty without a file.
 std::optional<std::string> loss() {
     std::ifstream file(lossFile() != nullptr ? lossFile() : "");
     if (!file) return std::nullopt;
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-// Of a device or one of its queues.
+// Whether a device, or the device of a queue, is lost.
 template <typename Handle> bool isLost(Handle handle) {
     const std::optional<std::string> said = loss();
     return said && (said->empty() || nextOf(devices, keyOf(handle)).sparedBy != said);
@@ -74,7 +75,7 @@ template <typename Info, typename Create> Info* linkIn(const Create* create, VkS
     return info;
 }
 
-// The value of an environment variable; `otherwise` if it is not set.
+// Value of an environment variable; `otherwise` if it is not set.
 long number(const char* variable, long otherwise) {
     const char* text = std::getenv(variable);
     return text != nullptr ? std::atol(text) : otherwise;
@@ -94,7 +95,7 @@ void blockWhereAsked(const char* name) {
     for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
 }
 
-// Whether this call is one that fails.
+// Whether this call must fail.
 bool isStruck(const char* name) {
     blockWhereAsked(name);
     static const long first = number("SINEW_FAIL_CALL", 0), times = number("SINEW_FAIL_TIMES", 1);
@@ -174,7 +175,7 @@ VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice device, const VkSemaphore
     return down<PFN_vkWaitSemaphores>(device, "vkWaitSemaphores")(device, info, timeout);
 }
 
-// The functions of a device, known by its number.
+// The wrapper of a device function, identified by its number.
 template <int Number, typename Function> struct Fallible;
 template <int Number, typename Handle, typename... Rest>
 struct Fallible<Number, VkResult(VKAPI_PTR*)(Handle, Rest...)> {

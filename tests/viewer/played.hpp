@@ -1,5 +1,5 @@
-// A scene that hands play with, and the replay of what they did: steps, tools and their questions, with the
-// order of the window's loop and without its timing.
+// A scene played with tools, and its replay: steps, tools and their queries in the order of the window's
+// loop, without its timing.
 #pragma once
 
 #include "support/device.hpp"
@@ -48,7 +48,7 @@ inline Opening openFile(const std::filesystem::path& file, const InputFile& inpu
     return opening;
 }
 
-// Steps, tools and their questions, with the order of the window's loop and without its timing.
+// A scene with steps, tools and their queries in the order of the window's loop, without its timing.
 struct Scene {
     Opening opening;
     Controller controller{opening.camera, opening.loaded.scene.dt};
@@ -84,14 +84,14 @@ struct Scene {
     std::uint64_t hash() { return stateHash(test::device(), stage, test::queue()); }
 };
 
-// A scene that somebody plays with.
+// A scene with simulated user input.
 struct Played : Scene {
     using Scene::Scene;
     void turn(const Input& input, int steps = 1) {
         for (const Action action : input.actions) tools.act(action);
         tools.handle(input, controller);
         if (input.notches != 0) controller.wheel(input.notches, input.pointer);
-        if (asked && asked == tools.question()) { // of the turn before
+        if (asked && asked == tools.question()) { // from the previous turn
             const auto found =
                 pick(stage.scene(), opening.light.balls, asked->ray, probe.seen(), asked->among());
             tools.answer(*asked, found, found ? holdRadius(stage.scene(), found->particle) : 0);

@@ -1,4 +1,4 @@
-// A small scene with its picture, and what is asked of pictures.
+// A small scene with its picture, and measures of pictures.
 #pragma once
 
 #include "viewer/draw/offscreen.hpp"
@@ -26,7 +26,7 @@ inline sim::Scene block(float height, bool hasGround) {
     return scene;
 }
 
-// A scene with its picture taken after some steps.
+// A scene whose picture is taken after some steps.
 struct SceneShot {
     SceneShot(const sim::Scene& scene, Camera view, const Quality& quality = quick, float scale = 1)
         : camera(view), light(lightFor(scene, view)), stage(test::device(), scene, {}),
@@ -56,7 +56,7 @@ inline Camera viewOf(const sim::Scene& scene) {
 
 using Color = std::array<int, 3>;
 
-// The pixel that shows a place.
+// The color of the pixel that shows a place.
 inline Color colorAt(const Picture& picture, const Camera& camera, const Vector3& place) {
     const Eigen::Vector4f clip = clipMatrix(camera, aspect, 100) * place.homogeneous();
     const auto pixel = [](float ndc, std::uint32_t size) {

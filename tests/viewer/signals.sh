@@ -1,7 +1,7 @@
 # Sourced by tests that send signals to programs in the background. Needs `fail`.
-# A shell starts what runs in its background with SIGINT ignored, and redirects the output there: a signal that comes before the program has
-# handlers of its own is lost, and a file of its output may be that of the program before.
-awaitHandlers() { # PROCESS, within a minute
+# A shell starts background programs with SIGINT ignored and redirects their output itself. A signal sent
+# before the program has handlers is lost, and an output file may still be that of the previous program.
+awaitHandlers() { # PROCESS: waits up to a minute for its handlers
     local caught
     for _ in {1..600}; do
         caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status" 2>/dev/null) || fail "it has ended before the signal"
@@ -10,7 +10,7 @@ awaitHandlers() { # PROCESS, within a minute
     done
     fail "it catches no signals"
 }
-endsWithin() { # SECONDS SIGNAL PROCESS: with exit code 130. One that does not end is killed
+endsWithin() { # SECONDS SIGNAL PROCESS: sends the signal and expects exit code 130 in time; kills a process that does not end
     local code=0 from
     awaitHandlers "$3"
     from=$(date +%s%N)

@@ -1,4 +1,4 @@
-// What shows bodies without a skin. No device is needed.
+// Tests of the selection of bodies without a skin, which are drawn as balls. No device is needed.
 #include "viewer/draw/balls.hpp"
 
 #include "sim/bodies.hpp"

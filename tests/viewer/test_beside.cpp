@@ -1,4 +1,4 @@
-// Two solvers side by side: in step, with the same hands, measured alike, drawn in two halves.
+// Tests of two solvers side by side: in step, with the same input, measured alike, drawn in two halves.
 #include "played.hpp"
 
 #include "sim/compile.hpp"
@@ -16,7 +16,7 @@ std::string changed(std::string text, const std::string& from, const std::string
 }
 const std::string hanging = changed(changed(block, "cuttable = true\n", ""), "[[plane]]\n", "");
 
-// A scene that is played with another one beside it, in the order of the window's loop.
+// A played scene with a second simulation beside it, in the order of the window's loop.
 struct Pair : Played {
     explicit Pair(const BesideShape& shape, const std::string& text = hanging)
         : Played(text), beside(test::device(), opening.loaded, stage.settings(), stage.material(), shape, 1) {
@@ -38,7 +38,7 @@ struct Pair : Played {
     std::vector<sim::layout::vec4> placesOf(const sim::Simulation& simulation) {
         return test::queue().download<sim::layout::vec4>(simulation.positions());
     }
-    // Farthest apart of a particle here and there [m].
+    // Largest distance between the same particle in both simulations [m].
     double apart() {
         const auto here = placesOf(stage.simulation()), there = placesOf(beside.simulation());
         double most = 0;
@@ -91,7 +91,7 @@ TEST(Beside, IsHeldByTheSameHandAndPulledByTheSameGravity) {
                       .damping = 90,
                       .maxAcceleration = 400};
     const auto before = pair.placesOf(pair.beside.simulation());
-    ASSERT_FALSE(pair.play(1, hands)); // takes hold where it is
+    ASSERT_FALSE(pair.play(1, hands)); // grabs at the current position
     hands.grabs[0].target.y += 0.3f;
     ASSERT_FALSE(pair.play(20, hands));
     const auto held = pair.placesOf(pair.beside.simulation());
@@ -119,7 +119,7 @@ TEST(Beside, GoesOnWhereTheFirstStands) {
     ASSERT_FALSE(pair.play(2, hands));
 }
 
-// What takes over needs the room of the one that it takes over from.
+// The simulation that takes over needs the capacities of the other one.
 TEST(Beside, GoesOnWithTheRoomAndTheMaterialThatTheFirstHas) {
     Pair pair({sim::Solver::split, 6}, block);
     ASSERT_FALSE(pair.play(3));
@@ -149,7 +149,7 @@ template <typename Act> std::string refusalOf(const Act& act) {
     return "none";
 }
 
-// The scene asks for a block that may be cut. Its contacts come by default and are no reason.
+// The scene asks for a cuttable block. Its contacts are a default and not a reason for the refusal.
 const std::string cuts = "grid[0] \"block\": may be cut, which solver jacobi has no form for: use split";
 
 TEST(Beside, RefusesWhatItsSolverHasNoFormFor) {
@@ -224,7 +224,8 @@ TEST(Beside, RefusesTheRecoveryThatTheSceneAsksFor) {
     }
 }
 
-// A replay of somebody who has changed the solver does so.
+// A change of the solver, as a replay makes it, leaves out a default recovery that the solver does not
+// support.
 TEST(Stage, LeavesDefaultRecoveryOutOfShapesWithoutAFormForIt) {
     Scene scene(sphere);
     Stage& stage = scene.stage;
@@ -269,7 +270,7 @@ TEST(Beside, IsDrawnInTheRightHalf) {
         });
         return one.read();
     };
-    // Pixels in which a half differs from a picture of its own, the line between halves left out.
+    // Number of pixels in which a half differs from its own picture, except for the line between the halves.
     const auto differing = [&](const Picture& picture, const Picture& own, std::uint32_t from) {
         int count = 0;
         for (std::uint32_t y = 0; y < half.height; ++y)
@@ -281,7 +282,7 @@ TEST(Beside, IsDrawnInTheRightHalf) {
                                  : 0;
         return count;
     };
-    for (int i = 0; i < 20; ++i) // the first alone
+    for (int i = 0; i < 20; ++i) // only the first simulation
         pair.run([&](VkCommandBuffer commands) { recordStep(commands, pair.stage, {}); });
     const Picture picture = drawBoth();
     const Picture left = drawOne(pair.stage.simulation()), right = drawOne(pair.beside.simulation());

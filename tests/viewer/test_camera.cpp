@@ -1,4 +1,4 @@
-// The camera's motions, checked through the matrix that the shaders use.
+// Tests of camera motions through the matrix that the shaders use.
 #include "viewer/draw/camera.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr float aspect = 16.0f / 9;
 
-// x and y in [-1, 1] inside the picture, y down; z the depth.
+// x and y in [-1, 1] inside the picture, with y down; z is the depth.
 Vector3 project(const Camera& camera, const Vector3& point) {
     const Eigen::Vector4f clip = clipMatrix(camera, aspect, 100) * point.homogeneous();
     return clip.head<3>() / clip.w();
@@ -87,7 +87,7 @@ TEST(Camera, EyeStaysAboveTheGround) {
 
 TEST(Camera, PanCarriesTheTargetsDepthWithTheHand) {
     const Camera before = someCamera();
-    const Camera after = panned(before, {0.25f, -0.1f}); // picture heights: half a clip unit high each
+    const Camera after = panned(before, {0.25f, -0.1f}); // in picture heights, each half a clip unit
     const Vector3 moved = project(after, before.target);
     EXPECT_NEAR(moved.x(), 2 * 0.25f / aspect, 1e-4f);
     EXPECT_NEAR(moved.y(), 2 * -0.1f, 1e-4f);
@@ -96,7 +96,7 @@ TEST(Camera, PanCarriesTheTargetsDepthWithTheHand) {
 TEST(Camera, ZoomKeepsWhatIsUnderThePointer) {
     const Camera before = someCamera();
     const Vector2 pointer(0.4f, -0.2f);
-    const Vector3 point = panned(before, -pointer).target; // lies under the pointer
+    const Vector3 point = panned(before, -pointer).target; // the point under the pointer
     ASSERT_NEAR(project(before, point).x(), 2 * pointer.x() / aspect, 1e-4f);
     const Camera after = zoomed(before, 0.5f, pointer);
     EXPECT_NEAR(after.distance, 0.5f * before.distance, 1e-5f);

@@ -1,4 +1,4 @@
-// The table of bindings and what actions do, without a window.
+// Tests of the table of bindings and of actions, without a window.
 #include "viewer/hands/controller.hpp"
 #include "viewer/hands/picture_budget.hpp"
 
@@ -36,14 +36,14 @@ TEST(Bindings, AreAllInTheHelpText) {
     }
 }
 
-// The triggers in the first column of the table of docs/viewer.md, split at `;`, `,` and "or".
+// The triggers in the first column of the table in docs/viewer.md, split at `;`, `,` and "or".
 std::set<std::string> triggersInDocs() {
     std::set<std::string> found;
     std::ifstream file(SINEW_VIEWER_PAGE);
     std::string line;
     while (std::getline(file, line) && line != "| input | does |") {
     }
-    std::getline(file, line); // the rule below it
+    std::getline(file, line); // the rule below the header
     while (std::getline(file, line) && line.starts_with("| ")) {
         std::string cell = line.substr(2, line.find(" |") - 2);
         for (const std::string_view apart : {" or ", ", "})
@@ -94,7 +94,7 @@ TEST(Bindings, IgnoreLocksOfTheKeyboard) {
 TEST(Playback, FollowsRealTime) {
     Playback playback(dt);
     std::uint32_t steps = 0;
-    for (int frame = 0; frame < 144; ++frame) // one second at 144 pictures a second
+    for (int frame = 0; frame < 144; ++frame) // one second with 144 pictures a second
         steps += playback.plan(1.0 / 144).steps;
     EXPECT_GE(steps, 59u);
     EXPECT_LE(steps, 60u);
@@ -120,7 +120,7 @@ TEST(Playback, TakesItsTimeInSlowMotion) {
     EXPECT_EQ(playback.pace(), 1) << "and round again";
 }
 
-// Steps of a plan, all of which are recorded.
+// Number of steps in a plan; records them all.
 std::uint32_t take(Playback& playback, double elapsed, std::uint32_t most = Playback::maxSteps) {
     const std::uint32_t steps = playback.plan(elapsed, most).steps;
     playback.taken(steps);
@@ -251,11 +251,12 @@ TEST(PictureBudget, TakesASecondStepOnlyWherePicturesStayWithinTheGoal) {
     EXPECT_EQ(steps(0.002, 0.014), 2u);
     EXPECT_EQ(steps(0.016, 0.017), 2u);
     EXPECT_EQ(steps(0.020, 0.015), 1u);
-    EXPECT_EQ(steps(0.060, 0.080), 1u); // however slow, time goes on
+    EXPECT_EQ(steps(0.060, 0.080), 1u); // time advances even on a slow device
     EXPECT_EQ(steps(0.001, 0.300), 1u);
 }
 
-// A device on which all but a step takes `fixed`, and `pixels` more at full size.
+// Scales chosen for a device on which a step takes `step`, the rest of a picture `fixed`, and its pixels
+// `pixels` at full size.
 std::vector<std::size_t> scalesOf(double step, double fixed, double pixels, int pictures) {
     PictureBudget budget;
     std::vector<std::size_t> scales;

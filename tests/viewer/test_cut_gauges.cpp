@@ -1,4 +1,4 @@
-// Gauges after a cut: strain of the links that hold, and pieces as reports and meshes count them.
+// Tests of statistics after a cut: strain of the live links, and pieces counted as in reports and meshes.
 #include "played.hpp"
 
 #include "app/drawn.hpp"
@@ -12,7 +12,7 @@
 namespace sinew::viewer {
 namespace {
 
-// A scene with a blade of its own.
+// A scene with its own blade.
 struct Cut : Scene {
     explicit Cut(const std::string& text) : Scene(text) {
         stage.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
@@ -47,7 +47,7 @@ const std::map<std::string, std::string> bodies{
     {"cloth", "[[cloth]]\nsize = [14, 10]\nspacing = 0.05\norigin = [-0.3, 0.1, -0.2]\n"
               "skip_stiffness = 10\n"}};
 
-// Two slopes part the halves, so that cut links get long.
+// Two slopes separate the halves, so that cut links would be long.
 std::string parted(const std::string& body) {
     return "dt = 0.01\n[solver]\nsubsteps = 16\n[[plane]]\nfriction = 0\nnormal = [0.6, 0.8, 0]\n"
            "offset = -0.3\n[[plane]]\nfriction = 0\nnormal = [-0.6, 0.8, 0]\noffset = -0.3\n" +

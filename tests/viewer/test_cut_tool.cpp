@@ -1,4 +1,4 @@
-// Strokes of the pointer as sweeps of a blade, without a device.
+// Tests of the conversion of pointer strokes to blade sweeps, without a device.
 #include "viewer/hands/cut_tool.hpp"
 
 #include <gtest/gtest.h>
@@ -149,7 +149,7 @@ TEST(CutTool, CutsAgainFirstWhatWasUndone) {
     EXPECT_TRUE(tool.next()->isCarried);
 }
 
-// A wall across the view, which ends at the right.
+// A wall across the view that ends on the right.
 struct Wall {
     float z = 0.2f, end = 10;
     std::optional<Pick> under(const Ray& ray) const {
@@ -174,7 +174,7 @@ std::vector<Sweep> cutsOf(CutTool& tool) {
     return sweeps;
 }
 
-// Along the ray through both ends of an edge.
+// Depth along the ray through both ends of an edge.
 float below(const Wall& wall, const std::array<sim::Vec3, 2>& edge) {
     const Vector3 from = eye(fromFront), end = toVector(edge[1]);
     const Ray ray{from, (end - from).normalized()};
@@ -265,7 +265,7 @@ TEST(CutTool, CutsNothingToADepthWhereNothingIs) {
     EXPECT_TRUE(tool.path().empty());
 }
 
-// Whatever the order of presses, moves and answers, each stroke begins once, and no answer is missing.
+// For any order of presses, moves and answers, each stroke begins once, and every answer is used.
 TEST(CutTool, FindsAnEndWhateverIsAnswered) {
     std::uint32_t state = 1;
     const auto random = [&] {
@@ -325,7 +325,7 @@ TEST(CutTool, ThatGoesThroughFromNowOnWaitsForNothing) {
     EXPECT_LT(sweep->to[1].z, -0.5f) << "behind the stage";
 }
 
-// To scale as seen: at the surface, the depth is as long.
+// The depth is drawn to scale at the surface.
 TEST(CutTool, ShowsItsDepthAtThePointer) {
     CutTool tool = withDepth(0.1f);
     tool.move(fromFront, {0, 0});

@@ -1,4 +1,4 @@
-// How the window asks for a device that it has listed.
+// Tests of the device selection from the window's list.
 #include "viewer/devices.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# test_devices.sh VIEWER SCENE FOLDER: two devices in the panel (the same driver twice), the scene goes from one to the other and goes
-# on there, and so it does with other substeps, and with the cuts that can be undone; a replay comes to the same state. A device that is no longer there is said to be
-# missing, and the scene stays where it is. FOLDER keeps the screenshots.
+# test_devices.sh VIEWER SCENE FOLDER: with two devices in the panel (the same driver twice), moves a scene
+# from one to the other, also with changed substeps and with cuts that can be undone; it must continue, and a
+# replay must reach the same state. A missing device is reported, and the scene stays on its device. FOLDER
+# keeps the screenshots.
 set -euo pipefail
 viewer=$1 scene=$2 folder=$3
 here=$(cd "$(dirname "$0")" && pwd)
@@ -13,8 +14,8 @@ cp "$driver" other.json
 export VK_ICD_FILENAMES=$driver:$folder/other.json
 
 headlines() { grep -c ' on .* (software)$' viewer.out || true; }
-listFrom() { xdotool mousemove 700 44 click 1; } # the list of devices, at the top of the panel
-choose() { # ENTRY COMMAND: again until the command is true, since on a busy machine a click may come before the list
+listFrom() { xdotool mousemove 700 44 click 1; } # opens the list of devices, at the top of the panel
+choose() { # ENTRY COMMAND: repeats the click until COMMAND succeeds, because on a busy machine a click may precede the list
     local place=$((80 + 38 * $1))
     shift
     for _ in {1..12}; do
@@ -28,7 +29,7 @@ choose() { # ENTRY COMMAND: again until the command is true, since on a busy mac
 }
 hasHeadlines() { (($(headlines) >= $1)); }
 
-awaitBody() { # FILE: what is beside the panel and below a message, in a picture that stays
+awaitBody() { # FILE: the part beside the panel and below messages, of a picture that no longer changes
     awaitStill whole.png
     convert whole.png -crop 580x480+0+80 +repage "$1"
 }
@@ -57,7 +58,7 @@ same before.png moved.png && fail "nothing moves on the device that took over"
 mv moved.png before.png
 
 echo "devices: other substeps take over, and a replay comes to the same state"
-xdotool mousemove 750 500 click --repeat 40 --delay 20 5 # to the end of the panel
+xdotool mousemove 750 500 click --repeat 40 --delay 20 5 # scrolls to the end of the panel
 sleep 1
 xdotool mousemove 854 541 click 1                        # one more
 for _ in {1..100}; do grep -q ' with 17 substeps, on ' viewer.out && break; sleep 0.1; done
@@ -71,7 +72,7 @@ for way in ctrl+z ctrl+shift+z ctrl+z; do
     keys $way
     for _ in {1..100}; do
         [[ $way == ctrl+z && $(title) != *pieces* || $way == ctrl+shift+z && $(title) == *pieces* ]] && break
-        keys period # the title knows with the next step
+        keys period # the title changes with the next step
         sleep 0.3
     done
     [[ $way == ctrl+z && $(title) != *pieces* || $way == ctrl+shift+z && $(title) == *pieces* ]] || fail "$way leads nowhere"
@@ -116,7 +117,7 @@ start --replay "$log"
 sleep 2
 keys space
 sleep 1
-keys r # from its beginning
+keys r # from the beginning
 keys space
 played
 quit

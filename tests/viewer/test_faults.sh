@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# test_faults.sh VIEWER SCENE FOLDER LAYERS: Vulkan calls fail, one after the other, without a window while a scene loads, grows, is cut,
-# filmed and played beside another solver, and in the window while hands film, cut, save, change scenes and quit. The viewer goes on, or
-# ends with one line and exit code 5; nothing is complained about, nothing is written half. Every 101st call, every 7th with SINEW_FULL=1.
+# test_faults.sh VIEWER SCENE FOLDER LAYERS: lets Vulkan calls fail, one after the other: without a window
+# while a scene loads, grows, is cut, filmed and played beside another solver, and in the window while input
+# films, cuts, saves, changes scenes and quits. The viewer must continue, or end with one line and exit code
+# 5, without validation messages and partial files. Takes every 101st call, and every 7th with SINEW_FULL=1.
 set -euo pipefail
 viewer=$1 player=$1 scene=$2 folder=$3 layers=$4
 here=$(cd "$(dirname "$0")" && pwd)
@@ -11,14 +12,14 @@ stride=${SINEW_FULL:+7}
 stride=${stride:-101}
 export VK_LAYER_PATH=$layers:/usr/share/vulkan/explicit_layer.d:/etc/vulkan/explicit_layer.d VK_INSTANCE_LAYERS=VK_LAYER_SINEW_losing
 export SINEW_FAIL_REPORT=$folder/struck
-results=(-2 -1 -4) # no memory on the device, none on the host, the device lost
+results=(-2 -1 -4) # out of device memory, out of host memory, device lost
 
-mkdir bin # stands in for ffmpeg: its last argument is the file
+mkdir bin # replaces ffmpeg: its last argument is the file
 printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
 chmod +x bin/ffmpeg
 PATH=$folder/bin:$PATH
 
-expectEnd() { # CODE WHAT: of a run whose lines are in viewer.err
+expectEnd() { # CODE WHAT: end of a run whose output is in viewer.err
     local said
     said=$(grep -c '^error: ' viewer.err || true)
     grep -q '^validation:' viewer.err && fail "$2: the validation layer complains"
@@ -67,7 +68,7 @@ mkdir played
 cp "$scene" played
 printf '[[cloth]]\nsize = [8, 8]\nspacing = 0.05\npinned = ["first_row"]\n' >played/cloth.toml
 scene=$folder/played/$(basename "$scene")
-meet() { # CALL KEYS...: the call fails after the keys were pressed
+meet() { # CALL KEYS...: CALL fails after these keys were pressed
     local code=0 call=$1
     shift
     rm -f go struck

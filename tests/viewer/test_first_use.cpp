@@ -1,5 +1,5 @@
-// What a show comes to need while it plays is made in other threads: this one makes no pipeline for it, and
-// the outcome has the same bits as where it waits.
+// Tests of objects that are first needed while a scene plays. Other threads make them, so that this thread
+// makes no pipeline, and the result has the same bits as with waiting.
 #include "played.hpp"
 
 #include "viewer/backstage.hpp"
@@ -36,7 +36,7 @@ std::size_t pipelinesMadeHere() {
     return test::device().kernels().pipelinesMade();
 }
 
-// The step that lacks room for contacts, on the device; 0 = none does.
+// Number of the step that lacked contact capacity on the device; 0 = none did.
 std::uint64_t playUntilCrowded(Played& played) {
     for (int i = 0; i < 120; ++i) {
         played.turn({});
@@ -53,7 +53,7 @@ Stage::Growth await(Stage& stage) {
     }
 }
 
-// Without a look at the state: the probe is of the simulation that it was made with.
+// Steps without the state probe, which belongs to the former simulation.
 void step(Played& played, int steps) {
     for (int i = 0; i < steps; ++i) played.run([&](VkCommandBuffer commands) { played.step(commands); });
 }
@@ -95,7 +95,7 @@ TEST(StageGrowth, OfTheSurfaceGoesOnFromTheStepsTakenMeanwhile) {
     const std::size_t made = pipelinesMadeHere();
     ASSERT_TRUE(going.stage.beginSurfaceRoom(200000));
     EXPECT_FALSE(going.stage.lacksContactRoom());
-    going.turn({}, 2); // whether or not it is there by now
+    going.turn({}, 2); // whether it is ready or not
     step(waiting, 2);
     ASSERT_EQ(await(going.stage), Stage::Growth::made);
     take(going);
@@ -107,7 +107,7 @@ TEST(StageGrowth, OfTheSurfaceGoesOnFromTheStepsTakenMeanwhile) {
     EXPECT_EQ(going.hash(), waiting.hash());
 }
 
-// A material that was turned while it was made is not lost: it is made once more.
+// A material change during the growth is not lost: the simulation is changed again.
 TEST(StageGrowth, HasTheMaterialOfTheStepsTakenMeanwhile) {
     Played played;
     played.turn({}, 2);

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# test_first_use.sh VIEWER FOLDER: what is first used while a scene plays (layers, a section, pictures, a film, more room for contacts,
-# another solver beside the first) is there, and the thread that looks at keys has made no pipeline for it.
+# test_first_use.sh VIEWER FOLDER: things first used while a scene plays (layers, a section, pictures, a film,
+# larger contact capacity, a second solver) must appear, and the thread that handles keys must make no
+# pipeline for them.
 set -euo pipefail
 viewer=$1 folder=$2
 here=$(cd "$(dirname "$0")" && pwd)
@@ -8,7 +9,7 @@ extent=320x200
 options=(--validation --timing)
 . "$here/window.sh"
 
-# Room for a single neighbour.
+# Capacity for a single neighbour.
 cat >crowd.toml <<'TOML'
 name = "crowd"
 [solver]
@@ -40,7 +41,7 @@ scene=crowd.toml
 start
 xdotool windowmove "$window" 0 0
 xdotool mousemove 160 110
-reds() { # FILE: pixels of the red body; in the colors of a map there are none
+reds() { # FILE: number of pixels of the red body; color maps have none
     convert "$1" -colorspace sRGB -fx 'r > 1.5*g && r > 0.3 ? 1 : 0' -format '%[fx:round(mean*w*h)]' info:
 }
 echo "first use: more room for contacts, while the window goes on"
@@ -56,7 +57,7 @@ awaitTitle paused
 shoot bare.png
 (($(reds bare.png) > 100)) || fail "no body is seen"
 echo "first use: every layer and the section"
-keys l 1 2 3 4 5 m i # the first lot is made, and then what was asked for meanwhile
+keys l 1 2 3 4 5 m i # the first group is made, then the things requested meanwhile
 for _ in {1..600}; do
     shoot layers.png
     (($(reds layers.png) < 20)) && break
@@ -80,7 +81,7 @@ for _ in {1..100}; do
 done
 grep -q '^[1-9][0-9]* pictures in ' viewer.out || fail "F9 made no film"
 echo "first use: another solver beside"
-line() { convert "$1" -crop 2x160+159+0 +repage -colorspace sRGB -format '%[fx:mean < 0.1 ? 1 : 0]' info:; } # between the halves
+line() { convert "$1" -crop 2x160+159+0 +repage -colorspace sRGB -format '%[fx:mean < 0.1 ? 1 : 0]' info:; } # dark line between the halves
 [[ $(line layers.png) == 0 ]] || fail "there are halves before B"
 keys b
 for _ in {1..300}; do
@@ -110,7 +111,7 @@ done
 [[ $(line halves.png) == 1 ]] || fail "--beside shows no halves"
 halfReds() { convert "$1" -crop "160x200+$2+0" +repage half.png && reds half.png; }
 (($(halfReds halves.png 0) > 30 && $(halfReds halves.png 160) > 30)) || fail "a body is missing in a half"
-keys F12 # into a picture that is copied, where the window's are shown
+keys F12 # writes a picture that is copied where the window's pictures are shown
 for _ in {1..100}; do grep -q '^picture: ' viewer.out && break; sleep 0.3; done
 grep -q '^picture: ' viewer.out || fail "F12 saves no picture of halves"
 grep -qv '^warning: beside: .* softer than asked' viewer.err && fail "a picture of halves: $(cat viewer.err)"

@@ -1,4 +1,4 @@
-// The table of frame times: its numbers are those that were put in, and agree with each other.
+// Tests of the table of frame times: its numbers are those of the input and consistent.
 #include "viewer/window/frame_times.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-// Every pipeline of the viewer, made by the compiler of a real GPU on a machine that has none
-// (support/null_hardware.hpp). Families as in the test of the simulation's pipelines, more with SINEW_FULL=1.
-// The variable SINEW_KERNEL_TABLE names a folder for a table of all shaders.
+// Makes every pipeline of the viewer with the compiler of a real GPU that need not be present
+// (support/null_hardware.hpp). GPU families as in the test of the simulation's pipelines, more with
+// SINEW_FULL=1. SINEW_KERNEL_TABLE names a folder for a table of all shaders.
 #include "all_viewer_shaders.hpp"
 #include "support/full.hpp"
 #include "support/null_hardware.hpp"
@@ -25,7 +25,7 @@ constexpr std::array kernels{&shaders::cutValues,    &shaders::liveLinks,   &sha
                              &shaders::skinValues,   &shaders::sleepValues, &shaders::speedValues,
                              &shaders::strainValues};
 
-// With balls and marks, so that there are pipelines for them.
+// A light with balls and marks, which need pipelines.
 StageLight light() {
     StageLight light;
     light.bounds = Box(Vector3(-1, -1, -1), Vector3(1, 1, 1));

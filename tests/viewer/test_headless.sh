@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# test_headless.sh VIEWER SCENE FOLDER: pictures without a display, under validation; what is wrong costs one line.
+# test_headless.sh VIEWER SCENE FOLDER: makes pictures without a display, under validation. Each error gives
+# one line.
 set -euo pipefail
 viewer=$1 scene=$2 folder=$3
 here=$(cd "$(dirname "$0")" && pwd)
@@ -34,12 +35,12 @@ cmp every/frame_0010.png listed/frame_0010.png || fail "a picture depends on whi
 cmp every/frame_0030.png listed/frame_0030.png || fail "a picture depends on which others are taken"
 cmp -s every/frame_0000.png every/frame_0030.png && fail "nothing has moved"
 
-# Layers are in pictures, too.
+# Layers appear in pictures, too.
 expect 0 "$scene" --headless --picture-frames 30 --size 320x200 --out shown --show strain,wires,particles,contacts --validation
 grep -q validation err && fail "validation messages"
 cmp -s every/frame_0030.png shown/frame_0030.png && fail "--show shows nothing"
 
-# A step without room for its contacts is done again, and no picture shows the state before.
+# A step that lacks contact capacity is repeated, and no picture shows the state before it.
 balls='name = "balls"
 [solver]
 substeps = 8
@@ -61,12 +62,12 @@ for picture in roomy/*.png; do
 done
 cmp -s roomy/frame_0000.png roomy/frame_0024.png && fail "no ball has moved"
 
-# Pieces without a surface are named apart, as in the report of a run.
+# Pieces without a surface are counted separately, as in the report of a run.
 printf 'gravity = [0, 0, 0]\n[[mesh]]\ngenerate = "sphere"\ndetail = 32\nsize = 0.3\ncenter = [0, 0, 0]\nresolution = 8\ncuttable = true\n[[blade]]\ntimes = [0, 0.0166667]\nedges = [[[0.1055, 1, -1], [0.1055, 1, 1]], [[0.1055, -1, -1], [0.1055, -1, 1]]]\n' >slice.toml
 expect 0 slice.toml --headless --frames 4 --every 4 --size 64x64 --out slice --validation
 grep -qx 'cut: [0-9]* links, 2 pieces and 6 fragments without a surface' out || fail "it counts other pieces"
 
-# Far too much over-relaxation.
+# Over-relaxation that makes the solver diverge.
 printf '[solver]\nname = "jacobi"\nsubsteps = 1\niterations = 200\nover_relaxation = 1.99\nweight = 1\n[[cloth]]\nname = "fuse"\nsize = [16, 16]\nspacing = 1\npinned = ["first_row"]\n' >bomb.toml
 expect 7 bomb.toml --headless --frames 100000 --every 100000 --size 64x64 --out bomb
 grep -q 'body "fuse"' err || fail "a divergence names no body"
@@ -92,8 +93,9 @@ kill -INT $!
 code=0
 wait $! || code=$?
 [[ $code == 130 ]] || fail "interrupted: exit code $code, expected 130"
-# A signal while a scene loads, or in a step that takes seconds, ends the viewer: 2 s, and some for a busy machine.
-endsSoon() { # SIGNAL SECONDS ARGUMENTS...: is sent the signal so long after its start
+# A signal during the loading of a scene, or in a step of several seconds, ends the viewer within 2 s (longer
+# on a busy machine).
+endsSoon() { # SIGNAL SECONDS ARGUMENTS...: sends the signal that long after the start
     local signal=$1 after=$2
     shift 2
     "$viewer" "$@" >out 2>err &
@@ -108,12 +110,12 @@ for signal in INT TERM; do
     endsSoon $signal 4 slow.toml --headless --frames 1000 --size 64x64 --out slow
 done
 
-# Stands in for ffmpeg: its last argument is the file.
+# Replaces ffmpeg: its last argument is the file.
 mkdir bin
 printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
 chmod +x bin/ffmpeg
 for signal in INT TERM HUP; do
-    # nohup, which may run the tests, has HUP ignored
+    # HUP may be ignored, because nohup may run the tests.
     PATH=$folder/bin:$PATH env --default-signal=HUP "$viewer" "$scene" --headless --frames 1000000 --size 64x64 --video film.mp4 >out 2>err &
     for _ in {1..200}; do [[ -n $(find . -name 'film.mp4*.part' -size +16k) ]] && break; sleep 0.1; done
     [[ ! -e film.mp4 ]] || fail "a film that is not finished has its name already"
@@ -125,7 +127,7 @@ for signal in INT TERM HUP; do
     ((bytes > 0 && bytes % (64 * 64 * 4) == 0)) || fail "the film has $bytes bytes, which are no whole pictures"
     rm film.mp4
 done
-# The same in a step that takes longer than the viewer may after the signal.
+# Repeats this in a step that lasts longer than the viewer may run after the signal.
 PATH=$folder/bin:$PATH "$viewer" slow.toml --headless --frames 1000 --size 64x64 --video film.mp4 >out 2>err &
 for _ in {1..400}; do [[ -n $(find . -name 'film.mp4*.part' -size +15k) ]] && break; sleep 0.1; done
 sleep 1

@@ -1,4 +1,4 @@
-// Pictures of layers, drawn under validation as those of test_pictures.
+// Tests of pictures of layers, drawn under validation like those of test_pictures.
 #include "scene_shot.hpp"
 #include "viewer/hands/inspection.hpp"
 
@@ -10,7 +10,7 @@
 namespace sinew::viewer {
 namespace {
 
-// A scene with layers on, and the range of a map at once.
+// A scene with layers, whose color map has its range from the start.
 struct LayerShot : SceneShot {
     LayerShot(const sim::Scene& scene, const Layers& on, const Quality& quality = quick)
         : SceneShot(scene, viewOf(scene), quality), layers(on), inspection(test::device(), stage, 1) {
@@ -65,7 +65,7 @@ TEST(Layers, ColorTheSurfaceOfCutsAsWell) {
         to{{{0.01f, -1, -1}, {0.01f, -1, 1}}};
     LayerShot shot(scene, {.map = ColorMap::strain});
     const Picture cut = shot.take(0.1f, {.from = from, .to = to});
-    for (const float x : {-0.05f, 0.05f}) { // cells along the cut are drawn by its surface
+    for (const float x : {-0.05f, 0.05f}) { // the cut surface draws the cells along the cut
         const Color color = colorAt(cut, shot.camera, {x, 0.3f, 0.2f});
         EXPECT_GT(color[2], color[0]) << x;
     }
@@ -97,10 +97,10 @@ sim::Scene smallOrgan() {
 
 constexpr std::array<sim::Vec3, 2> from{{{0, 1, -1}, {0, 1, 1}}}, to{{{0, -1, -1}, {0, -1, 1}}};
 
-// Of a mesh that was cut only what a layer draws is made: with not a number everywhere before, pictures are
-// as if all were made.
+// With a cut mesh, only the vertices that a layer draws are computed. All vertices are filled with NaN
+// before, and the pictures must equal those with all vertices computed.
 TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
-    constexpr std::uint32_t poison = 0x7fc12345; // not a number
+    constexpr std::uint32_t poison = 0x7fc12345; // a NaN
     const sim::Scene scene = smallOrgan();
     for (const Layers& layers :
          {Layers{}, Layers{.skin = SkinLook::glass}, Layers{.hasWires = true}, Layers{.section = Section{}},
@@ -116,7 +116,7 @@ TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
     }
 }
 
-// Pictures of one scene with all faces in the maps of light, and with those alone that look towards it.
+// Pictures of a scene with all faces in the shadow maps, and with only those that face the light.
 struct ShadowTwins {
     explicit ShadowTwins(const sim::Scene& scene) : all(scene, {}, quick), facing(scene, {}, facingAlone()) {
         EXPECT_TRUE(facing.light.areSolidsOutward());
@@ -130,7 +130,7 @@ struct ShadowTwins {
         for (LayerShot* shot : {&all, &facing}) shot->take(0, blade);
         EXPECT_EQ(all.stage.simulation().status(1).pieces, 2u);
     }
-    // How many pixels differ after a step.
+    // Number of pixels that differ after a step.
     int differing() {
         const Picture a = static_cast<SceneShot&>(all).take(1), b = static_cast<SceneShot&>(facing).take(1);
         int count = 0;
@@ -141,9 +141,9 @@ struct ShadowTwins {
     LayerShot all, facing;
 };
 
-// A light meets the faces of a solid first that look towards it, once it is in two, too. At silhouettes it
-// still may be another face in a map of finite size: up to 27 of 64,000 pixels differ in some states, and
-// none in most.
+// A light first meets the faces of a closed solid that face it, also after a cut into two pieces. At
+// silhouettes the finite resolution of the map may select another face: up to 27 of 64,000 pixels differ in
+// some states, and none in most.
 void expectTheSameShadows(const sim::Scene& scene) {
     constexpr int steps = 20, mostOfOne = 64, mostOnAverage = 8;
     ShadowTwins twins(scene);
@@ -164,7 +164,7 @@ TEST(Layers, ThrowTheSameShadowsWithoutFacesThatLookAway) {
     expectTheSameShadows(organ);
     sim::Scene cube = block(0.6f, true);
     cube.grids[0].isCuttable = true;
-    for (sim::Particle& particle : cube.particles) // the halves fly apart and turn
+    for (sim::Particle& particle : cube.particles) // the halves separate and rotate
         particle.velocity = {particle.position.x > 0 ? 0.6f : -0.6f, 4 * particle.position.z, 1.5f};
     expectTheSameShadows(cube);
 }

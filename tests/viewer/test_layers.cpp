@@ -1,4 +1,4 @@
-// Layers: their names and colors, the tables behind color maps, and what the device makes of them, under
+// Tests of layers: their names and colors, the tables behind color maps, and the results on the device, under
 // validation.
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/inspection.hpp"
@@ -32,7 +32,7 @@ TEST(Layers, GoRoundThroughAllLooksAndMaps) {
     EXPECT_EQ(next(ColorMap::none), ColorMap::strain);
 }
 
-// CIE 1976 L*, a, b of a color: another measure than the one that the map was made by.
+// CIE 1976 L*, a, b of a color. The color map was designed by another measure.
 std::array<double, 3> cieLab(const std::array<float, 3>& c) {
     const auto root = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116; };
     const double r = double{c[0]}, g = double{c[1]}, b = double{c[2]};
@@ -57,7 +57,7 @@ TEST(MapColors, StayOnTheScreenAndGetEvenlyLighter) {
     }
 }
 
-// That many particles with `value`.
+// Adds `count` particles with a value in this bin.
 void put(layout::ValueSpread& spread, std::size_t bin, std::uint32_t count) {
     spread.counts[bin] += count;
 }
@@ -76,7 +76,7 @@ TEST(MapReading, LeavesOnePercentBeyondItsRange) {
     EXPECT_FLOAT_EQ(reading.largest, largest);
 }
 
-// Reads the same so many times.
+// Reads the same value several times.
 float readTimes(MapRange& range, float reading, int times) {
     for (int i = 0; i < times; ++i) range.read({.range = reading});
     return range.range();
@@ -166,7 +166,7 @@ TEST(StrainMap, SaysHowFarABodyIsStretched) {
     EXPECT_LT(resting.inspection.reading(0).largest, 1e-5f);
 }
 
-// The halves of a block fly apart: the links that a blade has cut get long, the others do not.
+// The halves of a block separate: the links cut by a blade get long, the others do not.
 TEST(StrainMap, LeavesOutWhatWasCut) {
     sim::Scene scene = cuttableBlock();
     for (sim::Particle& particle : scene.particles)
@@ -207,7 +207,7 @@ TEST(SleepMap, KnowsWhoSleepsAndWhoNeverMoves) {
     EXPECT_EQ(resting.inspection.buffers(resting.layers, 0.1f).range, 1) << "from asleep to awake";
 }
 
-// Loose balls, still, so that the grid is of where they are.
+// Loose balls at rest, so that the grid fits their positions.
 sim::Scene scattered(std::uint32_t count, float size) {
     sim::Scene scene;
     scene.gravity = {0, 0, 0};
@@ -235,7 +235,7 @@ Cells cellsOf(const sim::Scene& scene) {
     return {grids[0], marks};
 }
 
-// By where the balls are, which no kernel is asked.
+// Compares with the positions of the balls, without a kernel.
 void expectEachBallInOneCell(const Cells& cells, const sim::Scene& scene) {
     std::vector<int> times(scene.particles.size());
     std::uint32_t most = 0, shared = 0;
@@ -262,7 +262,7 @@ void expectEachBallInOneCell(const Cells& cells, const sim::Scene& scene) {
     EXPECT_EQ(cells.facts.shared, shared);
 }
 
-// As dense as balls lie that do not push each other.
+// Balls as dense as possible without contact forces.
 sim::Scene packed() {
     sim::Scene scene = scattered(343, 0.008f);
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
@@ -327,7 +327,7 @@ TEST(ContactMarks, AreWhereBallsLieOnTheFloorAndOnEachOther) {
     EXPECT_EQ(heap.inspection.contacts(0), 2u) << "one on the floor, one on that, one in the air";
 }
 
-// Two triangles with an edge of each across that of the other, as far apart as both are thick.
+// Two triangles whose edges cross at a distance of both thicknesses.
 TEST(ContactMarks, AreWhereTwoEdgesCross) {
     constexpr float thickness = 0.01f;
     sim::Scene scene;

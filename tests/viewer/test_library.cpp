@@ -1,4 +1,4 @@
-// What the window opens while it goes on: lists, files that are dropped, and those that are no scene.
+// Tests of opening scenes while the window continues: lists, dropped files, and files that are no scenes.
 #include "viewer/library.hpp"
 
 #include "mesh/import.hpp"
@@ -103,7 +103,7 @@ TEST_F(LibraryTest, OpensTheSameSceneAgainWithOtherSubsteps) {
     EXPECT_EQ(library.current(), 1u);
 }
 
-// Where what is on show has more room by then than what was opened to take over from it.
+// The shown scene has grown while its successor was opened, so the successor is opened again.
 TEST_F(LibraryTest, OpensWhatIsToTakeOverOnceMore) {
     Library library = libraryOf("b.toml");
     library.reopen({.substeps = 9}, {}, 1.5f);
@@ -122,7 +122,7 @@ TEST_F(LibraryTest, OpensWhatIsToTakeOverOnceMore) {
 TEST_F(LibraryTest, OpensOneAtATime) {
     Library library = libraryOf("b.toml");
     library.open(0, 1.5f);
-    library.open(2, 1.5f); // broken, and not asked any more
+    library.open(2, 1.5f); // a broken file, which is no longer wanted
     const auto opened = await(library);
     ASSERT_TRUE(opened);
     EXPECT_EQ(opened->loaded.scene.name, "a");
@@ -144,7 +144,7 @@ TEST(Recording, NeverWritesOverWhatIsThereAndLeavesNothingEmpty) {
 }
 
 TEST_F(LibraryTest, StaysOnTheDeviceThatWasChosen) {
-    std::vector<std::string> devices; // that scenes were prepared on
+    std::vector<std::string> devices; // devices on which scenes were prepared
     Library library(Options{.scene = (folder / "b.toml").string()},
                     [&](Opening&, const Options& options) { devices.push_back(options.device); });
     library.openNext(-1, 1.5f);
@@ -159,7 +159,7 @@ TEST_F(LibraryTest, StaysOnTheDeviceThatWasChosen) {
     EXPECT_EQ(devices, (std::vector<std::string>{"", "other", "other"}));
     library.reopenOn("third", {}, 1.5f);
     ASSERT_TRUE(await(library));
-    library.putBack(); // it could not be shown
+    library.putBack(); // the scene could not be shown
     EXPECT_EQ(library.shown().device, "other");
     library.openNext(-1, 1.5f);
     ASSERT_TRUE(await(library));

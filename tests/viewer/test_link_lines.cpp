@@ -1,5 +1,5 @@
-// Links in the colors of their classes: which ones the solver corrects together, and what the device draws of
-// them, under validation.
+// Tests of links drawn in the colors of their classes: the classes that the solver corrects together, and the
+// drawing on the device, under validation.
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/inspection.hpp"
@@ -16,7 +16,7 @@
 namespace sinew::viewer {
 namespace {
 
-// A block of links, its lowest layer fixed.
+// A block of links whose lowest layer is fixed.
 sim::Scene block(bool isCuttable) {
     sim::Scene scene;
     sim::Lattice lattice{.origin = {0, 0, 0}, .cells = {4, 4, 4}, .spacing = 0.1f};
@@ -75,13 +75,13 @@ TEST(LinkClasses, HaveColorsThatNeighboursInTurnTellApart) {
             const float here = classColor(i)[c], next = classColor(i + 1)[c];
             EXPECT_GE(here, 0);
             EXPECT_LE(here, 1);
-            between += std::pow(std::sqrt(double{here}) - std::sqrt(double{next}), 2); // nearly as shown
+            between += std::pow(std::sqrt(double{here}) - std::sqrt(double{next}), 2); // about as displayed
         }
         EXPECT_GT(std::sqrt(between), 0.25) << i;
     }
 }
 
-// A stage with its links, ready to be drawn.
+// A stage with its links, ready for drawing.
 struct Lines {
     explicit Lines(const sim::Scene& scene, sim::Solver solver)
         : stage(test::device(), scene, {.solver = solver, .substeps = 8}),
@@ -122,7 +122,7 @@ TEST(LinkLines, LeaveOutWhatABladeHasCut) {
     EXPECT_EQ(lines.leftOut(), lines.stage.simulation().status(lines.stage.steps()).linksCutInAll);
 }
 
-// A sheet that resists folding, of which one link more than its own leads over a node, is cut across.
+// A cut across a sheet that resists folding, where one additional link spans a node.
 TEST(LinkLines, LeaveOutWhatLeadsOverACut) {
     sim::Scene scene{.name = "sheet", .gravity = {0, 0, 0}};
     sim::addCloth(
@@ -147,7 +147,7 @@ TEST(LinkLines, LeaveOutWhatLeadsOverACut) {
                 (scene.particles[scene.distances[own].b].position.x < 0.37f));
 }
 
-// Pixels of a picture that have the color of a class, nearly.
+// Number of pixels that nearly have the color of a class.
 std::size_t pixelsOf(const Picture& picture, const std::array<float, 3>& linear) {
     const auto shown = [](float x) {
         return 255 * (x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f);
@@ -163,7 +163,7 @@ std::size_t pixelsOf(const Picture& picture, const std::array<float, 3>& linear)
 }
 
 TEST(LinkLines, AreDrawnInTheColorsOfTheirClasses) {
-    sim::Scene scene; // a star, of which every link is in a class of its own
+    sim::Scene scene; // a star, in which every link is a class of its own
     scene.gravity = {0, 0, 0};
     scene.particles.push_back({.position = {0, 0.5f, 0}});
     for (std::uint32_t i = 1; i <= 6; ++i) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# test_lost_device.sh VIEWER SCENE FOLDER LAYERS: the device is lost, in the window after hands have cut, and without one while a film is
-# made. One line says so, exit code 5; settings and what hands did are kept, and so are the pictures that there were.
+# test_lost_device.sh VIEWER SCENE FOLDER LAYERS: the device is lost, in the window after a cut, and without a
+# window during a film. Expects one line, exit code 5, and that settings, the input log and finished pictures
+# are kept.
 set -euo pipefail
 viewer=$1 player=$1 scene=$2 folder=$3 layers=$4
 here=$(cd "$(dirname "$0")" && pwd)
@@ -10,11 +11,11 @@ export SINEW_LOSE_DEVICES=$folder/lost
 printf '#!/bin/sh\nexec env VK_LAYER_PATH="%s" VK_INSTANCE_LAYERS=VK_LAYER_SINEW_losing "%s" "$@"\n' "$layers" "$player" >start
 chmod +x start
 
-mkdir bin # stands in for ffmpeg: its last argument is the file
+mkdir bin # replaces ffmpeg: its last argument is the file
 printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
 chmod +x bin/ffmpeg
 PATH=$folder/bin:$PATH
-expectFilm() { # FILE BYTES: of whole pictures of so many bytes
+expectFilm() { # FILE BYTES: a film of whole pictures with BYTES each
     local bytes
     bytes=$(stat -c %s "$1") || fail "the film is lost"
     ((bytes > 0 && bytes % $2 == 0)) || fail "the film has $bytes bytes, which are no whole pictures"
@@ -48,7 +49,7 @@ start
 cutDown 320 100 420
 [[ $(title) == *pieces* ]] || fail "nothing is cut"
 window_before=$window
-echo 1 >lost # and the first that is made now: the one after it goes on
+echo 1 >lost # also loses the next device; the one after it works
 for _ in {1..300}; do [[ -s viewer.err ]] && break; sleep 0.1; done
 for _ in {1..300}; do [[ $(title) != *pieces* ]] && break; sleep 0.1; done
 [[ $(title) != *pieces* ]] || fail "it does not begin anew"
@@ -63,10 +64,10 @@ awaitStill after.png
 keys space
 awaitTitle fps
 sleep 10
-echo 0 >lost # once more, and the next one works
+echo 0 >lost # loses the device again; the next one works
 for _ in {1..300}; do (($(wc -l <viewer.err) == 2)) && break; sleep 0.1; done
 (($(wc -l <viewer.err) == 2)) || fail "it does not go on a second time"
-echo 0 again >lost # at once: that is enough
+echo 0 again >lost # a loss at once ends the viewer
 for _ in {1..300}; do kill -0 "$running" 2>/dev/null || break; sleep 0.1; done
 ! kill -0 "$running" 2>/dev/null || fail "the viewer does not end"
 code=0

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# test_lost_display.sh VIEWER SCENE FOLDER: the display goes away while a film is made, while another scene is loaded, and after hands
-# have cut. The viewer says so in one line and ends by itself; the pictures of its film are whole, settings
-# are kept, and what hands did can be done again.
+# test_lost_display.sh VIEWER SCENE FOLDER: the display disappears during a film, while a scene loads, and
+# after a cut. The viewer must report it in one line and end by itself, with whole pictures in its film, kept
+# settings, and an input log that can be replayed.
 set -euo pipefail
 viewer=$1 player=$1 scene=$2 folder=$3
 here=$(cd "$(dirname "$0")" && pwd)
@@ -12,7 +12,7 @@ if [[ ! ${4:-} ]]; then
 fi
 . "$here/window.sh"
 
-if [[ $4 == full ]]; then # what the viewer runs in is gone by then
+if [[ $4 == full ]]; then # lets the viewer run in a folder that is removed later
     mkdir gone
     printf '#!/bin/sh\ncd "%s/gone" && exec "%s" "$@"\n' "$folder" "$viewer" >start
     chmod +x start
@@ -22,7 +22,7 @@ start
 case $4 in
 film)
     keys F9
-    filmed() { (($(find . -name '*.png' | wc -l) >= 3)) || compgen -G '*.part' >/dev/null; } # without ffmpeg, with it
+    filmed() { (($(find . -name '*.png' | wc -l) >= 3)) || compgen -G '*.part' >/dev/null; } # pictures without ffmpeg, a partial film with it
     for _ in {1..300}; do filmed && break; sleep 0.1; done
     filmed || fail "nothing was filmed" ;;
 load)
@@ -53,7 +53,7 @@ else
     grep -q '^vsync = false$' config/sinew/viewer.conf || fail "what V chose is not remembered"
     input=$(sed -n 's/.*: --replay \(.*\) does again what hands did$/\1/p' viewer.err)
     [[ $input == "$kept"/block-*.input && -s $input ]] || fail "what hands did is not kept"
-    played() { # LOG: the state that it comes to
+    played() { # LOG: state at the end of its replay
         "$player" --headless --replay "$1" >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
         sed -n 's/^state hash \([0-9a-f]*\) after [1-9][0-9]* steps.*/\1/p' replay.out
     }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# test_memory.sh VIEWER SCENE FOLDER: going to and fro between two scenes leaves the viewer as large as it was: what the scene before
-# took is given back. The least of three readings, since a reading may fall into a change.
+# test_memory.sh VIEWER SCENE FOLDER: switching between two scenes must not enlarge the viewer, because each
+# scene returns its memory. Uses the smallest of three readings, since a reading may fall into a switch.
 set -euo pipefail
 viewer=$1 given=$2 folder=$3
 here=$(cd "$(dirname "$0")" && pwd)
@@ -12,7 +12,7 @@ scene=$folder/one.toml
 start
 
 shown() { grep -c ' particles, ' viewer.out || true; }
-change() { # the scene before in the folder's list, and half a second of it
+change() { # switches to the previous scene of the folder and plays it for half a second
     local before
     before=$(shown)
     keys Prior
@@ -20,8 +20,8 @@ change() { # the scene before in the folder's list, and half a second of it
     (($(shown) > before)) || fail "the next scene never came"
     sleep 0.5
 }
-resident() { awk '/^VmRSS/ {print $2}' "/proc/$running/status"; } # kB
-least() { # of three changes
+resident() { awk '/^VmRSS/ {print $2}' "/proc/$running/status"; } # in kB
+least() { # smallest size after each of three switches
     local size=$((1 << 40)) now
     for _ in 1 2 3; do
         change

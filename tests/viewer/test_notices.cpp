@@ -1,4 +1,4 @@
-// Texts in the window, one after the other.
+// Tests of the window's notices, which appear one after the other.
 #include "viewer/window/notices.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The command line: what is accepted, what is refused, and which frames become pictures.
+// Tests of the command line: accepted and refused options, and the frames that become pictures.
 #include "viewer/options.hpp"
 
 #include "app/guard.hpp"

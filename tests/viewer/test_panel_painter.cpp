@@ -1,4 +1,4 @@
-// Panels over a picture, drawn under core, synchronisation and queue-submit validation.
+// Tests of panels drawn over a picture, under core, synchronisation and queue-submit validation.
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/panels/panels.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr VkExtent2D extent{800, 420};
 constexpr Quality quick{.shadowSize = 256, .floorSize = 128, .shadowTaps = 4, .skyTaps = 4};
-constexpr std::uint32_t sideFrom = 500; // where panels are, columns from here on
+constexpr std::uint32_t sideFrom = 500; // first column of the panels
 
 sim::Scene ball() {
     sim::Scene scene;
@@ -25,7 +25,7 @@ sim::Scene ball() {
     return scene;
 }
 
-// A scene under panels; a picture of it with them or without.
+// A scene below panels, drawn with or without them.
 struct Table {
     Table()
         : scene(ball()), camera(framing({}, stageBounds(scene), 1.9f)), stage(test::device(), scene, {}),
@@ -35,7 +35,7 @@ struct Table {
         painter.setPictures(extent, std::array{offscreen.view()});
     }
 
-    // What `draw` says to Dear ImGui, and nothing else, over the scene.
+    // Draws only the commands of `draw` with Dear ImGui over the scene.
     template <typename Draw> Picture takeDrawn(const Draw& draw) {
         ImGui::GetIO().DisplaySize = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
         ImGui::NewFrame();
@@ -45,7 +45,7 @@ struct Table {
     }
 
     Picture take(bool withPanels, std::uint32_t slot = 0) {
-        // Sizes are learnt in the first, in the second how far what is wrapped can be scrolled.
+        // The first build measures sizes, the second one scroll ranges of wrapped text.
         for (int i = 0; i < 3; ++i) panels.build(facts, changing, {}, extent, 1.0 / 60);
         return picture(withPanels, slot);
     }
@@ -77,7 +77,7 @@ double brightness(const Picture& picture, std::uint32_t column, std::uint32_t ro
     return (at[0] + at[1] + at[2]) / 765.0;
 }
 
-// Of columns from..to of the rows between the hint and the upper edge.
+// Mean color of the columns from..to in the rows between the hint and the upper edge.
 double mean(const Picture& picture, std::uint32_t from, std::uint32_t to) {
     double sum = 0;
     for (std::uint32_t row = 20; row < 360; ++row)
@@ -87,7 +87,7 @@ double mean(const Picture& picture, std::uint32_t from, std::uint32_t to) {
 
 TEST(PanelPainter, DarkensTheSideAndLeavesTheSceneBesideItAsItWas) {
     Table table;
-    table.panels.toggle(); // the picture is too small to have panels unasked
+    table.panels.toggle(); // a small picture has no panels by default
     const Picture without = table.take(false), with = table.take(true);
     EXPECT_GT(mean(without, sideFrom, 780), 0.5);
     EXPECT_LT(mean(with, sideFrom, 780), 0.4);
@@ -141,7 +141,7 @@ TEST(PanelPainter, ShowsThemAsTheyWereUntilTheyAreDueOrCannotBe) {
     EXPECT_EQ(table.take(true, 1).pixels, after.pixels) << "other pictures";
 }
 
-// Every pixel that differs is in one of the rectangles, and no pixel is in two.
+// Every changed pixel must lie in one of the rectangles, and none in two.
 TEST(PanelPainter, KnowsWhereItHasDrawn) {
     Table table;
     table.panels.toggle();
@@ -189,11 +189,11 @@ TEST(PanelPainter, KnowsOfAreasOverOneAnother) {
         return pixels;
     };
     EXPECT_EQ(sum(cover.areas), 100u * 40 + 100u * 40 - 20u * 20);
-    const std::size_t joined = 190u * 60; // from the left end of what is no area to the right end of all
+    const std::size_t joined = 190u * 60; // from the left end of the gap to the right end of all
     EXPECT_EQ(sum(cover.parts), joined - sum(cover.areas));
 }
 
-// Both pictures of the sheet, each as large as it is, beside each other.
+// Both pictures of the sheet, side by side at their own size.
 TEST(PanelPainter, ShowsPicturesOfItsSheetAsTheyAre) {
     Table table;
     PictureSheet sheet(2);

@@ -1,4 +1,4 @@
-// The panels without a device: what a pointer does in them, and what belongs to them.
+// Tests of panels without a device: reactions to the pointer, and their contents.
 #include "viewer/panels/knob_keys.hpp"
 #include "viewer/panels/panel_parts.hpp"
 #include "viewer/panels/panels.hpp"
@@ -33,7 +33,7 @@ SceneFacts someScene() {
             .canCut = true};
 }
 
-// Everything that is not a drag, the wheel, or a press of the panels' own key.
+// All actions except drags, the wheel, and the key of the panels themselves.
 std::set<Action> actionsOfButtons() {
     std::set<Action> actions;
     for (const Binding& binding : bindings())
@@ -43,7 +43,7 @@ std::set<Action> actionsOfButtons() {
 
 class PanelsTest : public testing::Test {
 protected:
-    // A click of the left button there, seen by as many pictures as it takes.
+    // Clicks the left button at a point, over as many pictures as needed.
     Wishes click(const Vector2& at, VkExtent2D extent = large) {
         PanelInput input{.pointer = at};
         picture(input, extent);
@@ -61,7 +61,7 @@ protected:
     Wishes picture(const PanelInput& input = {}, VkExtent2D extent = large) {
         return panels.build(scene, facts, input, extent, 1.0 / 60);
     }
-    // Twice: Dear ImGui learns sizes in the first.
+    // Builds two pictures, because Dear ImGui measures sizes in the first.
     void settle(VkExtent2D extent = large) {
         picture({}, extent);
         picture({}, extent);
@@ -75,8 +75,8 @@ protected:
 TEST_F(PanelsTest, TurnTheMaterialOfAllOrOfOneBody) {
     scene.bodies = {"liver", "gut"};
     scene.fromFile.bodies = facts.knobs.bodies = {1, 1};
-    facts.knobs.damping = scene.fromFile.damping = 200; // more than the slider has
-    constexpr VkExtent2D tall{1280, 1400};              // all of them are in sight
+    facts.knobs.damping = scene.fromFile.damping = 200; // beyond the end of the slider
+    constexpr VkExtent2D tall{1280, 1400};              // shows all sliders
     settle(tall);
     const auto wishes = [&] {
         std::set<std::string> turned;
@@ -94,7 +94,7 @@ TEST_F(PanelsTest, TurnTheMaterialOfAllOrOfOneBody) {
     EXPECT_TRUE(wishes().contains("body"));
 }
 
-// Anywhere on it: the right end is through.
+// A click anywhere on the slider sets it; its right end means a cut through the body.
 TEST_F(PanelsTest, TurnTheDepthOfTheBlade) {
     facts.bladeDepths = {0.01f, 0.5f};
     constexpr VkExtent2D tall{1280, 1400};
@@ -178,7 +178,7 @@ TEST_F(PanelsTest, TakeAPathThatIsTypedBeforeTheLineForItIsThere) {
     settle();
     EXPECT_FALSE(panels.takesKeys());
     panels.askForFile();
-    panels.toggle(); // the line is not seen
+    panels.toggle(); // hides the line
     EXPECT_FALSE(panels.takesKeys());
 }
 
@@ -215,7 +215,7 @@ TEST_F(PanelsTest, CopyWhatIsInALine) {
     EXPECT_EQ(copied, "/tmp/a.obj");
 }
 
-// Some pictures take long.
+// Covers pictures that take long.
 TEST_F(PanelsTest, SeeEveryTapOfAButton) {
     settle();
     std::optional<Vector2> at;
@@ -252,7 +252,7 @@ TEST_F(PanelsTest, KeepANoticeBesideThePanel) {
     }
 }
 
-// The list drops down below its field; where it is seen, pictures are asked for, and no others.
+// The list opens below its field. Pictures are requested only for visible entries.
 TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheList) {
     facts.scenes = {"cloth", "cube", "organ", "tear"};
     facts.previews = {false, true, false};
@@ -267,7 +267,7 @@ TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheList) {
     EXPECT_EQ(*wishes.previews, (std::vector<std::size_t>{0, 2})) << "what has one, or no place for one";
 }
 
-// Or a slider.
+// An action may have a slider in place of a button.
 TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
     for (const Binding& binding : bindings()) {
         const bool isKey = binding.trigger.kind == Trigger::Kind::key;
@@ -284,7 +284,7 @@ TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
     EXPECT_EQ(clicked, actionsOfButtons());
 }
 
-// A line more, while there are some.
+// The panel has one more line if fragments were removed.
 TEST_F(PanelsTest, SayHowManyCrumbsWereRemoved) {
     const auto height = [&] {
         settle();
@@ -311,7 +311,7 @@ TEST_F(PanelsTest, OfferToUndoOnlyWhatWasDone) {
     EXPECT_FALSE(clicked.contains(Action::redo));
 }
 
-// What a list is in while it is open.
+// The window of an open list.
 const ImGuiWindow* openList() {
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
         if (window->Active && !window->Hidden && (window->Flags & ImGuiWindowFlags_Popup) != 0) return window;
@@ -327,7 +327,7 @@ TEST_F(PanelsTest, OfferOtherDevicesButNoneThatCannotBeUsed) {
     facts.devices[2].missing = {"it cannot draw to this window"};
     settle();
     std::set<std::size_t> wished;
-    for (float y = 30; y < 110; y += 8) { // the list is somewhere near the top
+    for (float y = 30; y < 110; y += 8) { // the list is near the top
         click({1200, y});
         settle();
         if (openList() == nullptr) continue;
@@ -379,7 +379,8 @@ TEST_F(PanelsTest, DrawMoreWhereThereIsMoreToSay) {
     EXPECT_GT(panels.drawn().TotalVtxCount, before);
 }
 
-// What the painter trusts: places are numbers, triangles have corners, nothing is cut out beyond the picture.
+// Checks the assumptions of the painter: finite positions, complete triangles, clip rectangles within the
+// picture.
 void expectSound(const ImDrawData& drawn, VkExtent2D extent) {
     EXPECT_EQ(drawn.DisplaySize.x, static_cast<float>(extent.width));
     EXPECT_EQ(drawn.DisplaySize.y, static_cast<float>(extent.height));
@@ -396,7 +397,7 @@ void expectSound(const ImDrawData& drawn, VkExtent2D extent) {
     }
 }
 
-// Every panel lies within the picture.
+// Expects every panel to lie within the picture.
 void expectWithin(VkExtent2D extent) {
     int seen = 0;
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {

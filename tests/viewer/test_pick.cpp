@@ -1,4 +1,4 @@
-// What lies under the pointer, and what the hand makes of it.
+// Tests of picking under the pointer, and of grabs from it.
 #include "viewer/hands/grab_tool.hpp"
 #include "viewer/hands/inspector.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 namespace layout = sim::layout;
 
-// A scene as StateProbe would read it at the start.
+// A scene as StateProbe reads it at the start.
 struct Seen {
     sim::Scene scene;
     BallList balls;
@@ -43,7 +43,7 @@ struct Seen {
     std::optional<Pick> at(const Ray& ray) const { return pick(scene, balls, ray, {positions, vertices}); }
 };
 
-// 0.4 m wide around the origin; with a second one 2 m behind it.
+// A block 0.4 m wide around the origin, and a second one 2 m behind it.
 Seen blocks() {
     Seen seen;
     for (const float z : {-0.2f, -2.2f}) {

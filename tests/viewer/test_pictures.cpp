@@ -1,5 +1,5 @@
-// Pictures of small scenes, drawn under core, synchronisation and queue-submit validation (support/device.hpp
-// makes every message a failure).
+// Tests of pictures of small scenes, drawn under core, synchronisation and queue-submit validation
+// (support/device.hpp turns every message into a failure).
 #include "scene_shot.hpp"
 #include "viewer/draw/collider_meshes.hpp"
 #include "viewer/hands/state_probe.hpp"
@@ -65,7 +65,7 @@ TEST(Picture, IsDarkerOnTheGroundBesideTheBodyThanFarFromIt) {
 }
 
 TEST(Picture, DarkensTheGroundUnderABodyThatComesNear) {
-    // Seen past the lower edge of a block in the air.
+    // View past the lower edge of a block in the air.
     const auto under = [](float height) {
         const sim::Scene scene = block(height, true);
         Camera camera;
@@ -96,7 +96,7 @@ TEST(Picture, FollowsTheSimulation) {
     EXPECT_GT(redness(colorAt(before, shot.camera, start)), 40);
     EXPECT_LT(redness(colorAt(before, shot.camera, landed)), 25);
     for (int i = 0; i < 5; ++i) shot.take(4);
-    const Picture after = shot.take(); // 1/3 s later it has just landed
+    const Picture after = shot.take(); // it has just landed, 1/3 s later
     EXPECT_LT(redness(colorAt(after, shot.camera, start)), 25);
     EXPECT_GT(redness(colorAt(after, shot.camera, landed)), 40);
 }
@@ -118,7 +118,7 @@ TEST(Picture, ShowsACollidersColorWhereItsPathHasLedIt) {
     EXPECT_GT(redness(colorAt(after, shot.camera, right)), 60);
 }
 
-// Every shape closed, with its vertices on the surface and its normals outward.
+// Every shape is closed, with vertices on the surface and outward normals.
 TEST(ColliderMesh, IsTheSurfaceOfItsShape) {
     const std::array<sim::Collider, 3> colliders{
         sim::Collider{.shape = sim::ColliderShape::sphere, .radius = 0.5f},
@@ -158,7 +158,7 @@ TEST(Picture, HasSmoothEdgesWithFourSamples) {
     coarse.samples = VK_SAMPLE_COUNT_1_BIT;
     SceneShot smooth(scene, viewOf(scene)), jagged(scene, viewOf(scene), coarse);
     const Picture a = smooth.take(), b = jagged.take();
-    // Pixels between body and background: neither red nor grey.
+    // Number of pixels between body and background colors: neither red nor grey.
     const auto between = [](const Picture& picture) {
         int count = 0;
         for (std::size_t i = 0; i < picture.pixels.size(); i += 4) {
@@ -170,7 +170,7 @@ TEST(Picture, HasSmoothEdgesWithFourSamples) {
     EXPECT_GT(between(a), 2 * between(b) + 50);
 }
 
-// While the camera rests, goes elsewhere and rests there, over a floor and without one.
+// The camera rests, moves and rests again, with and without a floor.
 TEST(Picture, IsTheSameWithABackdropThatIsKept) {
     for (const VkSampleCountFlagBits samples : {VK_SAMPLE_COUNT_1_BIT, VK_SAMPLE_COUNT_4_BIT})
         for (const bool hasGround : {true, false}) {
@@ -197,7 +197,7 @@ double meanDifference(const Picture& a, const Picture& b) {
     return sum / static_cast<double>(a.pixels.size());
 }
 
-// With a backdrop that is kept, and one that is not yet.
+// With a kept backdrop, and with one that is not kept yet.
 TEST(Picture, IsLikeItselfWhereItIsDrawnSmallerAndEnlarged) {
     const sim::Scene scene = block(0.3f, true);
     Quality quality = quick;
@@ -229,7 +229,7 @@ TEST(Backdrop, IsMadeInTheSecondPictureFromAPlace) {
     EXPECT_EQ(backdrop.next(here), Use::direct);
     EXPECT_EQ(backdrop.next(here), Use::made);
     EXPECT_EQ(backdrop.next(here), Use::kept);
-    here.section.w = 3; // of bodies alone
+    here.section.w = 3; // opens bodies only
     EXPECT_EQ(backdrop.next(here), Use::kept);
     EXPECT_EQ(backdrop.next(there), Use::direct);
     EXPECT_EQ(backdrop.next(here), Use::direct);
@@ -237,7 +237,7 @@ TEST(Backdrop, IsMadeInTheSecondPictureFromAPlace) {
     EXPECT_EQ(backdrop.next(here), Use::kept);
 }
 
-// From outside, from within, and of a skin that is inside out.
+// From outside, from inside, and with an inverted skin.
 TEST(Picture, IsTheSameWithoutTheBacksThatNobodySees) {
     Quality less = quick;
     less.leavesBacks = true;
@@ -254,8 +254,8 @@ TEST(Picture, IsTheSameWithoutTheBacksThatNobodySees) {
         }
 }
 
-// The volume that the maps cover is that of the scene as it was opened: a hand may lift a body half out of
-// it, or out of it.
+// The shadow maps cover the volume of the scene at its start. A grab may lift a body partly or fully out of
+// it.
 TEST(Picture, HasTheShadowOfABodyThatWasLiftedTowardsTheLight) {
     Quality less = quick;
     less.leavesBacks = true;
@@ -276,7 +276,7 @@ TEST(Picture, HasTheShadowOfABodyThatWasLiftedTowardsTheLight) {
     std::size_t heights = 0;
     for (const float height : {0.3f, 0.5f, 0.6f, 0.7f, 0.8f}) {
         const Picture all = lifted(height, quick), some = lifted(height, less);
-        EXPECT_LE(largestDifference(all, some), 16) << height; // what is out of it is flat in the map
+        EXPECT_LE(largestDifference(all, some), 16) << height; // bodies beyond the volume are flat in the map
         const auto isDarker = [&](std::size_t p) { return all.pixels[p] + 40 < high.pixels[p]; };
         std::size_t dark = 0;
         for (std::size_t p = 0; p < all.pixels.size(); p += 4) dark += isDarker(p) && isDarker(p + 1) ? 1 : 0;
@@ -299,7 +299,7 @@ TEST(Picture, HasTheLightOfTheFloorEverySecondTimeWhereThatIsEnough) {
     }
 }
 
-// A skin that is drawn inside out is seen, behind nothing, as one that is not.
+// An inverted skin is visible where no front face hides it.
 TEST(Picture, ShowsBacksWhereNoFrontHidesThem) {
     sim::Scene scene = block(0.3f, true), turned = scene;
     for (auto& triangle : turned.skins.front().triangles) std::swap(triangle[1], triangle[2]);
@@ -371,7 +371,7 @@ std::uint32_t sleepers(const Stage& stage) {
     return stage.simulation().status(stage.steps()).sleeping;
 }
 
-// A picture of a heap of which all sleep is paler than the same one awake.
+// A heap is drawn paler while all of it sleeps.
 TEST(Picture, ShowsWhatSleepsPaler) {
     sim::Scene scene = block(0, true);
     sim::Settings settings{.substeps = 16, .sleeps = true};
@@ -404,7 +404,7 @@ TEST(Stage, NamesBodyParticleAndStepThatBroke) {
     scene.distances.clear();
     scene.grids.clear();
     scene.particles[first + 2].position = scene.particles[first + 2].velocity = {3.3e38f, 0, 0};
-    scene.dt = 0.1f; // leaves what a float can hold in the first step
+    scene.dt = 0.1f; // overflows float in the first step
     Stage stage(test::device(), scene, {});
     VkCommandBuffer commands = test::queue().begin();
     stage.recordReset(commands);

@@ -1,4 +1,4 @@
-// Pins: what they hold stays where it is while the rest falls, and what is taken out falls after it.
+// Tests of pins: pinned particles stay in place while the rest falls, and removed pins release them.
 #include "played.hpp"
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
@@ -79,7 +79,7 @@ TEST(Pins, HoldABodyAgainstItsWeight) {
     EXPECT_LT(step(3).y(), at.y() - 0.5f) << "half a second of a fall of the whole body";
 }
 
-// A block whose front is held, or goes to the side.
+// A block whose front is held, or driven to the side.
 const std::string heldFront = std::string(block) + R"([[hold]]
 name = "clamp"
 shape = "half_space"
@@ -122,7 +122,7 @@ TEST(HeldMarks, AreOneDrawWhereGapsAreShortAndApartWhereTheyAreLong) {
     EXPECT_EQ(sim::holdOf(holds, 12), nullptr);
 }
 
-// Mean column of the pixels that are as blue as a pin.
+// Pixels as blue as a pin, and their mean column.
 struct Blue {
     std::size_t count = 0;
     double column = 0;

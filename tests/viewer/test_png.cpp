@@ -1,4 +1,5 @@
-// PNG files come back as they went out, with their text; a video needs ffmpeg and leaves nothing half done.
+// Tests that PNG files are read back as written, with their text, and that videos need ffmpeg and leave no
+// partial files.
 #include "viewer/pictures/picture_writer.hpp"
 #include "viewer/pictures/video.hpp"
 
@@ -62,7 +63,7 @@ TEST_F(Png, ComesBackAsItWentOut) {
 
 TEST_F(Png, HoldsItsTextWithTheChecksumOfTheSpecification) {
     const std::vector<std::uint8_t> bytes = encodePng(somePicture(2, 2), {{"Title", "PngSuite"}});
-    // length 14, then type, keyword, 0, text and the CRC-32 that zlib gives for them.
+    // Length 14, then type, keyword, 0, text, and the CRC-32 that zlib computes for them.
     const std::vector<std::uint8_t> chunk{0, 0,   0,   14,  't', 'E', 'X', 't', 'T', 'i',  't',  'l',  'e',
                                           0, 'P', 'n', 'g', 'S', 'u', 'i', 't', 'e', 0x4f, 0x55, 0xcf, 0x4c};
     const auto found = std::search(bytes.begin(), bytes.end(), chunk.begin(), chunk.end() - 4);
@@ -85,14 +86,14 @@ TEST_F(Png, WriterReportsWhatCannotBeWritten) {
     EXPECT_EQ(count(), 0u);
 }
 
-// Stands in for ffmpeg: counts the bytes it gets into its last argument, or fails.
+// Replaces ffmpeg by a program that counts the bytes into its last argument, or fails.
 void installProgram(const fs::path& folder, const std::string& body) {
     fs::create_directory(folder);
     std::ofstream(folder / "ffmpeg") << "#!/bin/sh\n" << body;
     fs::permissions(folder / "ffmpeg", fs::perms::owner_all);
 }
 
-class PathOf { // of the process, while this lives
+class PathOf { // prepends to the PATH of the process for its lifetime
 public:
     explicit PathOf(const std::string& path) : old_(std::getenv("PATH")) {
         ::setenv("PATH", path.c_str(), 1);

@@ -1,5 +1,5 @@
-// The sphere of the pointer: where it goes, without a device; that it pushes what is under it and is drawn
-// there.
+// Tests of the pointer's sphere (poke): its path, without a device, its push on a body below it, and its
+// picture.
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/poke_tool.hpp"
@@ -54,7 +54,7 @@ TEST(PokeTool, IsNowhereUntilItIsTakenUpPressedAndAnswered) {
 TEST(PokeTool, KeepsTheDepthOfWhatWasUnderThePress) {
     PokeTool tool = takenUp();
     const Vector3 point(0.1f, 0.2f, 0.7f);
-    const Vector2 pointer(0.06f, -0.12f); // about there
+    const Vector2 pointer(0.06f, -0.12f); // approximately
     tool.press(fromFront, pointer);
     tool.answer(Pick{.point = point});
     EXPECT_NEAR(centerOf(tool).z(), 0.7f, 1e-6f);
@@ -98,7 +98,7 @@ Color middleOf(const Picture& picture) {
     return {picture.pixels[at], picture.pixels[at + 1], picture.pixels[at + 2]};
 }
 
-// Swept through a block that floats it carries that along, and is seen in front of it.
+// A sphere that sweeps through a floating block carries it along and is visible in front of it.
 TEST(PokeTool, PushesABlockAndIsSeen) {
     sim::Scene scene;
     const sim::Lattice lattice{

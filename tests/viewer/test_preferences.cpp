@@ -1,4 +1,4 @@
-// Settings kept from run to run: what is written is read back, and what nobody understands harms nobody.
+// Tests of settings kept between runs: they are read back as written, and unknown lines are harmless.
 #include "viewer/window/preferences.hpp"
 
 #include <gtest/gtest.h>

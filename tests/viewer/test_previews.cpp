@@ -1,4 +1,4 @@
-// Small pictures of scenes: the thread that makes them, and what is on them.
+// Tests of small pictures of scenes: the thread that makes them, and their contents.
 #include "viewer/previews.hpp"
 
 #include "support/device.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 using Made = std::pair<std::size_t, Picture>;
 
-// So many pictures, however long they take.
+// Waits for `count` pictures without a time limit.
 std::vector<Made> await(Previews& previews, std::size_t count) {
     std::vector<Made> made;
     while (made.size() < count) {
@@ -72,7 +72,7 @@ TEST(Previews, EndWithoutMakingWhatIsStillWanted) {
         previews.want({0, 1, 2});
         while (drawn == 0) std::this_thread::yield();
         allowing = std::jthread([&] {
-            std::this_thread::sleep_for(std::chrono::milliseconds(50)); // it is asked to stop by then
+            std::this_thread::sleep_for(std::chrono::milliseconds(50)); // by then it is asked to stop
             isAllowed = true;
         });
     }

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# test_random_input.sh VIEWER EXAMPLES FOLDER [SECONDS]: hands that know nothing play in the window under validation: clicks, drags,
-# keys, the wheel, sizes. Twenty seconds and what it then takes to end, ten minutes with SINEW_FULL=1; SINEW_SEED is where the dice
-# begin. Nothing may crash, hang or be complained about. FOLDER keeps what was done, a line an event.
+# test_random_input.sh VIEWER EXAMPLES FOLDER [SECONDS]: sends random input to the window under validation:
+# clicks, drags, keys, the wheel, sizes. Lasts twenty seconds and the time to end, or ten minutes with
+# SINEW_FULL=1; SINEW_SEED is the seed. The viewer must not crash, hang or cause a validation message. FOLDER
+# keeps the input, one line an event.
 set -euo pipefail
 viewer=$1 examples=$2 folder=$3
 seconds=${4:-$([[ -n ${SINEW_FULL:-} ]] && echo 600 || echo 20)}
@@ -10,7 +11,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 extent=900x640
 . "$here/window.sh"
 
-# Films go nowhere, and cost nothing but the pictures.
+# A film program that discards its input, so that only the pictures cost time.
 mkdir bin played
 printf '#!/bin/sh\nfor last; do :; done\n: >"${last#file:}"\nexec cat >/dev/null\n' >bin/ffmpeg
 chmod +x bin/ffmpeg
@@ -33,7 +34,7 @@ printf 'v 0 0 0\nf 1 2 3\n' >played/broken.obj
 keyNames=(k shift+k d shift+d t shift+t g shift+g space p period comma F7 r c Escape n s 1 2 3 4 5 6 m i f Home Prior Next F1 F8 F9 F11 F12 v h Tab ctrl+s ctrl+z ctrl+shift+z ctrl+plus
     ctrl+minus a b d e g j k l o t u w x y z 0 7 8 9 Return BackSpace Delete Left Right Up Down comma minus plus ctrl+a ctrl+c)
 roll() { rolled=$((RANDOM % $1)); }
-place() { # somewhere in the window, or a little beside it
+place() { # a point in the window or slightly outside
     roll 920; local x=$rolled
     roll 660
     event+=(mousemove "$x" "$rolled")
@@ -49,7 +50,7 @@ drag() { # BUTTON
     done
     event+=(mouseup "$1")
 }
-throw() { # the dice for one event
+throw() { # chooses one event
     event=()
     roll 100
     local kind=$rolled
@@ -60,7 +61,7 @@ throw() { # the dice for one event
     elif ((kind < 50)); then
         place; roll 3
         event+=(click $((rolled + 1)))
-    elif ((kind < 55)); then # in the panels, which stand on the right
+    elif ((kind < 55)); then # in the panels on the right
         roll 280; local x=$((610 + rolled))
         roll 620
         event+=(mousemove "$x" "$rolled" click 1)
@@ -68,7 +69,7 @@ throw() { # the dice for one event
         place; roll 2; local button=$((rolled + 4))
         roll 6
         local notches=$((rolled + 1))
-        roll 3 # with Shift it sizes the sphere that pokes
+        roll 3 # with Shift it resizes the poke
         ((rolled > 0)) || event+=(keydown shift)
         event+=(click --repeat "$notches" --delay 10 "$button")
         ((rolled > 0)) || event+=(keyup shift)
@@ -87,10 +88,10 @@ throw() { # the dice for one event
         event+=(keyup ctrl)
     fi
 }
-checkWords() { # of one that plays, or has ended
+checkWords() { # checks the output of a running or ended viewer
     ! grep -q '^validation:' viewer.err || fail "validation has something to say, see $folder/events"
 }
-checkEnd() { # the button that quits is in reach of hands, too
+checkEnd() { # input can reach the quit button, too
     local code=0
     wait "$running" || code=$?
     [[ $code == 0 ]] || fail "exit code $code, expected 0, see $folder/events"
@@ -109,12 +110,12 @@ echo "random input: $seconds s, seed $seed"
 RANDOM=$seed
 scene=played/block.toml scenes=0 warnings=0 runs=0 events=0 sent=0
 begin
-keys Prior # another scene, whatever the dice say
+keys Prior # loads another scene in any case
 until=$((SECONDS + seconds))
 while ((SECONDS < until)); do
     throw
     echo "${event[*]}" >>events
-    if xdotool "${event[@]}" >/dev/null 2>&1; then sent=$((sent + 1)); fi # not to a window that has just gone
+    if xdotool "${event[@]}" >/dev/null 2>&1; then sent=$((sent + 1)); fi # fails if the window has just closed
     events=$((events + 1))
     roll 4
     sleep "0.0$rolled"
@@ -126,12 +127,12 @@ while ((SECONDS < until)); do
     ((events % 20 == 0)) || continue
     checkWords
     rm -f ./*.png ./*.mp4
-    xdotool windowsize "$window" 900 640 windowmove "$window" 0 0 2>/dev/null || true # where its panels are
+    xdotool windowsize "$window" 900 640 windowmove "$window" 0 0 2>/dev/null || true # location of its panels
 done
 checkWords
 xdotool keyup ctrl keyup shift mouseup 1 mouseup 2 mouseup 3
 xdotool windowmap "$window" windowsize "$window" 900 640 2>/dev/null || true
-for _ in {1..900}; do # it may have much to catch up with
+for _ in {1..900}; do # it may have many events left
     isUp || break
     xdotool key --window "$window" Escape ctrl+q 2>/dev/null || true
     sleep 0.2

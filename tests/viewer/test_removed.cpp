@@ -1,5 +1,5 @@
-// Crumbs that were removed are gone for whoever looks: balls, lines, marks, values, the pointer and the ropes
-// of hands, under validation.
+// Tests that removed fragments are invisible everywhere: balls, lines, marks, values, picking and the lines
+// of grabs, under validation.
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/inspection.hpp"
@@ -24,7 +24,7 @@ const std::array<std::uint32_t, 4> corner{0, 1, 5, 25}; // particles
 
 enum class Look { bare, skin, stretched };
 
-// A block of 5 x 5 x 5 particles that lies on the floor, and is cut at its corner (0, 0, 0).
+// A block of 5 x 5 x 5 particles on the floor, for a cut at its corner (0, 0, 0).
 sim::Scene block(std::uint32_t crumbs, Look look = Look::bare, float speed = 0) {
     sim::Scene scene{.name = "block", .gravity = {0, 0, 0}};
     const sim::Lattice lattice{.origin = {0, radius, 0},
@@ -34,7 +34,7 @@ sim::Scene block(std::uint32_t crumbs, Look look = Look::bare, float speed = 0) 
                                .isCuttable = true};
     const sim::LatticeCorners corners = sim::addLattice(scene, lattice);
     if (look == Look::skin) sim::addLatticeSkin(scene, lattice, corners, {1, 0, 0});
-    if (look == Look::stretched) // a triangle before the corner, and one at the other end
+    if (look == Look::stretched) // a triangle at the corner, and one at the other end
         scene.skins.push_back({.name = "patch",
                                .triangles = {{0, 2, 1}, {3, 4, 5}},
                                .particles = {1, 5, 25, 4, 9, 3},
@@ -49,10 +49,10 @@ sim::Scene block(std::uint32_t crumbs, Look look = Look::bare, float speed = 0) 
 
 using Sweep = std::array<std::array<sim::Vec3, 2>, 2>;
 
-// Parts those four particles from the rest.
+// A cut that separates these four particles from the rest.
 constexpr Sweep cornerCut{
     {{{{-1.96f, 0.08f, 2.04f}, {0.04f, -1.92f, 2.04f}}}, {{{0.04f, 2.08f, -1.96f}, {2.04f, 0.08f, -1.96f}}}}};
-// Halves.
+// A cut into halves.
 constexpr Sweep halfCut{{{{{0.17f, 1, -1}, {0.17f, 1, 1}}}, {{{0.17f, -1, -1}, {0.17f, -1, 1}}}}};
 
 struct Cut {
@@ -109,7 +109,7 @@ TEST(Removed, HasNoLines) {
 }
 
 TEST(Removed, HasNoMarks) {
-    for (const int more : {0, 2}) { // lists are made again in the step after the cut
+    for (const int more : {0, 2}) { // the step after the cut rebuilds lists
         EXPECT_EQ(Cut(block(0), {.hasContacts = true}, cornerCut, more).inspection.contacts(0), 25u);
         EXPECT_EQ(Cut(block(5), {.hasContacts = true}, cornerCut, more).inspection.contacts(0), 25u - 3);
     }
@@ -188,7 +188,7 @@ std::size_t redPixels(const Picture& picture) {
     return count;
 }
 
-// Both halves of a block are crumbs: nothing is left to be seen of it.
+// Both halves of a block are fragments, so that nothing of it is drawn.
 TEST(Removed, IsNotDrawn) {
     for (const Look look : {Look::bare, Look::skin})
         for (const bool hasBalls : {false, true}) {

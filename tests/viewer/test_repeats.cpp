@@ -1,5 +1,5 @@
-// Steps of a stage that lacked lists of contacts and are taken again: what must come after them comes after
-// them, and times count them once.
+// Tests of steps that lacked contact lists and are repeated by the stage: later changes must follow them, and
+// times must count them once.
 #include "sim/calm_cases.hpp"
 #include "sim/hash.hpp"
 #include "support/device.hpp"
@@ -16,7 +16,7 @@
 namespace sinew::viewer {
 namespace {
 
-// A box that falls on a floor: some calm step lacks lists.
+// A box that falls onto a floor: some calm step lacks lists.
 struct Landing {
     sim::Case one = sim::landing();
     Stage stage{test::device(), one.scene, one.settings};
@@ -33,7 +33,8 @@ struct Landing {
     void step(vk::Timestamps* timestamps = nullptr) {
         run([&](VkCommandBuffer commands) { stage.recordStep(commands, timestamps); });
     }
-    // Steps until one has lacked lists, and `more` behind it; the stage is then before that one.
+    // Runs steps until one has lacked lists, and `more` after it; the stage then returns to the state before
+    // that one.
     std::uint64_t untilUndone(std::uint64_t more) {
         do step();
         while (!stage.lacksLists(stage.steps()) && stage.steps() < one.steps);
@@ -60,7 +61,7 @@ TEST(StageRepeats, TakesAnotherMaterialBehindStepsThatWereUndone) {
     const sim::Material soft{.stiffness = 0.5f};
     Landing calm(true), plain(false);
     const std::uint64_t undone = calm.untilUndone(2), newest = undone + 2;
-    calm.prepare(soft); // while the repetition is still to come
+    calm.prepare(soft); // before the repetition
     EXPECT_EQ(calm.stage.undoneSteps(), 3u);
     EXPECT_FALSE(calm.stage.isTurnReady());
     for (std::uint64_t left = 3; left > 0; --left) {
@@ -87,11 +88,11 @@ TEST(StageRepeats, AreDroppedWithTheStateThatTheyLedFrom) {
     reset.step();
     EXPECT_EQ(reset.stage.undoneSteps(), 0u);
     loaded.untilUndone(1);
-    loaded.stage.setPlayed(1); // as History does with the state that it loads
+    loaded.stage.setPlayed(1); // like History when it loads a state
     EXPECT_EQ(loaded.stage.undoneSteps(), 0u);
 }
 
-// As viewer --headless --timing does.
+// Uses HeadlessTimes like viewer --headless --timing.
 TEST(HeadlessTimes, CountEachStepOnceThatWasTakenAgain) {
     Landing landing(true);
     Stage& stage = landing.stage;

@@ -1,5 +1,4 @@
-// Logs of input: what is written is read back, and what hands did leads to the same bits when it is done
-// again.
+// Tests of input logs: they are read back as written, and their replay gives the same bits.
 #include "played.hpp"
 
 #include "app/guard.hpp"
@@ -9,7 +8,7 @@
 namespace sinew::viewer {
 namespace {
 
-// Grabs and throws the block, pins it, cuts it, takes the cut back and forth, with a camera that moves.
+// Grabs and throws the block, pins it, cuts it, and undoes and redoes the cut with a moving camera.
 void play(Played& played) {
     played.turn({}, 5);
     played.dragFrom({0, 0}, {0.2f, -0.3f}, 8);
@@ -30,7 +29,7 @@ void play(Played& played) {
     played.turn({.actions = {Action::undo}}, 0);
 }
 
-// In the thread that prepares it, as a window does.
+// Changes the material in the thread that prepares it, as a window does.
 void turnMaterial(Played& played, const sim::Material& material) {
     played.stage.turn(material);
     Stage::Turn turn = Stage::Turn::none;
@@ -38,7 +37,7 @@ void turnMaterial(Played& played, const sim::Material& material) {
     EXPECT_EQ(turn, Stage::Turn::ready);
 }
 
-// Softens the block, cuts it, takes the cut back, and stiffens it; the last that is asked for counts.
+// Softens the block, cuts it, undoes the cut, and stiffens it; the last request counts.
 void soften(Played& played) {
     played.turn({}, 10);
     turnMaterial(played, {.stiffness = 0.2f, .damping = 1.5f});
@@ -55,11 +54,11 @@ void soften(Played& played) {
         played.turn({}, 1);
     }
     played.turn({}, 5);
-    played.turn({.actions = {Action::undo}}, 0); // of a state that was softer
+    played.turn({.actions = {Action::undo}}, 0); // to a softer state
     played.turn({}, 5);
 }
 
-// Pushes the block with a sphere that grows, from beside it and then on it, and lifts the sphere each time.
+// Pushes the block with a growing sphere from beside it and then on it, and removes the sphere each time.
 void poke(Played& played) {
     played.turn({}, 20);
     played.turn({.actions = {Action::blade}});
@@ -116,7 +115,7 @@ TEST(Replay, OfAMaterialBeginsAtTheReset) {
     Replay replay(parseInput(toText(played.file()), "test"));
     replayAll(again, replay);
     EXPECT_EQ(again.hash(), played.hash());
-    again.tools.putAway(again.stage); // the replay begins again
+    again.tools.putAway(again.stage); // the replay starts again
     again.tools.reset();
     again.run([&](VkCommandBuffer commands) { again.stage.recordReset(commands); });
     Scene untouched;
@@ -132,7 +131,7 @@ TEST(Replay, PushesWithTheSameSphere) {
     expectTheSameBitsOf(poke);
 }
 
-// With the sphere in the hand, larger than at first.
+// The poke tool is active, with an enlarged sphere.
 TEST(Replay, OfASphereBeginsAtTheReset) {
     Played played;
     played.turn({.actions = {Action::poke}});
@@ -149,14 +148,14 @@ TEST(Replay, OfASphereBeginsAtTheReset) {
     EXPECT_EQ(again.hash(), played.hash());
 }
 
-// Down the middle of the block, from above it to below, as deep as the blade is set.
+// A stroke down the middle of the block from above to below it, as deep as the blade is set.
 void stroke(Played& played) {
     played.dragFrom({0.02f, -0.4f}, {0, 0.8f}, 24);
     played.pressAt({0.02f, 0.4f}, false);
     played.turn({}, 10);
 }
 
-// A cut to a depth, deeper by the wheel half way, and one that goes through from somewhere on.
+// A cut with a limited depth, enlarged by the wheel half way, and a cut that changes to a through cut.
 void incise(Played& played) {
     played.turn({}, 5);
     played.tools.setDepth(0.12f);
@@ -193,7 +192,7 @@ TEST(Replay, OfADepthBeginsAtTheReset) {
     EXPECT_FALSE(again.tools.depth());
 }
 
-// What a stroke leaves of the block, in no gravity.
+// Status of the block after a stroke without gravity.
 sim::Status afterStroke(const std::optional<float>& depth) {
     Played played;
     played.tools.pull(played.stage, 0);
@@ -235,7 +234,7 @@ TEST(Tools, LendTheBladeWhileAKeyIsHeldAndThePointerUsed) {
     EXPECT_TRUE(tools.isBladeOn() && !tools.isPokeOn());
     EXPECT_TRUE(tools.lendBlade(false, false));
     EXPECT_TRUE(tools.isPokeOn() && !tools.isBladeOn()) << "back in hand";
-    tools.act(Action::blade); // for good
+    tools.act(Action::blade); // until the end
     EXPECT_FALSE(tools.lendBlade(true, true));
     EXPECT_FALSE(tools.lendBlade(false, true));
     EXPECT_TRUE(tools.isBladeOn());
@@ -247,7 +246,7 @@ TEST(Tools, LendTheBladeWhileAKeyIsHeldAndThePointerUsed) {
     EXPECT_TRUE(again.tools.isBladeOn());
 }
 
-// While time stands still no step cuts it.
+// While time is paused, no step makes the cut.
 TEST(Tools, TakeTheBladeBackWhileItsStrokeWaitsForAStep) {
     Played scene;
     const auto paused = [&](Input input) { scene.turn(input, 0); };
@@ -275,7 +274,7 @@ TEST(Replay, BeginsAtTheReset) {
     played.tools.reset();
     played.run([&](VkCommandBuffer commands) { played.stage.recordReset(commands); });
     EXPECT_EQ(played.tools.history().undos(), 0u) << "of another time";
-    played.dragFrom({0.1f, -0.45f}, {0, 0.9f}, 3); // the blade is still in the hand, gravity still low
+    played.dragFrom({0.1f, -0.45f}, {0, 0.9f}, 3); // the blade is still active and gravity is still low
     Scene again;
     Replay replay(parseInput(toText(played.file()), "test"));
     replayAll(again, replay);
@@ -388,7 +387,7 @@ TEST(Replay, IsComparedWithTheStateAfterAsManySteps) {
     EXPECT_EQ(hashText(0xabd, 50, {}), "state hash 0000000000000abd after 50 steps") << "an old log has none";
 }
 
-// Of the state on the device, all that a step may read.
+// A run whose hash covers all of the state on the device that a step may read.
 struct Walk : Played {
     std::uint64_t backAndHash(int steps) {
         for (int i = 0; i < steps; ++i) EXPECT_TRUE(tools.act(Action::stepBack));
@@ -445,7 +444,7 @@ TEST(StepBack, KeepsTheNewestAsFarAsThereIsRoom) {
     EXPECT_EQ(walk.stage.played(), played - History::mostSteps);
 }
 
-// Room for a few states keeps that many, and steps that are taken back cost none.
+// The history keeps as many states as its capacity, and undone steps take none.
 TEST(StepBack, KeepsAsManyAsThereIsRoomFor) {
     constexpr std::size_t room = 9, more = 4;
     Walk walk;
@@ -462,7 +461,7 @@ TEST(StepBack, KeepsAsManyAsThereIsRoomFor) {
     EXPECT_EQ(spare.undos(), room);
 }
 
-// Steps that lacked lists of contacts are no steps: the way back and the log are as without them.
+// Undone steps that lacked contact lists must change neither step-back nor the log.
 TEST(StepBack, KnowsNothingOfStepsThatWereTakenBack) {
     const std::string falling = R"([solver]
 substeps = 12
@@ -493,7 +492,7 @@ room = 64
         }
     }
     ASSERT_GT(takenBack, 0u);
-    const auto extra = static_cast<int>(calm.stage.steps() - steps); // one alone may have been taken back
+    const auto extra = static_cast<int>(calm.stage.steps() - steps); // one may still be undone
     plain.turn({}, extra);
     EXPECT_EQ(calm.stage.played(), plain.stage.played());
     EXPECT_EQ(calm.hash(), plain.hash());
@@ -507,7 +506,7 @@ room = 64
     EXPECT_EQ(calm.hash(), plain.hash());
 }
 
-// With a hand between, and once more than there are steps.
+// Steps back and forth with a grab between, and once more often than there are steps.
 void walk(Played& played) {
     played.turn({}, 12);
     for (int i = 0; i < 3; ++i) played.tools.act(Action::stepBack);

@@ -1,4 +1,4 @@
-// Logs of input that begin from a saved state: they lead to the same bits, from that state alone.
+// Tests of input logs that start from a saved state: a replay from this state alone gives the same bits.
 #include "played.hpp"
 
 #include "app/guard.hpp"
@@ -23,7 +23,7 @@ struct ReplayOfState : testing::Test {
         run.scene = scene.string();
         app::writeRun(state, run);
     }
-    // As Show::inputFile, from the text that F8 writes.
+    // The log as Show::inputFile makes it, from the text that F8 writes.
     InputFile log(Played& played) {
         InputFile file = played.file();
         file.scene = scene.string();
@@ -43,11 +43,11 @@ struct ReplayOfState : testing::Test {
         hasTheSameLog = again.tools.log().events() == file.events;
     }
 
-    bool hasTheSameLog = false; // so that it can be saved as what it was made of
+    bool hasTheSameLog = false; // whether the replayed log equals its source, and can be saved again
     std::filesystem::path scene = temporary("block.toml"), state = temporary("block.state");
 };
 
-// Before the state the block is turned softer, pinned nowhere and cut; after it, cut again and thrown.
+// Before the state, the block is softened, released from its pins and cut; after it, cut again and thrown.
 TEST_F(ReplayOfState, LeadsToTheSameBits) {
     write(text);
     Played played(scene);
@@ -78,7 +78,7 @@ TEST_F(ReplayOfState, LeadsToTheSameBits) {
     EXPECT_TRUE(hasTheSameLog);
 }
 
-// With the pins of the reset before it, and all that was turned since.
+// The replay has the pins of the reset before it, and all material changes since.
 TEST_F(ReplayOfState, OfOneThatWasResetBeginsWithItsScene) {
     write(text);
     Played played(scene);
@@ -97,7 +97,7 @@ TEST_F(ReplayOfState, OfOneThatWasResetBeginsWithItsScene) {
     EXPECT_EQ(again.stage.material().stiffness, 0.5f);
 }
 
-// Of balls that fall into a heap, with room for one neighbour; a step without room is done again with more.
+// Balls fall into a heap with capacity for one neighbour; steps that lack capacity are repeated with more.
 TEST_F(ReplayOfState, HasTheRoomThatThereWasInTheEnd) {
     write("[solver]\nsubsteps = 8\n[[particles]]\nradius = 0.05\ncount = [4, 4, 4]\njitter = 0.005\n"
           "center = [0, 0.3, 0]\n[[plane]]\n[contacts]\nroom = 1\n");
@@ -119,7 +119,7 @@ TEST_F(ReplayOfState, HasTheRoomThatThereWasInTheEnd) {
     expectTheSameBitsOf(on);
 }
 
-// The scene has no friction, for which there are passes then.
+// The scene has no friction; the changed material has, which needs more passes.
 TEST_F(ReplayOfState, OfAMaterialThatNeedsOtherPasses) {
     std::string jacobi = text;
     jacobi.replace(jacobi.find("substeps = 4"), 12, "name = \"jacobi\"\nsubsteps = 12");

@@ -1,5 +1,5 @@
-// States as files: what goes on from one has the bits of what went on without, and what is no state is
-// refused.
+// Tests of states as files: a run continued from a file has the same bits as one without it, and invalid
+// files are refused.
 #include "app/guard.hpp"
 #include "app/state_file.hpp"
 #include "sim/gpu_compile.hpp"
@@ -18,7 +18,7 @@
 namespace sinew::viewer {
 namespace {
 
-// Bodies that fall on each other while a blade goes through one.
+// Bodies that fall onto each other while a blade cuts one.
 constexpr const char* heap = R"([solver]
 substeps = 12
 [[box]]
@@ -46,7 +46,7 @@ std::filesystem::path temporary(const std::string& name) {
     return std::filesystem::temp_directory_path() / ("sinew-" + std::to_string(::getpid()) + "-" + name);
 }
 
-// As in the window.
+// Adds grabs and pokes to the settings, as in the window.
 Opening withHands(Opening opening) {
     app::addHands(opening.loaded.settings);
     return opening;
@@ -103,7 +103,7 @@ struct SavedState : testing::Test {
 
 TEST_F(SavedState, GoesOnWithTheSameBits) {
     Played played(scene);
-    for (const int steps : {3, 9, 12, 20}) { // before the blade, within its way, after it
+    for (const int steps : {3, 9, 12, 20}) { // before the blade, during its motion, after it
         played.take(steps);
         save(played);
         Played again(file);
@@ -120,8 +120,7 @@ TEST_F(SavedState, GoesOnWithTheSameBits) {
     EXPECT_GT(played.status().linksCutInAll, 0u) << "the blade met nothing";
 }
 
-// A device of another kind would complete open forms otherwise, and come to a simulation that the state does
-// not fit.
+// A device of another kind would complete open forms differently, and its simulation would not fit the state.
 TEST_F(SavedState, SaysTheFormsThatTheDeviceHasChosen) {
     Played played(scene);
     ASSERT_EQ(played.stage.settings().forms.columns, 0u) << "left open";
@@ -171,7 +170,7 @@ TEST_F(SavedState, KeepsWhereItWasSeenFrom) {
     EXPECT_NE(refusal().find("it is not what its version says"), std::string::npos) << refusal();
 }
 
-// Which had nothing between the state and the hash.
+// The former version had no data between the state and the hash.
 TEST_F(SavedState, OfTheVersionBeforeIsSeenAsItsScene) {
     Played played(scene);
     played.take(3);
@@ -200,7 +199,7 @@ TEST_F(SavedState, IsRefusedWhereItIsOfAnotherSimulation) {
     EXPECT_ANY_THROW(Played{file});
 }
 
-// Larger than any memory, where the file system has files with holes.
+// A file larger than any memory, if the file system supports sparse files.
 TEST_F(SavedState, IsNotReadWhereItIsNone) {
     std::ofstream(file) << "something else";
     std::error_code error;

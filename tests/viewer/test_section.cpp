@@ -1,4 +1,4 @@
-// The plane that opens bodies: where it lies, what is seen of them, and what hands find there. Pictures are
+// Tests of the section plane: its position, the visible parts of bodies, and picking on it. Pictures are
 // drawn under validation (support/device.hpp).
 #include "scene_shot.hpp"
 #include "viewer/hands/inspection.hpp"
@@ -14,7 +14,7 @@ namespace {
 const Camera fromFront{.distance = 3, .azimuth = 0, .elevation = 0};
 const Box unit(Vector3(-0.5f, -0.5f, -0.5f), Vector3(0.5f, 0.5f, 0.5f));
 
-// Each 0.4 m wide, one behind the other along z, the nearest around the origin.
+// Blocks 0.4 m wide behind each other along z, the nearest around the origin.
 sim::Scene blocks(std::initializer_list<float> depths) {
     sim::Scene scene;
     scene.gravity = {};
@@ -27,7 +27,7 @@ sim::Scene blocks(std::initializer_list<float> depths) {
     return scene;
 }
 
-// Upright, in the plane z = 0, seen from both sides.
+// A vertical sheet in the plane z = 0, visible from both sides.
 sim::Scene sheet() {
     sim::Scene scene;
     sim::addMeshCollider(
@@ -54,7 +54,7 @@ struct Shot {
                          {.layers = layers, .buffers = inspection.buffers(layers, 1)});
         test::queue().wait(test::queue().submit(commands));
         Picture picture = offscreen.read();
-        if (const char* folder = std::getenv("SINEW_PICTURES")) // to be looked at
+        if (const char* folder = std::getenv("SINEW_PICTURES")) // to look at
             writePng(std::filesystem::path(folder) / ("section-" + std::to_string(count++) + ".png"), picture,
                      {});
         return picture;
@@ -72,7 +72,7 @@ bool isGreen(const Color& color) {
 }
 bool isFlesh(const Color& color) {
     return color[0] > color[1] + 10;
-} // the inside of a green body
+} // inside of a green body
 bool isGrey(const Color& color) {
     return std::abs(color[0] - color[1]) < 25 && std::abs(color[1] - color[2]) < 40;
 }
@@ -188,7 +188,7 @@ TEST(Section, OpensBallsAndLeavesOfLinksAndEdgesWhatIsBehindIt) {
     EXPECT_TRUE(isGreen(colorAt(balls, fromFront, {0, 0, 0})));
     layers.map = ColorMap::strain;
     shot.take(fromFront, layers);
-    Camera camera = fromFront; // no line is seen from its end, where it has no length to be drawn along
+    Camera camera = fromFront; // a line along the view has no length on screen
     camera.azimuth = 0.5f;
     camera.elevation = 0.4f;
     layers = {.skin = SkinLook::hidden, .hasLinks = true, .section = Section{Vector3::UnitZ(), -0.3f}};
@@ -228,7 +228,7 @@ TEST(Section, HandsReachWhatItHasLaidOpenAndNothingBefore) {
     ASSERT_TRUE(behind);
     EXPECT_NEAR(behind->point.z(), -0.4f, 1e-5f) << "the front of the one behind";
     EXPECT_FALSE(at({Vector3::UnitZ(), -1}));
-    const auto fromBehind = at({-Vector3::UnitZ(), 0.3f}); // the eye is where nothing is cut away
+    const auto fromBehind = at({-Vector3::UnitZ(), 0.3f}); // the eye is on the side that is not cut away
     ASSERT_FALSE(fromBehind && fromBehind->point.z() < -0.3f);
 }
 

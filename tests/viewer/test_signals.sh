@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# test_signals.sh VIEWER SCENE FOLDER LAYERS: SIGINT and SIGTERM while the window is open, while it prepares its first scene, in a step that
-# takes seconds, and in a call of the driver that never comes back. It ends within 2 s (and some for a busy machine) with one line and exit code 130, and nothing is written half; films and settings of a window that plays are whole.
+# test_signals.sh VIEWER SCENE FOLDER LAYERS: sends SIGINT and SIGTERM to an open window, during the
+# preparation of its first scene, in a step of several seconds, and in a driver call that never returns. The
+# viewer must end within 2 s (longer on a busy machine) with one line, exit code 130 and no partial files; a
+# playing window keeps its films and settings whole.
 set -euo pipefail
 viewer=$1 scene=$2 folder=$3 layers=$4
 here=$(cd "$(dirname "$0")" && pwd)
 extent=320x240 options=(--no-validation)
 . "$here/window.sh"
 . "$here/signals.sh"
-mkdir bin # stands in for ffmpeg: its last argument is the file
+mkdir bin # replaces ffmpeg: its last argument is the file
 printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
 chmod +x bin/ffmpeg
 PATH=$folder/bin:$PATH
@@ -22,7 +24,7 @@ expectFilm() {
     bytes=$(stat -c %s "$film") || fail "the film is lost"
     ((bytes > 0 && bytes % (320 * 240 * 4) == 0)) || fail "the film has $bytes bytes, which are no whole pictures"
 }
-expectSettings() { # LINE: of what a key has changed
+expectSettings() { # LINE: the setting that a key has changed
     grep -qx "$1" config/sinew/viewer.conf || fail "settings are lost: $1"
 }
 
@@ -47,7 +49,7 @@ for signal in INT TERM; do
     echo "signals: SIG$signal in a step that takes seconds"
     launch "$viewer" slow.toml "${options[@]}" --size $extent
     awaitWindow '^Sinew.*particles'
-    sleep 3 # a step is under way
+    sleep 3 # a step is running
     endsSoon $signal
 done
 

@@ -1,4 +1,4 @@
-// Bounds of the stage, and that the light's maps cover what they must.
+// Tests of the stage's bounds, and of the volume that the shadow maps cover.
 #include "viewer/draw/stage_light.hpp"
 
 #include "sim/bodies.hpp"
@@ -78,7 +78,7 @@ TEST(StageLight, FloorMapHoldsTheShadowsOfTheStage) {
     const layout::FrameParams params = frameParams(light, Camera{}, 1.5f);
     for (int corner = 0; corner < 8; ++corner) {
         Vector3 at = light.bounds.corner(static_cast<Box::CornerType>(corner));
-        at -= (at.y() - *light.ground) / light.toLight.y() * light.toLight; // its shadow
+        at -= (at.y() - *light.ground) / light.toLight.y() * light.toLight; // its shadow on the ground
         EXPECT_LE(std::abs(at.x() - params.floor.x), params.floor.z / 2);
         EXPECT_LE(std::abs(at.z() - params.floor.y), params.floor.z / 2);
     }

@@ -1,5 +1,5 @@
-// What the pointer meets on a mesh that may be cut, as it is drawn: before a cut some of its vertices have
-// not moved with it, after one its inside lies open.
+// Tests of picking on a cuttable mesh as it is drawn. Before a cut some of its vertices are not updated, and
+// after a cut its inside is open.
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
 #include "support/device.hpp"
@@ -14,9 +14,9 @@
 namespace sinew::viewer {
 namespace {
 
-constexpr float speed = 3; // of either half once they are two [m/s]
+constexpr float speed = 3; // of each half after the cut [m/s]
 
-// An organ around the origin that falls, and of which the halves want to go apart along x.
+// A falling organ around the origin, whose halves separate along x once they are cut.
 sim::Scene organ(float away, std::uint32_t resolution) {
     sim::Scene scene{.name = "organ", .gravity = {0, -9.81f, 0}};
     mesh::MeshBody body{.name = "organ", .youngModulus = 1e5f, .isCuttable = true};
@@ -43,7 +43,7 @@ public:
             probe.record(commands);
         });
     }
-    // As pictures are made in which nobody asks; who asked all the same would find what is not made.
+    // Draws without a request for picking; picking then meets vertices that were not computed.
     void show(int steps) {
         run([&](VkCommandBuffer commands) {
             for (int i = 0; i < steps; ++i) stage.recordStep(commands);
@@ -51,7 +51,7 @@ public:
             probe.record(commands);
         });
     }
-    // All parts of the skin where they are.
+    // All parts of the skin at their current positions.
     SeenState parts() {
         run([&](VkCommandBuffer commands) {
             stage.simulation().recordSkin(commands, sim::SkinDetail::all);
@@ -90,7 +90,7 @@ private:
     StateProbe all_{test::device(), scene_, stage.settings(), stage.simulation()};
 };
 
-// From above, over an area of this half width.
+// Rays from above over an area of this half width.
 std::vector<Ray> raysDown(const ProbedOrgan& organ, float halfWidth) {
     std::vector<Ray> rays;
     for (float x = -halfWidth; x < halfWidth + 0.01f; x += 0.03f)
@@ -106,7 +106,7 @@ std::vector<std::optional<Pick>> picks(const ProbedOrgan& organ, const std::vect
     return met;
 }
 
-// What rays have met is where all parts are; where `wrong` says it was met as well, often it is elsewhere.
+// Expects hits at the positions of all parts, and that those in `wrong` are often elsewhere.
 void expectMet(ProbedOrgan& organ, const std::vector<Ray>& rays, const std::vector<std::optional<Pick>>& met,
                const std::vector<std::optional<Pick>>& wrong, std::size_t leastWrong) {
     const auto expected = picks(organ, rays, organ.parts());
@@ -134,7 +134,7 @@ TEST(StateProbe, MeetsAMeshWhereItIsDrawnUntilItIsCut) {
     expectMet(organ, rays, picks(organ, rays, seen), picks(organ, rays, unmoved), 20);
 }
 
-// Away from a cut parts are not drawn, and not made unless somebody asks.
+// Away from a cut, parts are not drawn, and computed only on request.
 TEST(StateProbe, MeetsAMeshWhereItIsDrawnOnceItIsCut) {
     ProbedOrgan organ(speed, 20);
     organ.step(1, true);
@@ -146,7 +146,7 @@ TEST(StateProbe, MeetsAMeshWhereItIsDrawnOnceItIsCut) {
     expectMet(organ, rays, picks(organ, rays, organ.probe.seen()), early, 10);
 }
 
-// Across the gap, from between the halves.
+// Rays across the gap, from between the halves.
 TEST(StateProbe, MeetsTheInsideThatACutHasLaidOpen) {
     ProbedOrgan organ(speed);
     organ.step(1, true);
@@ -172,8 +172,8 @@ TEST(StateProbe, MeetsTheInsideThatACutHasLaidOpen) {
     EXPECT_GT(inside, 40u);
 }
 
-// Skin, pieces and inside are closed together: behind a section that goes through a half there is inside
-// wherever a ray along its normal meets that half at all, and from the gap there is none.
+// Skin, pieces and inside form a closed surface. Behind a section through a half, every ray along its normal
+// that hits the half meets its inside; in the gap there is none.
 TEST(StateProbe, KnowsWhatASectionOpensOfACutBody) {
     ProbedOrgan organ(speed);
     organ.step(1, true);
@@ -193,10 +193,10 @@ TEST(StateProbe, KnowsWhatASectionOpensOfACutBody) {
             const auto left = organ.at({middle + Vector3(0, y, z), {-1, 0, 0}}, seen),
                        right = organ.at({middle + Vector3(0, y, z), {1, 0, 0}}, seen),
                        skin = organ.at({middle + Vector3(5, y, z), {-1, 0, 0}}, seen);
-            if (!left || !right || 5 - skin->distance < right->distance + 0.05f) continue; // thin there
+            if (!left || !right || 5 - skin->distance < right->distance + 0.05f) continue; // too thin
             const float solid = right->distance + 0.03f;
             const auto back = organ.at({middle + Vector3(solid, y, z), {-1, 0, 0}}, seen);
-            if (!back || std::abs(back->distance - 0.03f) > 1e-4f) continue; // a fold is there
+            if (!back || std::abs(back->distance - 0.03f) > 1e-4f) continue; // the skin folds there
             ++cases;
             EXPECT_NEAR(opened(solid, y, z).value(), solid, 1e-4f) << "in the half";
             EXPECT_NEAR(opened(0, y, z).value(), -left->distance, 1e-4f) << "in the gap";

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# test_stored_pictures.sh VIEWER SCENES STORED FOLDER: headless pictures against those in STORED/DRIVER, a tolerance a scene. What
-# differs is left in FOLDER: as stored, as now, and the difference. With SINEW_STORE=1 those of now are stored instead.
+# test_stored_pictures.sh VIEWER SCENES STORED FOLDER: compares headless pictures with those in STORED/DRIVER,
+# with a tolerance for each scene. FOLDER receives the stored picture, the new one and their difference where
+# they differ. SINEW_STORE=1 stores the new pictures instead.
 set -euo pipefail
 viewer=$1 scenes=$2 stored=$3 folder=$4
 here=$(cd "$(dirname "$0")" && pwd)
@@ -10,7 +11,8 @@ done
 rm -rf "$folder"
 mkdir -p "$folder"
 
-# Root of the mean square of what colors differ by, of all they could. Far more than a compiler's rounding, far less than a step.
+# Tolerance of the RMS color difference, relative to the largest possible one: far above the rounding of a
+# compiler and far below the change by one step.
 pictures=( # name, tolerance, frame, scene, options
     "block 0.01 8 $here/block.toml"
     "organ_section 0.01 2 $scenes/organ.toml --section 0.3,0.2,1,0"
@@ -42,7 +44,7 @@ for picture in "${pictures[@]}"; do
         cp "$stored/$driver/$name.png" "$folder/$name.stored.png"
         failed=1
     fi
-    # What must not pass: a picture moved by two pixels.
+    # A picture shifted by two pixels must fail.
     convert "$stored/$driver/$name.png" -roll +2+1 "$folder/moved.png"
     moved=$(compare -metric RMSE "$folder/moved.png" "$now" null: 2>&1 | sed 's/.*(\(.*\)).*/\1/' || true)
     awk "BEGIN { exit !($moved > $tolerance) }" || { echo "FAILED: $name moved by two pixels passes: $moved"; exit 1; }

@@ -1,5 +1,5 @@
-// Another solver, other substeps, another material or another device go on in the state that there is, with
-// all that hands do; and a replay does so, too.
+// Tests of changes of solver, substeps, material or device: the simulation continues from the current state
+// with all input, and a replay does the same.
 #include "played.hpp"
 
 #include "app/guard.hpp"
@@ -21,9 +21,9 @@ std::string with(const std::string& solver, const std::string& text = block) {
 }
 const std::string falling = changed(changed(block, "cuttable = true\n", ""), "[[plane]]\n", "");
 const std::string jacobi = with("name = \"jacobi\"\nsubsteps = 12", falling);
-const sim::Material damped{.damping = 1.5f}; // by a pass that `jacobi` has only then
+const sim::Material damped{.damping = 1.5f}; // `jacobi` has this pass only then
 
-// As Show::takeOver.
+// Takes over like Show::takeOver.
 void takeOver(Played& next, const Played& before) {
     next.stage.takeOver(before.stage, next.tools.bringOf(before.tools));
     next.tools.goOn(before.tools, next.stage);
@@ -57,7 +57,7 @@ void expectTheSameBitsAgain(Played& played, const std::string& text) {
     EXPECT_EQ(again.tools.log().events(), file.events);
 }
 
-// Under a weaker gravity it is pinned, cut through, and its upper half held.
+// Pins the block under a weaker gravity, cuts it through and grabs its upper half.
 void pinCutAndHold(Played& played) {
     played.turn({}, 5);
     played.tools.pull(played.stage, 3);
@@ -80,7 +80,7 @@ TEST(StageTakeOver, KeepsPlacesCutsPinsGravityAndTime) {
     ASSERT_TRUE(before.tools.isHolding());
     const std::uint64_t hash = before.hash();
     Played next(with("substeps = 9"), {.stiffness = 0.5f, .damping = 1.5f});
-    next.turn({}, 3); // of which nothing may be left
+    next.turn({}, 3); // must leave no trace
     takeOver(next, before);
     EXPECT_TRUE(areInTheSamePlaces(next, before));
     EXPECT_EQ(next.hash(), hash) << "the same solver keeps velocities as well";
@@ -105,7 +105,7 @@ TEST(StageTakeOver, KeepsPlacesCutsPinsGravityAndTime) {
     expectTheSameBitsAgain(next, block);
 }
 
-// Across the block, at that height.
+// A cut across the block at this height.
 void cutAt(Played& played, float height) {
     played.turn({.actions = {Action::blade}});
     played.dragFrom({-0.5f, height}, {1, 0}, 6);
@@ -113,8 +113,8 @@ void cutAt(Played& played, float height) {
     played.turn({.actions = {Action::blade}}, 4);
 }
 
-// Two cuts, the second of which is undone, and the states that there are to go to: before both, after the
-// first, after the second.
+// Two cuts, the second of which is undone, and the hashes of all states: before both, after the first, after
+// the second.
 struct Cuts {
     explicit Cuts(Played& played) {
         played.tools.pull(played.stage, 3);
@@ -159,12 +159,12 @@ TEST(Undo, GoesOnWithOtherSubstepsAndAnotherMaterial) {
     EXPECT_EQ(next.tools.history().undos(), 1u);
     next.turn({.actions = {Action::undo}}, 2);
     EXPECT_EQ(next.stage.simulation().status(next.stage.steps()).linksCutInAll, 0u);
-    cuts.expectAllIn(before); // which has kept its own
+    cuts.expectAllIn(before); // it has kept its own history
     expectTheSameBitsAgain(next, block);
 }
 
 TEST(Undo, LeadsWithMoreRoomToTheStepsThatItLedToWithout) {
-    Played little, roomy, growing; // the last in another thread
+    Played little, roomy, growing; // the last one grows in another thread
     const Cuts cuts(little), same(roomy), likewise(growing);
     const std::uint32_t more = 4 * roomy.stage.settings().cutSurfaceRoom + 10000;
     ASSERT_TRUE(roomy.stage.makeSurfaceRoom(more, test::queue(), roomy.tools.bring()));
@@ -178,7 +178,7 @@ TEST(Undo, LeadsWithMoreRoomToTheStepsThatItLedToWithout) {
     for (Played* played : {&roomy, &growing}) played->tools.moveOn();
     for (Played* played : {&little, &roomy, &growing})
         for (const Action way : {Action::undo, Action::redo, Action::redo}) {
-            played->tools.act(way); // not turn(), whose probe is of the simulation before
+            played->tools.act(way); // turn() would use the probe of the former simulation
             played->run([&](VkCommandBuffer commands) {
                 EXPECT_TRUE(played->tools.recordHistory(commands, played->stage));
                 for (int i = 0; i < 7; ++i) played->step(commands);
@@ -224,7 +224,7 @@ TEST(Undo, GoesOnOnAnotherDevice) {
     EXPECT_TRUE(messages.empty()) << messages.front();
 }
 
-// A stroke whose steps found too little room is remembered once: from before the step that is done again.
+// A stroke whose steps lacked capacity is stored once in the history, from before the repeated step.
 TEST(Undo, OfAStrokeThatIsCutAgainIsThereOnce) {
     Played played;
     const Cuts cuts(played);
@@ -263,7 +263,7 @@ TEST(StageTakeOver, ByAnotherSolverAndBackIsDoneAgainByAReplay) {
     expectTheSameBitsAgain(third, falling);
 }
 
-// A body that may be cut collides by default: another solver has neither, as long as nothing was cut.
+// A cuttable body has contacts by default. Another solver leaves both out as long as nothing was cut.
 TEST(StageTakeOver, ByAnotherSolverDoesWithoutDefaultContactsAndCuts) {
     const auto byJacobi = [] { return openText(block, {.solver = "jacobi", .substeps = 12}); };
     Played first, second(byJacobi()), third;
@@ -305,7 +305,7 @@ TEST(StageTakeOver, HasAMaterialThatNeedsOtherPasses) {
     before.turn({}, 20);
     EXPECT_NE(next.hash(), before.hash());
     expectTheSameBitsAgain(next, jacobi);
-    next.tools.reset(); // with what it was turned to
+    next.tools.reset(); // with the changed material
     next.run([&](VkCommandBuffer commands) { next.stage.recordReset(commands); });
     next.turn({}, 20);
     expectTheSameBitsAgain(next, jacobi);
@@ -362,7 +362,7 @@ TEST(StageTakeOver, HasAllRoomThatThereIs) {
 TEST(StageReshape, ThatCannotBeHadLeavesAllAsItIs) {
     Played played;
     played.tools.pull(played.stage, 3);
-    cutAt(played, 0.1f); // which one solver alone can do
+    cutAt(played, 0.1f); // only one solver supports cuts
     const std::uint64_t hash = played.hash();
     played.stage.wantShape(sim::Solver::jacobi, 4);
     EXPECT_TRUE(played.stage.wantsShape());
@@ -374,7 +374,7 @@ TEST(StageReshape, ThatCannotBeHadLeavesAllAsItIs) {
     EXPECT_NE(played.hash(), hash);
 }
 
-// In a thread of its own: whoever waits for it goes on with pictures, and may want another one meanwhile.
+// Another thread makes the new simulation. Meanwhile pictures continue, and another change may be requested.
 TEST(StageReshape, IsMadeBesideWhatPlays) {
     const auto isMade = [](Stage& stage) {
         for (int n = 0; n < 3000 && !stage.isShapeMade(); ++n)
@@ -409,7 +409,7 @@ TEST(StageReshape, IsMadeBesideWhatPlays) {
     EXPECT_EQ(polling.stage.simulation().status(polling.stage.steps()).nonFinite, 0u);
 }
 
-// The replay begins again with what its scene was opened with.
+// A replay starts with the settings with which its scene was opened.
 TEST(StageReshape, IsTakenBackAtTheBeginningOfAReplay) {
     Played first(jacobi), second(changed(jacobi, "12", "7"), damped);
     first.turn({}, 5);

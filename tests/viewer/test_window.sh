@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# test_window.sh VIEWER SCENE FOLDER: plays the scene in a window under Xvfb with validation, drives it with mouse and keys
-# through a storm of sizes, and expects a picture that moves, a clean end and not one message. FOLDER keeps the screenshots.
+# test_window.sh VIEWER SCENE FOLDER: plays the scene in a window under Xvfb with validation, and drives it
+# with mouse, keys and many changes of size. Expects a moving picture, a clean end and no messages. FOLDER
+# keeps the screenshots.
 set -euo pipefail
 viewer=$1 scene=$2 folder=$3
 
@@ -22,7 +23,7 @@ awaitStill paused.png
 drag 3 30 -8
 awaitStill orbited.png
 same paused.png orbited.png && fail "an orbit drag changed nothing"
-drag 1 0 30 # still on the body: a paused one is held, and moves no camera
+drag 1 0 30 # still on the body: it is held while paused, and the camera does not move
 drag 3 -20 0
 drag 2 12 6
 xdotool click 4 click 4 click 5
@@ -43,7 +44,7 @@ awaitStill reset.png
 same stepped.png reset.png && fail "R changed nothing"
 keys F12
 for _ in {1..100}; do grep -q '^picture: ' viewer.out && break; sleep 0.1; done
-for _ in {1..4}; do keys F12; sleep 0.1; done # of one step, some while others are being written
+for _ in {1..4}; do keys F12; sleep 0.1; done # pictures of one step, some while others are being written
 for _ in {1..100}; do
     sleep 0.3
     pictures=$(find . -name 'block-000000*.png' | wc -l)
@@ -52,7 +53,7 @@ done
 [[ $(sort -u <<<"$(grep '^picture: ' viewer.out)" | wc -l) == "$pictures" ]] || fail "two pictures have one name: $(cat viewer.out)"
 ((pictures > 1)) || fail "there is no second picture of a step"
 [[ $(identify -format '%wx%h' block-000000.png) == 640x400 ]] || fail "F12 wrote no picture of the window's size"
-dark() { # FILE CROP: whether a panel covers that part, which is light or red without
+dark() { # FILE CROP: whether a panel covers this part, which is light or red without one
     [[ $(convert "$1" -crop "$2" +repage -colorspace sRGB -format '%[fx:mean < 0.33 ? 1 : 0]' info:) == 1 ]]
 }
 middle=200x200+220+100 side=200x200+420+40
@@ -69,7 +70,7 @@ dark closed.png $side && fail "panels cover a small window unasked"
 keys Tab
 awaitStill panels.png
 dark panels.png $side || fail "Tab shows no panels"
-xdotool mousemove 390 174 click 1 # its button goes on, like Space
+xdotool mousemove 390 174 click 1 # its button resumes, like Space
 awaitTitle fps
 keys space
 awaitTitle paused
@@ -104,12 +105,12 @@ keys f
 awaitOther centered.png body.png "F changes nothing"
 
 echo "window: a hand grabs the body, lifts it and lets go"
-# Where red is more than FACTOR times green, and more than LEAST. -fx says the same, and takes a second of processor time.
+# Pixels whose red exceeds FACTOR times green, and LEAST. -fx would need a second of processor time.
 red() { # FILE FACTOR LEAST OPERATORS...
     convert "$1" -colorspace sRGB -color-matrix "1 -$2 0 1 0 0 0 0 0" -channel R -threshold 0 -channel G -threshold "$3" \
         +channel -separate -delete 2 -compose multiply -composite "${@:4}" info:
 }
-# The block is the one red thing. Row of its lowest pixel, and of its highest.
+# The block is the only red object. Prints the rows of its lowest and its highest pixel.
 rows() { # FILE
     red "$1" 1.5 30% -trim -format '%O %h\n' | sed 's/.*+\([0-9]*\) \([0-9]*\)$/\1 \2/'
 }
@@ -136,7 +137,7 @@ keys space
 awaitTitle fps
 read -r top height < <(rows before.png)
 ((height > 20)) || fail "the block is not seen: $height rows"
-awaitTop() { # FILE TEST ROW: until the block's top is there
+awaitTop() { # FILE TEST ROW: waits until the block's top is there
     for _ in {1..100}; do
         shoot "$1"
         read -r now height < <(rows "$1")
@@ -153,12 +154,12 @@ lifted=$now
 xdotool mouseup 1
 for _ in {1..100}; do [[ $(title) != *holding* ]] && break; sleep 0.1; done
 [[ $(title) != *holding* ]] || fail "the block was not let go"
-awaitTop dropped.png -gt $((lifted + 20)) # wherever it lands
+awaitTop dropped.png -gt $((lifted + 20)) # at any place
 keys space
 awaitTitle paused
 
 echo "window: a blade cuts it through, the halves part, undo joins them"
-inside() { # FILE: pixels of the inside: dark red, the rest of the picture is not
+inside() { # FILE: pixels of the inside, the only dark red ones
     red "$1" 2 8% -format '%[fx:round(mean*w*h)]'
 }
 keys space
@@ -183,9 +184,9 @@ stroke() {
 }
 stroke
 for _ in {1..300}; do [[ $(title) == *pieces* ]] && break; sleep 0.1; done
-[[ $(title) == *pieces* ]] || stroke # where so little time goes to the window that it saw no more than an end of the first
+[[ $(title) == *pieces* ]] || stroke # if the slow window saw only an end of the first stroke
 awaitTitle 'pieces'
-keys c # the hand again
+keys c # back to the grab tool
 shoot cut.png
 xdotool mousemove 345 $((now + height / 2)) mousedown 1
 awaitTitle holding
@@ -200,7 +201,7 @@ xdotool mouseup 1
 for ((undo = 0; undo < strokes; ++undo)); do keys ctrl+z; sleep 1; done
 for _ in {1..100}; do [[ $(title) != *pieces* ]] && break; sleep 0.1; done
 [[ $(title) != *pieces* ]] || fail "Ctrl + Z did not join the halves"
-for _ in {1..100}; do # the title knows before the picture does
+for _ in {1..100}; do # the title changes before the picture
     shoot undone.png
     (($(inside undone.png) < 50)) && break
     sleep 0.3
@@ -208,7 +209,7 @@ done
 (($(inside undone.png) < 50)) || fail "the inside is still seen: $(inside undone.png) pixels of it"
 for ((redo = 0; redo < strokes; ++redo)); do keys ctrl+shift+z; sleep 1; done
 awaitTitle 'pieces'
-for knob in k k d t shift+g; do keys $knob; done # the log below has them
+for knob in k k d t shift+g; do keys $knob; done # the log below contains them
 sleep 1
 keys space
 awaitTitle paused
@@ -239,7 +240,7 @@ for run in first second; do
     grep '^state hash' "$run.out" >"$run.hash" || fail "nothing is said of the state in the end: $(cat "$run.out")"
 done
 cmp -s first.hash second.hash || fail "two runs from a state differ: $(cat first.hash second.hash)"
-# The window's own renderer draws F12, whose format may be another one: edges are mixed otherwise there.
+# The window's renderer draws the picture of F12. Its format may differ, which changes the mixing of edges.
 alike block-*.png first/frame_0000.png || fail "what was saved is not seen as it was"
 head -c 3000 block-*.state >short.state
 "$viewer" short.state --headless --frames 1 --out short >short.out 2>short.err && fail "half a state is taken for one"
@@ -295,7 +296,7 @@ played 1
 quit
 awaitEnd 0
 start --replay "$log"
-keys r # begins it again
+keys r # starts it again
 for _ in {1..300}; do (($(grep -c ' particles, ' viewer.out) >= 2)) && break; sleep 0.1; done
 (($(grep -c ' particles, ' viewer.out) >= 2)) || fail "R does not begin a replay from a state again"
 played 1
@@ -331,7 +332,7 @@ printf 'name = "other"\n[[box]]\nparticles = [4, 4, 4]\ncenter = [0, 0.5, 0]\nsp
 echo 'name = ' >scenes/broken.toml
 scene=scenes/block.toml
 start
-keys Prior # Page Up, round the end of the list
+keys Prior # Page Up wraps around the end of the list
 awaitTitle 'other'
 keys space
 awaitTitle paused
@@ -342,7 +343,7 @@ for _ in {1..200}; do [[ -s viewer.err ]] && break; sleep 0.1; done
 keys F9
 for _ in {1..200}; do grep -q '^recording other-' viewer.out && break; sleep 0.1; done
 awaitStill filmed.png
-for step in {1..4}; do # one after the other: a busy machine takes its time for a whole picture
+for step in {1..4}; do # one after the other, because a busy machine is slow to draw a whole picture
     mv filmed.png unfilmed.png
     keys period
     awaitOther unfilmed.png filmed.png "step $step of the film changes nothing"
@@ -358,7 +359,7 @@ awaitOther filmed.png asked.png "Ctrl + O asks for no path"
 xdotool type --window "$window" --delay 50 "$folder/scenes/block.toml"
 keys Return
 awaitTitle 'block'
-keys Tab # the panels that it was typed into
+keys Tab # the panels into which it was typed
 keys Prior
 awaitTitle 'other'
 quit
@@ -367,7 +368,7 @@ wait "$running" || code=$?
 [[ $code == 0 ]] || fail "exit code $code, expected 0"
 
 echo "window: without a scene the last one, interrupted"
-mkdir bin # stands in for ffmpeg: its last argument is the file
+mkdir bin # replaces ffmpeg: its last argument is the file
 printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
 chmod +x bin/ffmpeg
 PATH=$folder/bin:$PATH
@@ -417,13 +418,13 @@ awaitTitle paused
 extent=$screen awaitStill whole.png
 keys Tab
 extent=$screen awaitStill bare.png
-same whole.png bare.png && fail "--panels shows none" # nor did the run before, in its small window
+same whole.png bare.png && fail "--panels shows none" # the previous run had none in its small window
 keys Tab
 quit
 awaitEnd 0
 diff <(grep -v '^scene' before.conf) <(grep -v '^scene' config/sinew/viewer.conf) >/dev/null || fail "what the command line said is remembered: $(cat config/sinew/viewer.conf)"
 start --vsync
-keys v ctrl+plus # chosen now
+keys v ctrl+plus # selected explicitly
 sleep 1
 quit
 awaitEnd 0

@@ -1,5 +1,6 @@
-# Sourced by tests that play in a window: an X server of their own, the viewer in it, what they ask of its title and its picture.
-# Needs `viewer`, `folder`, and `extent` of the window; `scene` may be empty, `options` go before others. Goes to the folder.
+# Sourced by tests that play in a window: starts an X server and the viewer, and queries the window's title
+# and picture. Needs `viewer`, `folder`, and `extent` of the window; `scene` may be empty, and `options`
+# precede others. Changes to the folder.
 screen=${screen:-1000x700}
 [[ -v options ]] || options=(--validation)
 for program in Xvfb xdotool import convert; do
@@ -15,7 +16,7 @@ finish() {
     wait
 }
 trap finish EXIT
-fail() { # on stderr: it may be called where stdout is a value
+fail() { # writes to stderr, because stdout may be a value
     echo "FAILED: $1" >&2
     cat viewer.out viewer.err >&2
     exit 1
@@ -29,14 +30,14 @@ for _ in {1..100}; do [[ -s display ]] && break; sleep 0.1; done
 export XDG_CONFIG_HOME=$folder/config
 export DISPLAY=:$(tr -d '[:space:]' <display)
 
-awaitWindow() { # NAME, within two minutes. That of the program before may stand for a while
+awaitWindow() { # NAME: waits up to two minutes. The previous program's window may remain for a while
     for _ in {1..1200}; do
         window=$(xdotool search --all --pid "$running" --name "$1" 2>/dev/null | head -n 1) && [[ -n $window ]] && break
         kill -0 "$running" 2>/dev/null || fail "the viewer ended at once"
         sleep 0.1
     done
 }
-launch() { # PROGRAM ARGUMENTS...: with no output yet. The shell in the background makes its files later than this one goes on
+launch() { # PROGRAM ARGUMENTS...: starts with empty output files, because the background shell makes its files later
     rm -f viewer.out viewer.err
     touch viewer.out viewer.err
     "$@" >>viewer.out 2>>viewer.err &
@@ -58,7 +59,7 @@ awaitTitle() { # PATTERN
     fail "the title never showed $1: $(title)"
 }
 keys() { xdotool key --window "$window" "$@"; }
-quit() { # by its key. A window that goes with the press takes xdotool with it before it lets go, and the next one would see Q held
+quit() { # quits by the key. xdotool fails if the window closes before it releases the keys, and Q would stay pressed for the next one
     keys ctrl+q 2>/dev/null || true
     for _ in {1..300}; do
         kill -0 "$running" 2>/dev/null || { xdotool keyup q keyup ctrl; return; }
@@ -66,8 +67,8 @@ quit() { # by its key. A window that goes with the press takes xdotool with it b
     done
     fail "Ctrl + Q does not end it"
 }
-shoot() { import -silent -window root -crop "$extent+0+0" +repage "$1"; } # as large as the window, which stands in the corner
-awaitStill() { # FILE: a picture that stays; a paused software device draws its last one in full quality
+shoot() { import -silent -window root -crop "$extent+0+0" +repage "$1"; } # as large as the window, which is in the corner
+awaitStill() { # FILE: waits for a picture that stays; a paused software device draws its last one in full quality
     shoot "$1"
     for _ in {1..100}; do
         sleep 0.5
@@ -78,13 +79,13 @@ awaitStill() { # FILE: a picture that stays; a paused software device draws its 
     fail "the paused picture never stood still"
 }
 same() { compare -metric AE "$1" "$2" null: >/dev/null 2>&1; }
-alike() { # by half a percent, root of the mean square: two pixels aside are more
+alike() { # within 0.5 % RMS: a shift by two pixels exceeds it
     local off
     off=$(compare -metric RMSE "$1" "$2" null: 2>&1 || true)
     off=${off#*(}
     python3 -c 'import sys; sys.exit(not float(sys.argv[1]) < 0.005)' "${off%)*}"
 }
-cutDown() { # X FROM TO: a stroke down the window, again where so little time went to it that it saw no more than an end of the stroke
+cutDown() { # X FROM TO: a stroke down the window, repeated if a slow window saw only an end of it
     keys c
     awaitTitle blade
     for _ in {1..5}; do
