@@ -1,6 +1,7 @@
-# cmake -DSPIRV=.. -DOUTPUT=.. -DNAMESPACE=.. -DIDENTIFIER=.. -DNAME=.. -P EmbedShader.cmake: one SPIR-V file as C++.
+# Writes one SPIR-V file as C++.
+#   cmake -DSPIRV=.. -DOUTPUT=.. -DNAMESPACE=.. -DIDENTIFIER=.. -DNAME=.. -P EmbedShader.cmake
 file(READ ${SPIRV} bytes HEX)
-string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words ${bytes}) # SPIR-V words are little endian here
+string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words ${bytes}) # the words are little-endian
 string(REGEX REPLACE "(0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,)" "\\1\n    " words ${words})
 file(WRITE ${OUTPUT}
 "#include \"vk/shader_code.hpp\"

@@ -1,10 +1,11 @@
-# GLSL -> SPIR-V 1.5 -> arrays in the library.
+# Compiles GLSL to SPIR-V 1.5 and embeds it as arrays in a library.
 #
 #   add_kernels(<target> NAMESPACE <c++ namespace> HEADER <name.hpp> SOURCES <files...> [VARIANTS <lines...>]
 #               [AWAKE <stems...>] [NEVER_AWAKE <expression>])
 #
-# compiles every file for Vulkan 1.2, runs spirv-val on it (SINEW_CHECK_KERNELS) and adds one `const vk::ShaderCode` a file to <target>:
-# solve_distance.comp becomes <namespace>::solveDistance, skin.vert becomes <namespace>::skinVert.
+# compiles every file for Vulkan 1.2, runs spirv-val on it (SINEW_CHECK_KERNELS) and adds one `const
+# vk::ShaderCode` for each file to <target>: solve_distance.comp becomes <namespace>::solveDistance, skin.vert
+# becomes <namespace>::skinVert.
 find_program(GLSLANG glslangValidator REQUIRED)
 option(SINEW_CHECK_KERNELS "Run spirv-val on every kernel that is compiled" ${PROJECT_IS_TOP_LEVEL})
 if(SINEW_CHECK_KERNELS)
@@ -25,9 +26,10 @@ function(sinew_camel_case out text)
     set(${out} ${result} PARENT_SCOPE)
 endfunction()
 
-# A variant is one line, "name: file [MACRO...]": the file compiled with these macros defined, under that name. Whatever is
-# compiled from the files named in AWAKE has one more form, <name>_awake, with AWAKE defined: <namespace>::awakeForms pairs
-# all kernels with theirs. Entries that match NEVER_AWAKE have none. A second header, all_<name.hpp>, lists everything as <namespace>::all.
+# A variant is one line, "name: file [MACRO...]": the file compiled under this name with these macros defined.
+# Kernels compiled from the files named in AWAKE get a second form, <name>_awake, with AWAKE defined.
+# <namespace>::awakeForms pairs all kernels with these forms. Entries that match NEVER_AWAKE get none. A
+# second header, all_<name.hpp>, lists all kernels as <namespace>::all.
 function(add_kernels target)
     cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER;NEVER_AWAKE" "SOURCES;VARIANTS;AWAKE")
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
