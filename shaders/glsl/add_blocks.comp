@@ -1,5 +1,5 @@
 #version 460
-// Second half of a prefix sum: adds to every cell what stands before its block.
+// Second half of a prefix sum: adds to every cell the total of the blocks before its own.
 #extension GL_GOOGLE_include_directive : require
 #include "voxel.glsl"
 

@@ -1,7 +1,7 @@
 #version 460
-// Second pass of the forces on bodies: the sums of their parts, in order, with moments about the centre of mass; of a body that never moves about the
-// middle of its particles. What its faces that never move feel is in rows of their own; holds give
-// the opposite. A step that is undone has none.
+// Second pass of the forces on bodies: adds up the sums of a body's parts, in order. Moments are about the centre of
+// mass; those of a body that never moves are about the mean place of its particles. Forces on static faces have rows
+// of their own; a hold counts with the opposite sign. An undone step gives zeros.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,5 +1,6 @@
 #version 460
-// Second pass of the forces of planes, colliders, hands and holds: the sums of their parts, in order. A step that is undone has none.
+// Second pass of the forces of planes, colliders, grabs and holds: adds up the sums of the parts of a row, in order.
+// An undone step gives zeros.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

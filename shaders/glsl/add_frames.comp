@@ -1,5 +1,5 @@
 #version 460
-// Frames of bodies, second pass: one of the sums of a body, from those of its shares.
+// Frames of bodies, second pass: adds up one sum of a body over its chunks.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,15 +1,16 @@
 #version 460
-// What `gauss_seidel` does between the sweeps of two substeps, in one pass over the particles: CLOSES the one that was
-// swept and OPENS the next. PBD order with the half-kick (methods: D), exact in free fall at any h.
+// The particle pass of `gauss_seidel` between the sweeps of two substeps: CLOSES the swept substep and OPENS the
+// next. It follows the order of PBD with a half-kick of gravity, which is exact in free fall at any h.
 //
 //   open   p = x + h v + h^2 g / 2,  v* = v + h g,  c = -w sum l n, the warm start
 //   close  x = p + c,  v = v* + c / h,  boundary planes, damping, restitution
 //
-// While a substep is open a particle is at p + c. Corrections add up apart from p, which is coarser by far: taken from the
-// difference of positions, v would wander by 1e-7 |x| / h a sweep, and momentum with it (methods: E). They join x in one sum
-// with the way of the next substep: alone, c = h^2 f w is less than half of the last bit of x where substeps are short, and a
-// position that never gets it moves as explicit Euler has it, which gains energy. Where x has a remainder (remainder.glsl), c begins
-// as that: sweeps then see it, and it is no part of the change of v.
+// While a substep is open a particle is at p + c. Corrections c add up apart from p, whose rounding is far coarser: v
+// taken from the difference of positions would wander by 1e-7 |x| / h a sweep, and momentum with it. The corrections
+// join x in one sum with the motion of the next substep: alone, c = h^2 f w is less than half of the last bit of x
+// where substeps are short, and a position that never receives c moves as in explicit Euler, which gains energy.
+// If x has a remainder (remainder.glsl), c begins with it: sweeps then see the remainder, and it is no part of the
+// change of v.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -26,7 +27,7 @@ layout(std140, binding = 3) uniform Step { StepParams step; };
 #define PLANE_BINDING 4
 #ifdef HAS_WARM_START
 #ifdef TEXELS
-layout(binding = 4) uniform usamplerBuffer links; // see WARM_LINK_SIGN; in blocks like those of `split`
+layout(binding = 4) uniform usamplerBuffer links; // see WARM_LINK_SIGN; blocks as in `split`
 layout(binding = 5) uniform samplerBuffer multipliers; // l n, l
 #define LINK(i) texelFetch(links, int(i)).x
 #define MULTIPLIER(i) texelFetch(multipliers, int(i))
@@ -56,12 +57,12 @@ layout(push_constant) uniform Push { SubstepPush push; };
 #endif
 
 void main() {
-    // No early out: buffers are padded to whole groups, with particles that never move.
+    // No early out: buffers are padded to whole groups with particles that never move.
     const uint i = itemIndex(push.count);
     const vec3 x = positions[i].xyz;
     vec3 v = velocities[i].xyz;
     const uint r = hasRemainders ? remainderOf(positions.length(), i) : i;
-    vec3 way = hasRemainders ? positions[r].xyz : vec3(0.0); // from x [m]
+    vec3 way = hasRemainders ? positions[r].xyz : vec3(0.0); // displacement from x [m]
     const float w = velocities[i].w;
     const vec3 halfKick = 0.5 * step.h * step.gravity.xyz;
 #ifdef CLOSES

@@ -1,6 +1,6 @@
 #version 460
-// The particle pass of `jacobi`: x += weight * sum of its correction slots, in slot order, and v += the same / h.
-// Carrying v as a state avoids the cancellation of (x - x_previous) / h (methods: E).
+// The particle pass of `jacobi`: x += weight * sum of the particle's correction slots, in slot order, and v += the
+// same / h. Carrying v as a state avoids the cancellation of (x - x_previous) / h.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,5 +1,5 @@
-// Part of the kernels that ask where a skin is in the state that a step with a blade begins with: places of its particles there and at rest,
-// from bindings 4 and 5.
+// Part of the kernels that need the skin in the state before a step with a blade: positions of its particles in that
+// state and at rest, from bindings 4 and 5.
 #include "saved_links.glsl"
 #ifdef TEXELS
 layout(binding = 4) uniform samplerBuffer places;

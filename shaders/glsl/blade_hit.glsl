@@ -1,15 +1,16 @@
-// Part of the kernels that find what a blade meets. In a step the ends a and b of a link go from where they were to where they are, and
-// an edge of the blade from (e, g) at its start to (e, g) at its end. In space and time, where both are straight, link and edge are
-// surfaces of two triangles each,
+// Part of the kernels that find links hit by a blade. During a step the ends a and b of a link move from their old to
+// their new positions, and an edge of the blade moves from (e, g) at its start to (e, g) at its end. Both motions are
+// straight, so in space and time link and edge are surfaces of two triangles each,
 //
 //   link  a0 b0 b1, a0 a1 b1        edge  e0 g0 g1, e0 g1 e1
 //
-// and the blade meets the link where those meet: two triangles in four dimensions do in a point, where six determinants have the
-// right signs. Links that share a particle have the determinants of its way in common, edges that share a point those of that
-// point's way, and steps that follow on each other those of the moment between: so no link passes between two edges or two steps, whatever
-// the material does meanwhile, for all expressions are the same bit for bit.
-// Where particles lie in the blade's way exactly, as those of a lattice at rest like to, rounding would say now this and now that:
-// so the blade is moved by a thousandth of a cell, always to the same side, which is that of no plane or row of a lattice.
+// and the blade hits the link where the surfaces intersect. Two triangles in four dimensions intersect in a point if
+// six determinants have the right signs. Links that share a particle share the determinants of its path, edges that
+// share a point share those of its path, and consecutive steps share those of the moment between them. All these
+// expressions are equal bit for bit, so no link slips between two edges or two steps, however the material moves
+// meanwhile. Where particles lie exactly in the path of the blade, as particles of a lattice at rest often do,
+// rounding would decide at random: the blade is shifted by a thousandth of a cell, always in one direction, which
+// lies in no plane and no row of a lattice.
 #include "math.glsl"
 
 const float never = 2.0;
@@ -23,8 +24,10 @@ float volumeOf(vec3 a, vec3 b, vec3 c) {
     return dot3(cross3(a, b), c);
 }
 
-// Where on the link two triangles meet. A number for each of their six corners, to be taken with a sign: the determinant of the other
-// five; corners of one triangle times their numbers add up to a point of the other. What is 0 is above, whichever sign it is taken with.
+// The position along the link at which two triangles intersect, else `never`. Each of the six corners has a number,
+// to be multiplied by the given sign: the determinant of the other five corners. The corners of one triangle,
+// weighted with these numbers, add up to a point of the other. Zero counts as positive, whichever sign it is
+// multiplied by.
 float meetingOf(vec3 link, vec3 linkSigns, vec3 edge, vec3 edgeSigns, vec3 isB) {
     const bvec3 l = notEqual(greaterThanEqual(link, vec3(0.0)), lessThan(linkSigns, vec3(0.0)));
     const bvec3 e = notEqual(greaterThanEqual(edge, vec3(0.0)), lessThan(edgeSigns, vec3(0.0)));
@@ -34,18 +37,18 @@ float meetingOf(vec3 link, vec3 linkSigns, vec3 edge, vec3 edgeSigns, vec3 isB) 
     return dot3(weights, isB) / max(all, 1e-37);
 }
 
-// How far along the link.
+// The position along the link at which an edge of the blade hits it, 0 to 1; `never` if it does not.
 float edgeHit(Ends x, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
     const vec3 l0 = x.b0 - x.a0, l1 = x.b1 - x.a1;
     const vec3 ae0 = e0 - x.a0, ag0 = g0 - x.a0, ae1 = e1 - x.a1, ag1 = g1 - x.a1;
     const vec3 be0 = e0 - x.b0, bg0 = g0 - x.b0, be1 = e1 - x.b1, bg1 = g1 - x.b1;
-    const float a1 = volumeOf(ae0, ag0, ag1), a2 = volumeOf(ae0, ag1, ae1); // the way of a
-    const float b1 = volumeOf(be0, bg0, bg1), b2 = volumeOf(be0, bg1, be1); // of b
-    const float d1 = volumeOf(ae0, ag0, bg1), d2 = volumeOf(ae0, bg1, be1);           // from a to b meanwhile
-    const float s0 = volumeOf(ae0, ag0, l0), s1 = volumeOf(ae1, ag1, l1);             // the link before and now
-    const float x1 = volumeOf(l0, ae0, bg1), x2 = volumeOf(l1, ae0, ag1);             // from e to g meanwhile
-    const float e1_ = volumeOf(l0, ae0, be1), e2 = volumeOf(l1, ae0, ae1);            // the way of e
-    const float g1_ = volumeOf(l0, ag0, bg1), g2 = volumeOf(l1, ag0, ag1);            // of g
+    const float a1 = volumeOf(ae0, ag0, ag1), a2 = volumeOf(ae0, ag1, ae1); // path of a
+    const float b1 = volumeOf(be0, bg0, bg1), b2 = volumeOf(be0, bg1, be1); // path of b
+    const float d1 = volumeOf(ae0, ag0, bg1), d2 = volumeOf(ae0, bg1, be1);           // from a to b during the step
+    const float s0 = volumeOf(ae0, ag0, l0), s1 = volumeOf(ae1, ag1, l1);             // link before and after
+    const float x1 = volumeOf(l0, ae0, bg1), x2 = volumeOf(l1, ae0, ag1);             // from e to g during the step
+    const float e1_ = volumeOf(l0, ae0, be1), e2 = volumeOf(l1, ae0, ae1);            // path of e
+    const float g1_ = volumeOf(l0, ag0, bg1), g2 = volumeOf(l1, ag0, ag1);            // path of g
     const vec3 eg0 = g0 - e0, ge1 = e1 - g1;
     const float m1 = volumeOf(eg0, l1, ag1), m2 = volumeOf(l0, ae0, ge1);
     const float n1 = volumeOf(ae0, ag0, l1), n2 = volumeOf(l0, bg1, be1);
@@ -56,8 +59,8 @@ float edgeHit(Ends x, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
                    meetingOf(vec3(s1, d2, a2), vec3(-1, -1, 1), vec3(s1, e2, x2), vec3(1, 1, -1), second)));
 }
 
-// The nearest points of two segments, a to b and p to q [Ericson 2005, 5.1.9]: how far along the first, where they are nearer than
-// `radius`.
+// The nearest points of two segments, a to b and p to q [Ericson 2005, 5.1.9]: the position along the first if they
+// are nearer than `radius`, else `never`.
 float rayHit(vec3 a, vec3 b, vec3 p, vec3 q, float radius) {
     const vec3 d = b - a, e = q - p, r = a - p;
     const float dd = max(dot3(d, d), 1e-30), ee = max(dot3(e, e), 1e-30), de = dot3(d, e), er = dot3(e, r), dr = dot3(d, r);

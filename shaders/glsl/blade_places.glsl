@@ -1,6 +1,7 @@
-// The blade of a step, where particles are for it and where they were, from bindings 0 to 2. Whoever includes this calls readBlade() first.
+// The blade of a step, and positions of particles at the end and at the start of its motion, from bindings 0 to 2.
+// Call readBlade() first.
 #ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer bladePlaces; // of slots
+layout(binding = 0) uniform samplerBuffer bladePlaces; // by slot
 layout(binding = 1) uniform samplerBuffer before;
 layout(binding = 2) uniform usamplerBuffer bladeHead; // BladeHead
 #define PLACE(i) texelFetch(bladePlaces, int(i)).xyz
@@ -12,7 +13,7 @@ void readBlade() {
                       uintBitsToFloat(texelFetch(bladeHead, 3)), words.x, words.y, 0u, 0u);
 }
 #else
-layout(std430, binding = 0) readonly buffer BladePlaces { vec4 bladePlaces[]; }; // of slots
+layout(std430, binding = 0) readonly buffer BladePlaces { vec4 bladePlaces[]; }; // by slot
 layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
 layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
 #define PLACE(i) bladePlaces[i].xyz
@@ -20,7 +21,7 @@ layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
 void readBlade() {}
 #endif
 
-// Where the particle of a slot was when the edge was where it now begins.
+// Position of a slot's particle at the start of the motion of the blade.
 vec3 placeBefore(uint i) {
     if (blade.isCarried == 0u) return PLACE(i);
     const vec4 then = BEFORE(i);

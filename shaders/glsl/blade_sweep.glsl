@@ -1,7 +1,8 @@
-// Part of the kernels that find what the blade of a step meets: the edges of its strip, from where they were to where they are, against a
-// link that has gone from where it was when they were there. Whoever includes this has blade_places.glsl, blade_points.glsl and blade_hit.glsl.
+// Part of the kernels that find links hit by the blade of a step: tests the moving edges of its strip against a
+// moving link. Requires blade_places.glsl, blade_points.glsl and blade_hit.glsl.
 
-// How far along a way, and what the blade's surface is normal to there, as who went that way has seen it. [not of unit length]
+// A hit: the position along the link, and the normal of the blade's surface there in the frame that moves with the
+// link. [not of unit length]
 struct Meeting {
     float at;
     vec3 normal;
@@ -30,7 +31,7 @@ Meeting stripMeeting(Ends x) {
     return nearest;
 }
 
-// How far along, also of a ray.
+// The position of the first hit along the link, by the strip or by the ray of the blade.
 float hitOf(Ends x) {
     const float nearest = stripMeeting(x).at;
     return blade.rayFrom.w > 0.0 ? min(nearest, rayHit(x.a1, x.b1, blade.rayFrom.xyz, blade.rayTo.xyz, blade.rayFrom.w)) : nearest;

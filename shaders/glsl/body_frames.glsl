@@ -1,4 +1,4 @@
-// The expected places of particles of a body (BodyFrame in layout.h).
+// Expected positions of the particles of a body (BodyFrame in layout.h).
 
 vec3 mapped(vec4 rows[3], vec3 r) {
     return vec3(dot3(rows[0].xyz, r), dot3(rows[1].xyz, r), dot3(rows[2].xyz, r)) + vec3(rows[0].w, rows[1].w, rows[2].w);
@@ -26,19 +26,21 @@ void setRates(inout BodyFrame frame, mat3 w) {
     frame.rates[2].xyz = t[2];
 }
 
-// The sum of the squares of all entries.
+// Squared Frobenius norm.
 float squaredNorm(mat3 a) { return dot(a[0], a[0]) + dot(a[1], a[1]) + dot(a[2], a[2]); }
 
-// How far from where they are expected two particles of bodies that share a frame may be, so that no pair that is missing in
-// lists touches. It was farther apart than reach + margin; A makes d no shorter than s |d|, where s^2 >= 1 - |A^T A - 1|; on
-// the way from one place to the next, which is straight, a rotation by the angle a makes it shorter by a^2 / 8.
+// Slack: the distance from their expected positions that two particles of bodies with a common frame may have before
+// a pair that is missing in the lists can touch. The pair was farther apart than reach + margin; A makes d no shorter
+// than s |d|, where s^2 >= 1 - |A^T A - 1|; on the straight path from one position to the next, a rotation by the
+// angle a shortens it by a^2 / 8.
 float slackOf(mat3 a, mat3 turnOfSubstep, float reach, float margin) {
     const mat3 strain = transpose(a) * a - mat3(1.0);
     const float s = sqrt(max(0.0, 1.0 - sqrt(squaredNorm(strain)))) - squaredNorm(turnOfSubstep) / 8.0;
     return 0.49 * (s * margin - (1.0 - s) * reach);
 }
 
-// On to the next substep, of length h. Places far from the origin are rounded by what is taken off the slack.
+// Advances the frame to the next substep, of length h. The rounding of positions far from the origin is subtracted
+// from the slack.
 void advance(inout BodyFrame frame, float h, float reach, float margin) {
     const mat3 w = h * matrixOf(frame.rates);
     const vec3 to = placeOf(frame), u = frame.speed.xyz + h * frame.gravity.xyz, far = abs(to);
@@ -49,7 +51,7 @@ void advance(inout BodyFrame frame, float h, float reach, float margin) {
     frame.speed = vec4(u, slack - 1e-6 * max(far.x, max(far.y, far.z)));
 }
 
-// Lists have been made of particles where they are expected, or near there: from now on expectations start from it.
+// Restarts the expectation after lists were made of particles at, or near, their expected positions.
 void restart(inout BodyFrame frame, bool stands) {
     const vec3 to = placeOf(frame);
     frame.from.xyz = to;

@@ -1,6 +1,7 @@
 #version 460
-// Restitution between particles, second pass, after contacts have taken the approach out of a substep: the two of a contact
-// that rebounds are given the speed at which they must part, as parts of themselves 1 / (number of their bounces) each:
+// Restitution between particles, second pass, after contacts have removed the approach of a substep: gives the two
+// particles of a rebounding contact the speed at which they must separate. A particle takes part with a share 1 /
+// (number of its bounces):
 //
 //   l = (speed - n . (v_i - v_j)) / (b_i w_i + b_j w_j) >= 0,   v_i += w_i l n   and the opposite for j.
 #extension GL_GOOGLE_include_directive : require
@@ -24,9 +25,9 @@ void main() {
     const float own = bouncing[i];
     const uvec2 list = lists[i];
 #ifdef FORCES
-    const uint end = list.x + list.y; // what never moves is struck
+    const uint end = list.x + list.y; // static particles receive forces too
 #else
-    const uint end = own > 0.0 ? list.x + list.y : list.x; // what never moves rebounds from nothing
+    const uint end = own > 0.0 ? list.x + list.y : list.x; // static particles do not rebound
 #endif
     const Self self = selfOf(i);
     const vec4 velocity = VELOCITY(i);
@@ -34,7 +35,7 @@ void main() {
     for (uint slot = list.x; slot < end; ++slot) {
         const Bounce bounce = bounceFrom(i, slot, self);
         const float both = own + bouncing[CONTACT(slot).x];
-        if (bounce.speed == 0.0 || both == 0.0) continue; // two that never move give each other nothing
+        if (bounce.speed == 0.0 || both == 0.0) continue; // two static particles exchange nothing
         const float missing = bounce.speed - dot(bounce.n, velocity.xyz - VELOCITY(CONTACT(slot).x).xyz);
         sum += max(0.0, missing) / both * bounce.n;
     }

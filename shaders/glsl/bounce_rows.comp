@@ -1,7 +1,8 @@
 #version 460
-// Restitution of contacts with faces and between edges, first pass: which of them rebound, and at what speed the two must part, by
-// Newton's law against the velocities before the substep. Impacts slower than step.restSpeed do not, or resting contacts would tremble.
-// share_rows then says what particles give of themselves to those alone, rebound_rows the impulses.
+// Restitution of contacts with faces and between edges, first pass: finds the contacts that rebound, and the speed at
+// which their two sides must separate, by Newton's law against the velocities before the substep. Impacts slower than
+// step.restSpeed do not rebound, or resting contacts would tremble. share_rows then sums the contact weights of
+// particles in these contacts alone, and rebound_rows computes the impulses.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,6 +1,6 @@
-// What the two passes of restitution between particles share: which contacts of a substep rebound, and how. Newton's law
-// against the velocities before the substep; impacts slower than step.restSpeed do not rebound, or resting contacts would
-// tremble (contacts: 5).
+// Shared by the two passes of restitution between particles: the contacts of a substep that rebound, and their
+// speeds. Newton's law against the velocities before the substep; impacts slower than step.restSpeed do not rebound,
+// or resting contacts would tremble.
 #ifdef TEXELS
 layout(binding = 0) uniform samplerBuffer positions;
 layout(binding = 1) uniform usamplerBuffer contacts;
@@ -11,19 +11,19 @@ layout(binding = 3) uniform samplerBuffer predicted;
 #define BEFORE(i) texelFetch(before, int(i)).xyz
 #define PREDICTED(i) texelFetch(predicted, int(i)).xyz
 #else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; }; // that contacts were found with
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; }; // used to find contacts
 layout(std430, binding = 1) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
 layout(std430, binding = 2) readonly buffer Before { vec4 before[]; };      // velocities before the substep [m/s]
 #define POSITION(i) positions[i]
 #define CONTACT(i) contacts[i]
-layout(std430, binding = 3) readonly buffer Predicted { vec4 predicted[]; }; // velocities that contacts were found with
+layout(std430, binding = 3) readonly buffer Predicted { vec4 predicted[]; }; // velocities used to find contacts
 #define BEFORE(i) before[i].xyz
 #define PREDICTED(i) predicted[i].xyz
 #endif
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 7) readonly buffer Firsts { float firsts[]; }; // when each first met another, where isSwept
+layout(std430, binding = 7) readonly buffer Firsts { float firsts[]; }; // time of each particle's first contact, where isSwept
 #ifdef HAS_SURFACES
 layout(std430, binding = 8) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
 layout(std430, binding = 9) readonly buffer Pairs { SurfacePair pairs[]; };
@@ -38,7 +38,7 @@ layout(std430, binding = SLIPS_BINDING) readonly buffer Slips { vec4 slips[]; };
 layout(constant_id = 5) const bool keepsRest = false;
 layout(push_constant) uniform Push { ContactPush push; };
 
-// Of particle i.
+// State of particle i.
 struct Self {
     vec4 x;
     vec3 before, predicted;
@@ -46,7 +46,7 @@ struct Self {
 
 Self selfOf(uint i) { return Self(POSITION(i), BEFORE(i), PREDICTED(i)); }
 
-// Of particle i from the candidate.
+// Bounce of particle i from a candidate.
 struct Bounce {
     vec3 n;      // unit, from the other to i
     float speed; // at which the two must part [m/s]; 0 = they do not rebound

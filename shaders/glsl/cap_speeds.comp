@@ -1,12 +1,13 @@
 #version 460
-// Slows down all particles that are too fast for cells, where they are more than can be searched one by one: what bounds the
-// time of a step. Counted, because it takes momentum away; shorter substeps make it needless.
+// Slows all particles that are too fast for the hash grid, if they are too many to be searched one by one: this
+// bounds the time of a step. Slowed particles are counted, because capping removes momentum; shorter substeps make it
+// needless.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "hash_grid.glsl"
 
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };   // predicted
-layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // with which they came here [m/s]
+layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // velocities that led to those positions [m/s]
 layout(std430, binding = 2) readonly buffer Radii { float radii[]; };
 layout(std430, binding = 3) buffer Status { StatusWords status; };
 layout(std140, binding = 4) uniform Step { StepParams step; };

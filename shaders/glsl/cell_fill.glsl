@@ -1,4 +1,4 @@
-// Part of gather_lattice: how much of the cells around a node is material, and what that makes of its links.
+// Part of gather_lattice: fill of the cells around a node, and the weight that it gives the node's links.
 
 // Fill of the cells around a node [1/15].
 struct Fill {
@@ -11,7 +11,8 @@ Fill unpack(uint word) {
     return fill;
 }
 
-// Sum over the cells that hold the link in direction (dx, dy, dz). Folded to a few additions: directions are constants.
+// Sum over the cells that hold the link in direction (dx, dy, dz). The compiler folds it to a few additions, since
+// directions are constants.
 float heldBy(Fill fill, int dx, int dy, int dz) {
     float sum = 0.0;
     [[unroll]] for (int k = 0; k < 8; ++k) {

@@ -1,4 +1,5 @@
-// How many of the hash grid lie in a block of cells, and in others that share slots with its rows. In the name START.
+// Number of particles of the hash grid in a block of cells, including cells that share slots with its rows. Requires
+// the macro START.
 uint pointsIn(ivec3 first, ivec3 last, Frame frame) {
     uint sum = 0u;
     for (int z = first.z; z <= last.z; ++z)

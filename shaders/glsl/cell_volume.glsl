@@ -1,16 +1,16 @@
-// Part of gather_lattice: the volumes of cells. V = det(e), e the cell's mean edges, each the mean of four. Its gradient is
-// +-c_x +-c_y +-c_z a quarter each, c the cofactors of e: opposite corners get bit-equal, opposite impulses, whoever
-// computes the cell, so momentum is exact. As a quadrature it is the one-point rule, which locks least; it does not see the
-// hourglass modes that links hold; it is signed, and its gradient is that of the exact volume in every affine state,
-// flattened and mirrored ones too. Tetrahedra would see corners one by one, at five times the arithmetic, and prefer a
-// diagonal.
+// Part of gather_lattice: volume energy of cells. V = det(e), where e are the cell's mean edges, each the mean of
+// four. The gradient at a corner is +-c_x +-c_y +-c_z, a quarter each, where c are the cofactors of e. Opposite
+// corners receive bit-equal, opposite impulses, whichever invocation computes the cell, so momentum is exact. As a
+// quadrature this is the one-point rule, which locks least; it does not see the hourglass modes, which links resist;
+// V is signed, and its gradient is that of the exact volume in every affine state, flattened and mirrored ones too.
+// Tetrahedra would see each corner by itself, at five times the arithmetic, and prefer a diagonal.
 //
 //   energy per V0:   lambda_v fill / 2 (J - 1)^2,  J = V / V0;  clamped to 2 k~ min tau / q (solvers/shares.hpp)
 //   recovery:        a pressure that is whole where J < 0 and falls to nothing at J = 1/2
 layout(constant_id = 8) const bool hasRecovery = false;
 layout(constant_id = 9) const bool hasStiffness = true; // lambda_v is not 0
 
-// What a cell does to its corners: the impulse on a corner is +-x +-y +-z, minus where the corner is low [kg m].
+// Impulses of a cell on its corners: +-x +-y +-z, with minus where the corner is low [kg m].
 struct CellImpulse {
     vec3 x, y, z;
 };
@@ -24,7 +24,7 @@ float smallest(vec4 p[8]) {
     return min(min(min(p[0].w, p[1].w), min(p[2].w, p[3].w)), min(min(p[4].w, p[5].w), min(p[6].w, p[7].w)));
 }
 
-// Corners as in layout.h; `fill` in 1/15.
+// Corners in the order of layout.h; `fill` in 1/15.
 CellImpulse pressCell(vec4 p[8], float fill, float hh) {
     const float spacing = push.restLengths[0], quarter = 0.25 / spacing;
     // differences first: those of neighbours are exact
@@ -49,15 +49,15 @@ CellImpulse pressCell(vec4 p[8], float fill, float hh) {
     return CellImpulse(onX, onY, onZ);
 }
 
-// What the cells between two slices do to the nodes on both, in the order y, x. `fill` is that of the lower slice's nodes
-// where isLower, else of the upper's.
+// Impulses of the cells between two slices on the nodes of both, in the order y, x. `fill` is that of the lower
+// slice's nodes if isLower, else of the upper's.
 void pressCells(vec4 low[SLICE], vec4 high[SLICE], Fill fill[NODES], bool isLower, float hh, out vec3 onLow[NODES],
                 out vec3 onHigh[NODES]) {
     [[unroll]] for (int n = 0; n < NODES; ++n) onLow[n] = onHigh[n] = vec3(0.0);
     [[unroll]] for (int y = 0; y <= COLUMNS_Y; ++y)
         [[unroll]] for (int x = 0; x <= COLUMNS_X; ++x) {
             const int s = x + WIDTH * y; // the cell's lowest corner in the window
-            const int nx = min(x, COLUMNS_X - 1), ny = min(y, COLUMNS_Y - 1); // a node of the block beside it
+            const int nx = min(x, COLUMNS_X - 1), ny = min(y, COLUMNS_Y - 1); // a node of the block that has this cell
             const float held = fill[nx + COLUMNS_X * ny].cells[(x - nx) + 2 * (y - ny) + (isLower ? 4 : 0)];
             const CellImpulse impulse =
                 pressCell(vec4[8](low[s], low[s + 1], low[s + WIDTH], low[s + WIDTH + 1], high[s], high[s + 1],

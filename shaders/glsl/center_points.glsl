@@ -1,5 +1,5 @@
-// Part of write_points: the points in the middle of faces and of tetrahedra, which lie between those on their edges and hang on all corners
-// of their part. In the names of that kernel.
+// Part of write_points: points at the centres of faces and tetrahedra. Each is the mean of the points on the edges,
+// and is bound to all corners of its part. Requires the names of that kernel.
 
 // The low face of a tetrahedron that its cell may lack has the same corners.
 void writeFace(uint i, uint q) {

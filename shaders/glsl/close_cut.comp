@@ -1,5 +1,5 @@
 #version 460
-// Closes a step with a blade: counts what was cut, or takes it back where the step is undone.
+// Closes a step with a blade: counts the links that were cut, or restores them if the step is undone.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 #include "link_masks.glsl"
@@ -29,7 +29,7 @@ void main() {
         links[i] = SAVED(i);
         return;
     }
-    if (blade.quads > 0u) before[i] = PLACE(i); // strokes go on over steps without a blade; a ray has no way
+    if (blade.quads > 0u) before[i] = PLACE(i); // strokes continue over steps without a blade; a ray has no path
     const uint cut = SAVED(i) & ~links[i] & OWNED_MASK & push.stiffLinks;
     if (cut != 0u) atomicAdd(work.cut, uint(bitCount(cut)));
 }

@@ -1,6 +1,6 @@
 #version 460
-// Ends a step for interlocked bodies: a pair that in all of it lay nowhere deeper in each other than a tenth of a radius has
-// parted, and one step later its contacts are ordinary ones. A step that is undone changes nothing. One group.
+// Ends a step for interlocked bodies: a pair whose overlaps stayed below a tenth of a radius during the whole step
+// has separated, and one step later its contacts are ordinary ones. An undone step changes nothing. One group.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -11,7 +11,7 @@ layout(push_constant) uniform Push { InterlockPush push; };
 shared uint remaining;
 
 uint stateAfter(InterlockPair pair) {
-    const bool isSeen = pair.deepest > 0u; // by somebody awake
+    const bool isSeen = pair.deepest > 0u; // an awake particle of the pair was processed
     if (pair.state == INTERLOCK_LEFT && isSeen) return INTERLOCK_APART;
     return isSeen && uintBitsToFloat(pair.deepest) < INTERLOCK_SHALLOW && pair.state == INTERLOCK_PARTING ? INTERLOCK_LEFT : pair.state;
 }

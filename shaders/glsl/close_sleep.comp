@@ -1,6 +1,6 @@
 #version 460
-// After the check that a step has come to its end: whether it is judged who rests, and what the next step is compared with.
-// One group.
+// Runs after the check that a step is finished: decides whether rest is judged, and stores the values that the next
+// step is compared with. One group.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -24,7 +24,7 @@ void main() {
     const uint one = arguments[0].groupsX, judges = stays ? one : 0u; // one group, if anything runs
     waking[SLEEP_RESTING] = DispatchArguments(judges * push.groups, 1u, 1u, 0u);
     waking[SLEEP_CLOSING_ONE] = DispatchArguments(one, 1u, 1u, 0u);
-    if (one > 0u) state.sleeping = status.sleeping = 0u; // counted anew
+    if (one > 0u) state.sleeping = status.sleeping = 0u; // counted again
     if (!stays) return;
     state.gravity = step.gravity;
     state.h = step.h;

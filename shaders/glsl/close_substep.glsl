@@ -1,9 +1,9 @@
-// Part of advance_substep: what becomes of a particle whose substep has been swept (methods: D; contacts: 0.4).
+// Part of advance_substep: ends the substep of a particle after the sweeps.
 
-layout(constant_id = 11) const bool hasColliders = false; // planes come before those (touch_planes), not here
+layout(constant_id = 11) const bool hasColliders = false; // with colliders, touch_planes handles the planes before them
 
-// Turns the end of a sweep into the velocity after the substep, and returns the way from p to the position after it.
-// `remainder` is the part of the corrections with which the substep opened.
+// Turns the end of a sweep into the velocity after the substep, and returns the displacement from p to the position
+// after it. `remainder` is the part of the corrections that the substep began with.
 vec3 close(uint i, vec3 halfKick, vec3 p, vec3 remainder, inout vec3 v) {
     vec3 way = uintBitsToFloat(corrections[i].xyz);
     const vec3 before = v - 2.0 * halfKick;
@@ -25,7 +25,7 @@ vec3 close(uint i, vec3 halfKick, vec3 p, vec3 remainder, inout vec3 v) {
     way += motion.x - x;
     v = motion.v;
 #endif
-    // Even at rest v holds the half-kick h g / 2. Damping it as if it were motion would take weight off the body.
+    // Even at rest v holds the half-kick h g / 2. Damping it like motion would reduce the weight of the body.
     v = mix(halfKick, v, step.velocityFactor);
 #ifdef HAS_PLANES
     for (uint plane = 0u; plane < planeCount; ++plane) {

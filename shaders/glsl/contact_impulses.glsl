@@ -1,11 +1,12 @@
-// The impulses of gather_contacts on a particle from others: normal, and friction with what it remembers. In the names and
-// buffers of that kernel.
+// Part of gather_contacts: impulses on a particle from other particles, normal and friction with contact memory.
+// Requires the names and buffers of that kernel.
 #ifdef HAS_MEMORY
-// What friction takes back of the way that a pair has slid on each other, x w = share of the pair: all of it up to the force
-// that holds what does not slide, else as much as `slides`. Remembered
-// is where they were before the substep, and the velocity after it says how far they then really went, whatever else
-// moved them: summing up predicted ways instead counts gravity's in every substep, and creeps uphill. `way` is that of this
-// substep, `wayBefore` that of the last. Who did not touch then has no memory: one that is 0 is marked by next to nothing.
+// Friction impulse that cancels the slip of a pair, x w = share of the pair: all of the slip if its force is at most
+// `holds`, the static bound, else up to `slides`. The memory holds the slip before the substep, and the velocities
+// after it give the displacement that followed, whatever else moved the particles: summing predicted displacements
+// instead counts gravity in every substep, and creeps uphill. `way` is the relative displacement of this substep,
+// `wayBefore` that of the last. A pair that did not touch in the last substep has no memory, which is 0; a slip of 0
+// is therefore stored as 1e-30.
 vec3 held(uint slot, vec3 n, vec3 way, vec3 wayBefore, float slides, float holds, float share, float offset) {
     vec3 slip = slips[slot].xyz;
     if (slip != vec3(0.0)) slip += wayBefore;
@@ -19,7 +20,7 @@ vec3 held(uint slot, vec3 n, vec3 way, vec3 wayBefore, float slides, float holds
 }
 #endif
 
-// Nothing is remembered of what does not touch but an overlap.
+// Clears the slip of a pair that does not touch; the remaining overlap stays.
 void forget(uint slot, float offset) {
 #ifdef HAS_MEMORY
     slips[slot] = vec4(0.0, 0.0, 0.0, offset);
@@ -45,9 +46,9 @@ bool keepsRestOf(float offset) {
 // The impulse on particle i from another that is `depth` too near along n [kg m].
 vec3 impulseAlong(vec3 n, float depth, uint i, uint other, uint slot, vec3 velocity, float split, float offset) {
 #ifdef FORCES
-    const float share = split > 0.0 ? 1.0 / split : 0.0; // two that never move give each other nothing
+    const float share = split > 0.0 ? 1.0 / split : 0.0; // two static particles exchange nothing
 #else
-    const float share = 1.0 / max(split, 1e-30); // two that never move: nothing times w = 0
+    const float share = 1.0 / max(split, 1e-30); // two static particles: 0 times w = 0
 #endif
     const float lambda = depth * share;
     vec3 impulse = lambda * n;
@@ -61,7 +62,7 @@ vec3 impulseAlong(vec3 n, float depth, uint i, uint other, uint slot, vec3 veloc
     return impulse;
 }
 
-// Of the candidate in `slot`.
+// The impulse from the candidate in `slot`.
 vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
     const uvec2 candidate = CONTACT(slot);
     const vec4 other = TOUCHING(candidate.x);
@@ -82,7 +83,8 @@ vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
     return impulseAlong(direction.n, reach - direction.distance, i, candidate.x, slot, velocity, self.w + other.w, offset);
 }
 
-// Likewise in a substep with fast particles. Those that met stay where they did: they lose their approach, and are not moved.
+// The impulse from the candidate in `slot` in a substep with fast particles. A pair that met stays at the point of
+// contact: it loses its approach, and is not moved.
 void addSwept(uint i, uint slot, vec4 self, vec3 velocity, inout vec3 moving, inout vec3 stopping) {
     const uvec2 candidate = CONTACT(slot);
     const uint j = candidate.x;

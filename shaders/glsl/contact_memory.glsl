@@ -1,4 +1,5 @@
-// What gather_contacts reads and keeps where a pair remembers something, by its macros; PLANE_BINDING is the first after that.
+// Buffers of gather_contacts for pairs with contact memory, selected by its macros; PLANE_BINDING is the first
+// binding after them.
 #if defined HAS_MEMORY || defined HAS_REBOUND
 #ifdef TEXELS
 layout(binding = 10) uniform samplerBuffer before;
@@ -9,7 +10,7 @@ layout(std430, binding = 10) readonly buffer Before { vec4 before[]; }; // veloc
 #endif
 #endif
 #ifdef HAS_MEMORY
-layout(std430, binding = 11) buffer Slips { vec4 slips[]; }; // of each candidate: t [m]; what is left of an overlap [m], below 0 = stays
+layout(std430, binding = 11) buffer Slips { vec4 slips[]; }; // slip of each candidate; w = remaining overlap, below 0 = keeps rest distance [m]
 layout(constant_id = 3) const bool hasFriction = true;
 layout(constant_id = 4) const bool hasRecovery = false;
 layout(constant_id = 5) const bool keepsRest = false;

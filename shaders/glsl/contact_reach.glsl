@@ -1,13 +1,13 @@
-// How near two must be to touch where an overlap is still parting, and where a candidate is. In the names and buffers of
-// count_contacts.
+// Part of count_contacts: the reach of a pair with a remaining overlap, and the difference of a candidate. Requires
+// the names and buffers of that kernel.
 #ifdef HAS_RECOVERY
-// Goes on with what is left of an overlap. Once a substep.
+// Advances the recovery of a remaining overlap. Call it once a substep.
 void recover(uint i, uint slot, vec3 x) {
     const float before = slips[slot].w;
     if (before == 0.0) return;
     const uvec2 candidate = CONTACT(slot);
     const float reach = uintBitsToFloat(candidate.y), overlap = reach - length(x - PREDICTED(candidate.x).xyz);
-    if (before == reach) return; // interlocked bodies part in passes of their own
+    if (before == reach) return; // interlocked bodies separate in passes of their own
     if (keepsRest && isKept(before)) {
         if (overlap <= -REST_SLACK * reach) slips[slot].w = 0.0;
         return;
@@ -25,7 +25,8 @@ float reachOf(uint slot, float reach) {
 #endif
 }
 
-// Whether the candidate in a slot keeps its rest distance and has passed itself, at difference d. Two in one place have no way out.
+// True if the candidate in a slot keeps its rest distance and its two particles have passed each other, at difference
+// d. Without it, two particles in one place could not separate.
 bool hasPassed(uint slot, vec3 d, vec3 velocity) {
 #ifdef HAS_RECOVERY
     const float reach = uintBitsToFloat(CONTACT(slot).y) - nearerBy(slips[slot].w);
@@ -35,7 +36,7 @@ bool hasPassed(uint slot, vec3 d, vec3 velocity) {
 #endif
 }
 
-// Of the candidate in a slot.
+// The candidate in a slot.
 struct Pair {
     vec3 d, way;
     float reach;

@@ -1,32 +1,34 @@
-// What the passes of a contact between two particles share: when they touch, and along which direction. Both ends of a pair
-// compute equal bits, or exactly opposite ones.
+// Shared by the passes of contacts between two particles: the contact test, and the contact direction. Both ends of a
+// pair compute equal bits, or exactly opposite ones.
 
 #include "math.glsl"
 #include "rest_slack.h"
 
-// d = x_i - x_j. Of a pair in a list; the sign of |d| - reach, without a root.
-// Exact: passes that disagreed about it would divide a particle among fewer contacts than it has.
+// Contact test of a listed pair with d = x_i - x_j: the sign of |d| - reach, without a root. Exact: passes that
+// disagreed about it would divide a particle among fewer contacts than it has.
 bool touches(vec3 d, float reach) {
     return reach * reach - dot3(d, d) > 0.0;
 }
 
-// What is left after a substep of the overlap that a pair had when the scene was loaded (contacts: 3). As much as remains
-// is taken for touching, so that the pair parts at the speed with which it recovers, `way` a substep, whatever it carries.
+// Remaining overlap after a substep, of the overlap that a pair had when the scene was loaded. The pair touches at
+// reach minus this, so it separates at the speed of recovery, `way` a substep, whatever load it carries.
 float recovering(float offset, float way, float overlap) { return max(0.0, min(offset - way, overlap)); }
 
-// How much nearer than others a pair comes before it touches, from what it remembers of an overlap. Below 0 it keeps that as its rest
-// distance, until it is farther apart than others that touch.
+// Amount by which remembered overlap shortens the reach of a pair. Below 0, the pair keeps the shorter distance as
+// its rest distance, until it is farther apart than the full reach.
 float nearerBy(float remembered) { return abs(remembered); }
 bool isKept(float remembered) { return remembered < 0.0; }
 
-// A pair with a small rest distance can pass itself in a substep in which others cannot. `d` after it, `way` in it. The pair then stands
-// on the line of the start of the substep, at a distance below 0.
+// True if a pair has passed itself in a substep. Only pairs with a small rest distance can. `d` is the difference
+// after the substep, `way` its change. The pair then gets the direction at the start of the substep, and a distance
+// below 0.
 bool passes(vec3 d, vec3 way) {
     const vec3 start = d - way;
     return dot3(d, start) < 0.0;
 }
 
-// Unit vector for two particles in one place: any, but the same every time, and opposite for the other of the two.
+// Unit vector for two particles in one place: arbitrary, but the same every time, and opposite for the other
+// particle.
 vec3 axisFor(uint i, uint j) {
     uint bits = (min(i, j) * 2654435761u) ^ (max(i, j) * 2246822519u);
     bits ^= bits >> 15;
@@ -41,7 +43,7 @@ struct Direction {
     float distance; // [m]
 };
 
-// The direction of a pair that passes itself.
+// The direction of a pair that has passed itself.
 Direction passedDirection(vec3 d, vec3 way) {
     const vec3 start = d - way, n = start / length3(start);
     return Direction(n, dot3(d, n));
@@ -54,19 +56,20 @@ Direction directionOf(vec3 d, uint i, uint j) {
     return Direction(d / distance, distance);
 }
 
-// When two that are at difference d after a substep, in which that changed by `way`, met on the way: the first root t of
-// |d - way + t way| = reach, and their difference then. Only where they move far enough for what a contact leaves of their
-// approach to carry them past each other, |way| > reach / 4: in a pit several contacts share the load, and each substep takes a
-// part of the approach. Two that touched before and that no link moves meet at t = 0 where they come nearer by more than reach / 8. All
-// others touch as where nobody is fast: stopped where they were, they stored energy in the links that pulled on, substep after
-// substep.
+// Time of impact of two particles at difference d after a substep, in which the difference changed by `way`: the
+// first root t of |d - way + t way| = reach, and the difference at that time. An impact counts only if the particles
+// move far enough for the rest of their approach after a contact to carry them past each other, |way| > reach / 4: in
+// a pile several contacts share the load, and each substep removes a part of the approach. Two that touched before
+// and that no link moves meet at t = 0 if they approach by more than reach / 8. All other pairs use the contact test
+// without sweep: stopped at their start, they stored energy in the links that pulled on, substep after substep.
 struct Meeting {
-    float time; // of the substep, 0 to 1; more = they did not meet
+    float time; // in the substep, 0 to 1; more = no impact
     vec3 at;
 };
 const float never = 2.0;
 
-// Whether no link moves either of two, by what positions hold beside places (split.glsl): of who is fixed or has no links it is 1e30.
+// True if no link moves either particle. Reads tau beside positions (split.glsl): it is 1e30 for particles that are
+// fixed or have no links.
 bool areFreeOf(float tauI, float tauJ) { return min(tauI, tauJ) > 0.5e30; }
 
 Meeting meetingOf(vec3 d, vec3 way, float reach, bool areFree) {
@@ -81,11 +84,11 @@ Meeting meetingOf(vec3 d, vec3 way, float reach, bool areFree) {
     return Meeting(t, at);
 }
 
-// A contact in a substep with fast particles. Of several that a particle meets on its way only the first are real, those
-// by `first` of the substep and as good as then: it goes no farther.
+// A contact in a substep with fast particles. Among the impacts of a particle only those at the time `first` of its
+// first one, and those as early, are real: the particle goes no farther.
 struct Contact {
     bool exists, isMet;
-    vec3 at; // difference when they met, or after the substep
+    vec3 at; // difference at the impact, or after the substep
 };
 
 Contact contactOf(vec3 d, vec3 way, float reach, float first, bool areFree) {
@@ -94,7 +97,7 @@ Contact contactOf(vec3 d, vec3 way, float reach, float first, bool areFree) {
     return Contact(isMet ? meeting.time <= first + 1e-3 : touches(d, reach), isMet, meeting.at);
 }
 
-// The nearest that the two came to each other, squared [m^2].
+// Squared smallest distance of the two during the substep [m^2].
 float nearestSquared(vec3 d, vec3 way) {
     const float t = clamp(dot(d, way) / max(dot(way, way), 1e-30), 0.0, 1.0);
     const vec3 nearest = d - t * way;

@@ -1,15 +1,15 @@
 #version 460
-// Ends a step in which anybody was awake: which work groups the next one runs, and how many particles sleep. A group in
-// which all have fallen asleep runs for two more steps: all buffers then hold what those hold that never move, and lists are
-// no longer made again. After an undone step all run.
+// Ends a step in which any particle was awake: marks the work groups that run in the next step, and counts sleeping
+// particles. A group whose particles have all fallen asleep runs for two more steps: all buffers then hold the values
+// of particles that never move, and lists are no longer rebuilt. After an undone step all groups run.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "sleep.glsl"
 
-layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of what is awake [1/kg]
+layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of awake particles [1/kg]
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) buffer Status { StatusWords status; };
-layout(std430, binding = 3) buffer Groups { uint groups[]; }; // bit 0: now; bits 1 and 2: at the ends of the steps before
+layout(std430, binding = 3) buffer Groups { uint groups[]; }; // any awake; bit 0: now, bits 1 and 2: at the ends of the steps before
 layout(std430, binding = 4) writeonly buffer Marks { uint marks[]; };
 layout(std430, binding = 5) buffer State { SleepState state; };
 layout(push_constant) uniform Push { SleepPush push; };

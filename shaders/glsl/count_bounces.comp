@@ -1,5 +1,5 @@
 #version 460
-// Restitution between particles, first pass: from how many others a particle rebounds, which is what it is divided by.
+// Restitution between particles, first pass: counts the bounces of a particle, by which its mass is divided.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"

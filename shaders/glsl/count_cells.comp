@@ -1,6 +1,7 @@
 #version 460
-// Counting sort, first pass: how many particles each slot of the table has, and which of them a particle is. Also
-// remembers where particles are, and of which body: until they have left there by more than the slack, lists stay complete.
+// Counting sort, first pass: counts the particles of each slot of the table, and stores each particle's rank in its
+// slot. Also stores the positions and bodies of particles: lists stay complete until particles have moved from there
+// by more than the slack.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "hash_grid.glsl"
@@ -20,8 +21,8 @@ layout(std140, binding = 2) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 3) buffer Counts { uint counts[]; };
 layout(std430, binding = 4) writeonly buffer Places { uvec2 places[]; }; // slot and rank of each particle
 layout(std430, binding = 5) writeonly buffer Detected { vec4 detected[]; };
-layout(std430, binding = 6) readonly buffer Bodies { float bodies[]; }; // of each particle, below 0 = of what touches nothing
-layout(std430, binding = 7) readonly buffer Watched { float watched[]; }; // below 0 = nothing can touch it, nor what it is a corner of
+layout(std430, binding = 6) readonly buffer Bodies { float bodies[]; }; // of each particle, below 0 = of a body without contacts
+layout(std430, binding = 7) readonly buffer Watched { float watched[]; }; // below 0 = neither it nor its faces and edges can touch anything
 layout(push_constant) uniform Push { GridPush push; };
 
 void main() {

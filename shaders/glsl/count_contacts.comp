@@ -1,7 +1,7 @@
 #version 460
-// Contacts, first pass: how many others a particle touches where the substep has taken it, which is what it is divided by.
-// Counted exactly in every substep: with counts of the one before, shares add up to more than the whole particle and
-// bodies explode (contacts: 1). In a substep with fast particles, also those that it met on the way.
+// Contacts, first pass: counts the contacts of a particle at its predicted position, by which its mass is divided.
+// Counted exactly in every substep: with counts of the substep before, shares add up to more than the whole particle
+// and bodies explode. In a substep with fast particles, impacts on the way count too.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"
@@ -25,9 +25,9 @@ layout(std430, binding = 2) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // when each first met another; only if isSwept
+layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // time of each particle's first impact; only if isSwept
 #ifdef HAS_RECOVERY
-layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m], below 0 = stays
+layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m], below 0 = keeps its rest distance
 layout(constant_id = 5) const bool keepsRest = false;
 layout(constant_id = 6) const bool canOpen = false; // a cut can let pairs touch
 #define MARKS_BINDING 9
@@ -41,7 +41,8 @@ void main() {
     const uint i = itemIndex(push.count);
     const uvec2 list = lists[i];
     const uint end = list.x + list.y;
-    // Loops of which some are empty: what stands under a condition costs a software device its time nevertheless.
+    // Loops of which some are empty: on a software device, code under a condition costs its time even if it does not
+    // run.
     const uint resting = bounds.isSwept != 0u ? list.x : end, sweeping = bounds.isSwept != 0u ? end : list.x;
     const vec4 start = PREDICTED(i);
     vec3 x = start.xyz;
@@ -66,7 +67,7 @@ void main() {
     }
     if (sweeping > list.x) {
         firsts[i] = first;
-        if (first < 1.0) x -= (1.0 - first) * step.h * velocity.xyz; // stays where it met
+        if (first < 1.0) x -= (1.0 - first) * step.h * velocity.xyz; // stays at the point of impact
     }
     touching[i] = vec4(x, contactCount * velocity.w);
 }

@@ -1,6 +1,7 @@
 #version 460
-// Interlocked bodies, first pass: how many contacts with partners push a particle, which is what it is divided by. Takes these
-// contacts out of the ordinary passes, how deep they are into account for close_interlocks, and copies velocities.
+// Interlocked bodies, first pass: counts the contacts with partner bodies that push a particle, by which its mass is
+// divided. Removes these contacts from the ordinary passes, records their depth for close_interlocks, and copies
+// velocities.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "interlocks.glsl"
@@ -10,20 +11,20 @@ layout(std430, binding = 6) writeonly buffer Touching { vec4 touching[]; }; // x
 layout(std430, binding = 8) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 9) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
 layout(std430, binding = 10) writeonly buffer Moving { vec4 moving[]; };
-layout(std430, binding = 11) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m]
+layout(std430, binding = 11) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m]
 
-// Somebody awake looks at the pairs of a body: 0 is nobody, next to 0 no contact.
+// Marks the pairs of a body as processed by an awake particle: 0 is none, next to 0 is no contact.
 void see(uint body) {
     for (uint p = partners[body - 1u]; p < partners[body]; p += 2u) atomicMax(pairs[partners[p + 1u]].deepest, 1u);
 }
 
-// Whether the candidate in a slot is a contact of a pair that parts, and pushes.
+// True if the candidate in a slot is a contact of a separating pair of bodies and pushes.
 bool pushes(uint i, uint slot, uint pair, vec3 x, vec4 velocity) {
     const uvec2 candidate = contacts[slot];
     const float reach = uintBitsToFloat(candidate.y);
     const uint state = pairs[pair].state;
     if (slips[slot].w < 0.0) return false; // keeps its rest distance, in ordinary contacts
-    // An overlap of all of the reach is what ordinary contacts never touch in; a little less recovers there.
+    // An overlap equal to the reach switches the pair off in ordinary contacts; a little less lets it recover there.
     if (state == INTERLOCK_PARTING) slips[slot] = vec4(0.0, 0.0, 0.0, reach);
     else if (state == INTERLOCK_LEFT && slips[slot].w == reach) slips[slot].w = 0.999999 * reach;
     const vec3 d = x - predicted[candidate.x].xyz;

@@ -1,6 +1,6 @@
 #version 460
-// Connected components, the end: names every particle's piece after the particle in its lowest slot, and counts pieces and their particles. An
-// invocation counts a row of slots, which mostly are of one piece.
+// Connected components, last pass: names the piece of every particle after the particle in the piece's lowest slot,
+// and counts pieces and their particles. An invocation counts a row of slots, most of which belong to one piece.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// Pieces of the skin of a sheet, first pass: how many triangles and vertices stand for each triangle that a cut has reached. One dead edge
-// only splits it at the point that the triangle beyond may end in.
+// Pieces of the skin of a sheet, first pass: counts the triangles and vertices that replace each triangle reached by
+// a cut. A single dead edge only splits the triangle at the point at which the next triangle may end.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// The surface of a cut, third pass: how many points a slot owns, and how many triangles there are inside and outside of the cell above
-// it. The same code makes them in write_inside and write_outside.
+// The surface of a cut, third pass: counts the points of a slot, and the inner and outer triangles of the cell above
+// it. write_inside and write_outside create them with the same code.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -25,7 +25,8 @@ void setNormal(uint axis, bool isHigh) {}
 #include "cut_inside.glsl"
 #include "cut_outside.glsl"
 
-// Triangles of a cell, and on its low faces, have corners that its corners own.
+// True if the corners of a cell own any point: triangles in the cell, and on its low faces, have only such points as
+// corners.
 bool hasPoints(uint cell) {
     uint all = 0u;
     [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) {

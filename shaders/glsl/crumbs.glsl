@@ -1,4 +1,4 @@
-// Where what is drawn of a piece that was removed shrinks to: where the particle is that it is named after.
+// Hides the vertices of a removed piece: collapses them to the particle that the piece is named after.
 layout(std430, binding = 0) readonly buffer Slots { uint slots[]; };         // of the vertices of all skins
 layout(std430, binding = 1) readonly buffer Particles { uint particles[]; }; // of each slot
 layout(std430, binding = 2) readonly buffer Pieces { uint pieces[]; };

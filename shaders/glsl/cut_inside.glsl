@@ -1,8 +1,8 @@
-// The triangles inside of what was cut, as seen from a cell: between the parts of its tetrahedra, each twice,
-// once a side, and on faces that their two tetrahedra see split in different ways. Whoever includes this says what becomes of
+// The inner triangles of a cut in one cell: between the parts of its tetrahedra, each twice, once a side, and on
+// faces that their two tetrahedra split in different ways. The including kernel defines
 //
 //   triangle(a, b, c)   points as (slot, bit), right-handed seen from outside of the part that it belongs to
-//   writeNoted()        those since the last call, 6 at most
+//   writeNoted()        writes the triangles since the last call, 6 at most
 
 #include "seen_faces.glsl"
 
@@ -10,7 +10,7 @@ void oriented(bool isKept, uvec2 a, uvec2 b, uvec2 c) {
     triangle(a, isKept ? b : c, isKept ? c : b);
 }
 
-// One corner and three.
+// Splits a tetrahedron into one corner and three.
 void partOne(uint cell, uint p, uint lone) {
     const uvec4 corners = cornersOf(p);
     const uvec3 others = faceOf(lone);
@@ -24,7 +24,7 @@ void partOne(uint cell, uint p, uint lone) {
     oriented(!isKept, far[0], far[1], far[2]);
 }
 
-// Two and two: the first corner with `mate`.
+// Splits a tetrahedron into two and two: the first corner with `mate`.
 void partTwo(uint cell, uint p, uint mate) {
     const uvec4 corners = cornersOf(p);
     const uint x = mate == 1u ? 2u : 1u, y = mate == 3u ? 2u : 3u;
@@ -39,7 +39,7 @@ void partTwo(uint cell, uint p, uint mate) {
     }
 }
 
-// A face of what is split in three or four, with the middle.
+// Splits one face of a tetrahedron with three or four parts, using the point at its centre.
 void partFace(uint cell, uint p, uint m, uvec4 labels) {
     const uvec4 corners = cornersOf(p);
     const uvec3 face = faceOf(m), pattern = restricted(labels, face);
@@ -48,7 +48,7 @@ void partFace(uint cell, uint p, uint m, uvec4 labels) {
     const Face owner = ownerOf(cell, p, m);
     const uint lone = loneOf(pattern);
     [[dont_unroll]] for (uint n = 0u; n < (ways == 3u ? 3u : ways == 2u ? 1u : 0u); ++n) {
-        const uint a = ways == 2u ? lone : n, b = (a + 1u) % 3u, c = (a + 2u) % 3u; // places in the face
+        const uint a = ways == 2u ? lone : n, b = (a + 1u) % 3u, c = (a + 2u) % 3u; // indices in the face
         const uvec2 ownB = edgePoint(cell, corners, face[a], face[b]), farB = edgePoint(cell, corners, face[b], face[a]);
         const uvec2 ownC = ways == 2u ? edgePoint(cell, corners, face[a], face[c]) : uvec2(owner.slot, faceBit(owner.q, a));
         const uvec2 farC = ways == 2u ? edgePoint(cell, corners, face[c], face[a]) : uvec2(owner.slot, faceBit(owner.q, b));
@@ -57,18 +57,19 @@ void partFace(uint cell, uint p, uint m, uvec4 labels) {
     }
 }
 
-// In two at its first face, in three or four face by face.
+// Two parts are done at the first face, three or four parts face by face.
 void partTetrahedron(uint cell, uint p, uint m, uint parted) {
     const uvec4 labels = labelsOf(parted);
     const uint parts = partsOf(labels);
     if (parts > 2u) partFace(cell, p, m, labels);
     if (parts != 2u || m > 0u) return;
-    const uint others = uint(labels.y != 0u) + uint(labels.z != 0u) + uint(labels.w != 0u); // not with the first corner
+    const uint others = uint(labels.y != 0u) + uint(labels.z != 0u) + uint(labels.w != 0u); // corners apart from the first
     if (others == 2u) partTwo(cell, p, labels.y == 0u ? 1u : labels.z == 0u ? 2u : 3u);
     else partOne(cell, p, others == 3u ? 0u : labels.y != 0u ? 1u : labels.z != 0u ? 2u : 3u);
 }
 
-// How the two sides of a face that a slot owns see it, the one first that splits it in two where the other one sees it otherwise.
+// The split of a face that a slot owns, seen from its two sides. If one side splits it in two and the other
+// differently, that side is first.
 struct Seen {
     Side from;
     uvec3 pattern, beyond;
@@ -86,7 +87,8 @@ Seen seenBoth(uint slot, uint q) {
     return Seen(high, ofHigh, ofLow, isUnlike);
 }
 
-// Between two tetrahedra, or one and prisms, that split their face differently, one of them in two.
+// Fills the face between two tetrahedra, or between a tetrahedron and prisms, that split it differently, one of them
+// in two.
 void fillFace(uint slot, uint q) {
     const Seen seen = seenBoth(slot, q);
     const Side two = seen.from;
@@ -100,7 +102,7 @@ void fillFace(uint slot, uint q) {
     oriented(isKept, edgePoint(two.cell, corners, face[b], face[a]), far, edgePoint(two.cell, corners, face[c], face[a]));
 }
 
-// Faces of a cell's tetrahedra for which there is something to do: bit 4 p + m.
+// Faces of a cell's tetrahedra that need triangles: bit 4 p + m.
 uint facesParted(uint cell) {
     const uint word = complex[cell], all = partitions[cell];
     uint faces = 0u;
@@ -111,14 +113,14 @@ uint facesParted(uint cell) {
     return faces;
 }
 
-// Faces that a slot owns.
+// Faces of a slot that need filling, one bit each.
 uint facesToFill(uint slot) {
     uint faces = 0u;
     [[dont_unroll]] for (uint q = 0u; q < 12u; ++q) faces |= uint(seenBoth(slot, q).isUnlike) << q;
     return faces;
 }
 
-// A loop for those alone: what stands under a condition costs a software device its time nevertheless.
+// Loops over the set bits only: on a software device, code under a condition costs its time even if it does not run.
 void addInside(uint cell) {
     [[dont_unroll]] for (uint left = facesParted(cell); left != 0u; left &= left - 1u) {
         const uint n = uint(findLSB(left)), p = n / 4u;

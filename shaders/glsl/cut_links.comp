@@ -1,7 +1,8 @@
 #version 460
-// Cuts the links that the blade has swept over since the step before, or that a ray comes near: clears their bits at both ends, in
-// the state that the step begins with. Every listed node (find_near_links) tests those links that it owns and whose box meets the
-// blade's against every quad. Bits are only ever cleared, so order and repetition change nothing.
+// Cuts the links that the blade has swept over since the step before, or that are within the radius of a ray: clears
+// their bits at both ends, in the state at the start of the step. Every listed node (find_near_links) tests the links
+// that it owns, if their boxes meet that of the blade, against every quad. Bits are only ever cleared, so order and
+// repetition change nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 #include "link_masks.glsl"

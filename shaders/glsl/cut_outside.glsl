@@ -1,15 +1,16 @@
-// What is left of the faces of a body near a cut, as seen from a cell: pieces of its outer faces, and whole ones with the points
-// on their edges put in, so that no gap opens beside a piece. The points are those of cut_inside. Whoever includes this says what becomes of
+// The outer triangles of a cut in one cell: pieces of the cell's outer faces, and whole faces with the points on
+// their edges inserted, so that no gap opens beside a piece. The points are those of cut_inside. The including kernel
+// defines
 //
 //   triangle(a, b, c)   points as (slot, bit), right-handed seen from outside; corner() for a particle
-//   writeNoted()        those since the last call, 6 at most
-//   hasPoint(a)         whether there is such a point
-//   setNormal(axis, isHigh)   of those that follow
+//   writeNoted()        writes the triangles since the last call, 6 at most
+//   hasPoint(a)         true if the point exists
+//   setNormal(axis, isHigh)   sets the normal of the triangles that follow
 
 const uint particleBit = 128u;
 uvec2 corner(uint cell, uint at) { return uvec2(slotOf(cell, at), particleBit); }
 
-// A face that hangs together, with points on some of its edges: bit n = between n and the next.
+// A connected face with points on some of its edges: bit n = between n and the next. Returns the number of triangles.
 uint outsideWhole(uvec2 at[3], uvec2 on[3], uint used) {
     if (used == 0u) return 0u;
     const uint count = uint(bitCount(used));
@@ -26,7 +27,7 @@ uint outsideWhole(uvec2 at[3], uvec2 on[3], uint used) {
     return count + 1u;
 }
 
-// A face of which corner a is cut off.
+// A face with corner a cut off. Returns the number of triangles.
 uint outsideTwo(uvec2 at[3], uvec2 ownB, uvec2 ownC, uvec2 farB, uvec2 farC, uvec2 between, bool isBetween) {
     triangle(at[0], ownB, ownC);
     triangle(farB, at[1], isBetween ? between : at[2]);
@@ -42,9 +43,9 @@ uint outsideFace(uint cell, uint p, uint m, uint parted) {
     const uint ways = waysOf(pattern), lone = ways == 2u ? loneOf(pattern) : 0u;
     const Face owner = ownerOf(cell, p, m);
     const uint turn = isOutward(p, m) ? 1u : 2u;
-    const uvec3 place = uvec3(lone, (lone + turn) % 3u, (lone + 2u * turn) % 3u); // right-handed, the lone one first
+    const uvec3 place = uvec3(lone, (lone + turn) % 3u, (lone + 2u * turn) % 3u); // right-handed, beginning with the corner that is alone
     face = uvec3(face[place.x], face[place.y], face[place.z]);
-    uvec2 at[3], on[3], off[3]; // corners; points between n and the next, on the side of n and of the next
+    uvec2 at[3], on[3], off[3]; // corners; points between n and the next, on the side of n and on that of the next
     uint used = 0u;
     [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
         at[n] = corner(cell, corners[face[n]]);
@@ -62,7 +63,8 @@ uint outsideFace(uint cell, uint p, uint m, uint parted) {
     return 6u;
 }
 
-// Which outer faces of a cell are drawn in pieces: bit 2 p for the face opposite of 0, 2 p + 1 for that of 3.
+// Adds the outer triangles of a cell, and returns the outer faces that are drawn in pieces: bit 2 p for the face
+// opposite of 0, 2 p + 1 for that of 3.
 uint addOutside(uint cell) {
     if ((complex[cell] & COMPLEX_HAS_FACES) == 0u) return 0u;
     uint pieces = 0u;

@@ -1,7 +1,7 @@
-// Which slots own the points of a tetrahedron (surface_points.glsl), and the tetrahedra around what a slot owns.
+// The owners of the points of a tetrahedron (surface_points.glsl), and the tetrahedra around an owned face.
 #include "surface_points.glsl"
 
-// Which face of which slot the one opposite of corner m of tetrahedron p is.
+// Owner slot and number of the face opposite of corner m of tetrahedron p.
 struct Face {
     uint slot, q;
 };
@@ -12,7 +12,7 @@ Face ownerOf(uint cell, uint p, uint m) {
     return Face(cell, m == 1u ? pairSecond[p] : m == 2u ? pairThird[p] : p);
 }
 
-// The tetrahedra on both sides of a face that a slot owns.
+// One side of a face that a slot owns: a tetrahedron, and its corner opposite of the face.
 struct Side {
     uint cell, p, m;
 };

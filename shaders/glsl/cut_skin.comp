@@ -1,6 +1,7 @@
 #version 460
-// Where a blade meets the edges of a skin that it may cut: in the state that the step begins with. A slow one meets an edge in one step and
-// cuts the link below it in another, so what it has met is kept; a new stroke forgets it where nothing was cut.
+// Intersects the blade with the edges of a skin that it may cut, in the state at the start of the step. A slow blade
+// meets an edge in one step and cuts the link below it in another, so hits are kept; a new stroke clears the hits of
+// edges whose links are alive.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -21,7 +22,7 @@ PlacedVertex placedAt(uint v) { return PlacedVertex(texelFetch(placed, int(2u * 
 layout(std430, binding = 6) readonly buffer Placed { PlacedVertex placed[]; }; // (place_vertices)
 PlacedVertex placedAt(uint v) { return placed[v]; }
 #endif
-layout(std430, binding = 7) buffer SkinHits { uint skinHits[]; }; // of each prism: byte n for its edge n, in 1/255; 0 = none
+layout(std430, binding = 7) buffer SkinHits { uint skinHits[]; }; // of each prism: byte n = hit on its edge n, in 1/255; 0 = none
 layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Nears { uint nears[]; }; // prisms (list_prisms)
 

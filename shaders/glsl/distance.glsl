@@ -1,5 +1,7 @@
-// A distance constraint between two particles, once for every solver form: XPBD [Macklin 2016], eq. 18, with
-// C = |x_b - x_a| - L and alpha = compliance / h^2:  dl = -(C + alpha l) / (w_a + w_b + alpha).
+// A distance constraint between two particles, used by every solver form: XPBD [Macklin 2016], eq. 18, with
+// C = |x_b - x_a| - L and alpha = compliance / h^2:
+//
+//   dl = -(C + alpha l) / (w_a + w_b + alpha).
 #include "compliance.glsl"
 
 struct DistanceChange {
@@ -15,7 +17,8 @@ DistanceChange solveDistance(vec3 d, float w, float restLength, float alpha, flo
 }
 
 #ifdef HAS_DAMPING
-// With a damping coefficient gamma h / compliance, eq. 26: gamma slows `moved`, what the ends have moved apart so far.
+// With damping, eq. 26: gamma = damping coefficient x h / compliance acts on `moved`, the relative displacement of
+// the ends so far.
 DistanceChange solveDampedDistance(vec3 d, float w, float restLength, float alpha, float lambda, float gamma, vec3 moved) {
     const float distance = length(d);
     const vec3 n = distance > 1e-12 ? d / distance : vec3(0.0);

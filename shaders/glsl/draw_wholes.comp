@@ -1,5 +1,6 @@
 #version 460
-// Mixed skins, third pass: whole triangles are drawn unless their parts stand for them; those around these are, and their parts, too.
+// Mixed skins, third pass: a whole triangle is drawn unless its parts replace it; whole triangles next to parts are
+// drawn too, and their parts with them.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// Takes driven particles along the paths of their bodies: at the end of a substep each is where the path has it, with the
-// velocity of that way, which is what contacts and links see of it.
+// Moves driven particles along the paths of their bodies: at the end of a substep each is at its position on the
+// path, with the velocity of that displacement, which contacts and links use.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "pose.glsl"

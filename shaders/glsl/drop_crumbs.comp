@@ -1,5 +1,5 @@
 #version 460
-// Hands that hold what was removed feel nothing of it, and take no hold of it any more.
+// Releases fragments from grabs: a removed particle loses its share and its mass in every grab.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

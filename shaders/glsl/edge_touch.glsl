@@ -1,19 +1,20 @@
-// How two edges touch in a substep, and on which side of each other they are. In the names and buffers of touch_edges.
-const float leastSine = 1e-3; // squared
+// Narrow phase of two edges in a substep: their contact, and their sides. Requires the names and buffers of
+// touch_edges.
+const float leastSine = 1e-3; // squared sine; edges at a smaller angle count as parallel
 
-// The two edges at a time of the substep, 1 = its end.
+// Two edges at one time of the substep.
 struct Lines {
     vec3 ca, ab, cd;
 };
 
 struct Touch {
-    vec3 n; // to the first edge
+    vec3 n; // towards the first edge
     float depth, remembered;
     vec2 st;
 };
 
-// Whether two lines that have passed each other's plane did so inside both: the triple product is a cubic in time, of which
-// the root is cornered by halving and by chords in turn.
+// True if two lines that swapped sides did so inside both edges. The triple product is a cubic in time; its root is
+// bracketed by bisection and chords in turn.
 bool hasPassed(Lines lines, Lines rates, out vec2 st) {
     float low = 0.0, high = 1.0;
     const float atLow = dot(cross(lines.ab - rates.ab, lines.cd - rates.cd), lines.ca - rates.ca);
@@ -36,14 +37,14 @@ bool hasPassed(Lines lines, Lines rates, out vec2 st) {
     return isInside(crossing, 1e-3);
 }
 
-// The distance that a contact of an edge with another keeps [m]; far where they do not overlap.
+// The rest distance of an edge's contact with another [m]; large if they do not overlap.
 float restWith(uint e, uint other, uint element) {
     const float remembered = memory[element].w;
     if (abs(remembered) <= 1.0 || !keeps(edges[e].a, edges[other].a)) return 3e38;
     return restOf(uintBitsToFloat(contacts[element].y), remembered);
 }
 
-// The least of all of its contacts.
+// The smallest rest distance among all contacts of an edge.
 float leastRestOf(uint e) {
     const uvec2 list = lists[e], linked = linkLists[e];
     float least = 3e38;
@@ -52,15 +53,16 @@ float leastRestOf(uint e) {
     return least;
 }
 
-// The part of its overlap that a pair with a kept rest distance still has. Two that come to lie over each other from beside, where ends met other
-// edges, keep no more of it than those did: else they would be thrown apart.
+// The overlap that a pair with a kept rest distance still has. Two edges that slide over each other from the side,
+// where their ends met other edges, keep no more of it than those contacts do: else they would be pushed apart
+// violently.
 float keptOf(uvec2 both, float remembered, float overlap, float before, float reach) {
     if (remembered == 0.0 && !isAtLoad() && before > 0.0 && overlap > 0.0)
         return min(before + REST_SLACK * reach, max(0.0, reach - min(leastRestOf(both.x), leastRestOf(both.y))));
     return overlapKept(remembered, overlap, before, reach);
 }
 
-// `both`: the two edges.
+// Contact of the two edges `both`.
 Touch touchOf(uvec2 both, float reach, float remembered) {
     const ContactEdge first = edges[both.x], second = edges[both.y];
     const uint a = first.a, b = first.b, c = second.a, d = second.b;
@@ -71,7 +73,7 @@ Touch touchOf(uvec2 both, float reach, float remembered) {
     const Crossing now = crossingOf(lines.ca, lines.ab, lines.cd, leastSine);
     const Crossing before = crossingOf(lines.ca - rates.ca, lines.ab - rates.ab, lines.cd - rates.cd, leastSine);
     Touch touch = Touch(vec3(0.0), 0.0, 0.0, vec2(now.s, now.t));
-    // Balls around middles, as lists have it: an edge that was stretched beyond its own touches nothing with its ends.
+    // Balls around midpoints, as in the lists: an edge stretched beyond its ball touches nothing with its ends.
     const vec3 middles = lines.ca + 0.5 * (lines.ab - lines.cd);
     const float wayFirst = max(length(velocities[a].xyz), length(velocities[b].xyz));
     const float waySecond = max(length(velocities[c].xyz), length(velocities[d].xyz));
@@ -82,12 +84,13 @@ Touch touchOf(uvec2 both, float reach, float remembered) {
     bool isInReach = isInside(now, 0.0) && abs(now.height) < (isKept ? (1.0 + REST_SLACK) * reach : reach);
     if (side * now.height < 0.0 && !(remembered != 0.0 && side * before.height < 0.0 && isInReach)) {
         vec2 passed = touch.st;
-        // Beyond reach and through since before: let go, it may be in no list.
+        // Outside of the reach and on the wrong side since the substep before: released, since the pair may be in no
+        // list.
         if (side * before.height >= 0.0 && hasPassed(lines, rates, passed)) {
             if (!isInside(now, 0.0)) touch.st = passed;
             isInReach = true;
         } else {
-            side = -side; // it went around
+            side = -side; // it moved around the other edge
         }
     }
     touch.n = side * now.n;

@@ -1,5 +1,5 @@
-// Whether a pair is one of those that never touch, in the table EXCLUDED: for each `of` the first of its partners, one more for
-// the end, then the partners of all, sorted.
+// True if a pair is excluded from contacts, by the table EXCLUDED: for each `of` the index of its first partner, one
+// more for the end, then the partners of all, sorted.
 bool isExcluded(uint of, uint partner) {
     uint low = EXCLUDED(of), high = EXCLUDED(of + 1u);
     const uint end = high;

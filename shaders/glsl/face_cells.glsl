@@ -1,20 +1,20 @@
-// The block of cells around a face in which find_faces looks for points. In the names of that kernel.
+// The block of cells around a face in which find_faces searches for points. Requires the names of that kernel.
 const float mostCells = 1000.0; // around a face
 
 #include "cell_points.glsl"
 
 struct Cells {
     ivec3 first, last;
-    uint points; // in them
+    uint points; // number of points in them
 };
 
-// Beyond which no point of the grid is near; a little more: rounding [m].
+// The distance from the face beyond which no point of the grid is near; slightly larger because of rounding [m].
 float rangeOf(Searched face) {
     const vec3 size = max(abs(face.low), abs(face.high));
     return 1.01 * (face.reach + uintBitsToFloat(points.widest)) + 1e-6 * max(size.x, max(size.y, size.z));
 }
 
-// None where there are too many.
+// Empty, with points = ~0, if the block has more than mostCells cells.
 Cells cellsAround(Searched face, Frame frame) {
     const float reach = rangeOf(face);
     const vec3 top = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ));

@@ -1,27 +1,29 @@
-// A point and a face at the end of a substep and at its beginning. Uses the names and buffers of touch_faces.
+// Geometry of a point and a face at the start and at the end of a substep. Requires the names and buffers of
+// touch_faces.
 
-// Whether a point that has passed a plane went through the face in it: on straight ways, where it was in the plane. A face
-// that turns was not quite there; what it never was within reach of may be in no list.
+// True if a point that has crossed the plane of a face went through the face: tests the position on straight paths at
+// the time of the crossing. A rotating face was not exactly there; a point that was never within reach may be in no
+// list.
 bool hasPassed(vec3 ap, vec3 ab, vec3 ac, float reach, out vec3 b) {
     b = weightsOf(ap, triangleOf(ab, ac));
-    const bool isInside = min(b.x, min(b.y, b.z)) >= -1e-3; // of two faces at an edge at least one sees it
+    const bool isInside = min(b.x, min(b.y, b.z)) >= -1e-3; // at an edge of two faces at least one detects it
     b = max(b, vec3(0.0));
     b /= b.x + b.y + b.z;
     const vec3 d = ap - b.y * ab - b.z * ac;
     return isInside && dot(d, d) < reach * reach;
 }
 
-// A point and a face at the end of a substep, and on which side of its plane the point then is and was at its beginning.
+// A point and a face at the end of a substep, and the point's height above the plane then and at the start.
 struct Meeting {
     ContactFace face;
     float reach;               // [m]
-    float front;               // of something solid: 1 = where the normal points, -1 = the other side
-    vec3 ap, ab, ac, vp, vb, vc; // from corner a, and relative to its velocity
+    float front;               // of a closed body: 1 = the front is along the normal, -1 = opposite
+    vec3 ap, ab, ac, vp, vb, vc; // displacements from corner a, velocities relative to it
     Triangle triangle;
     Nearest nearest;
     vec3 normal;               // unit
     float height, heightBefore; // [m]
-    bool isKept, isOpened;     // the pair keeps its rest distance, a cut has let it touch: said by those who ask
+    bool isKept, isOpened;     // the pair keeps its rest distance; a cut has made the contact possible: set by the caller
 };
 
 Meeting meetingOf(uint i, uvec2 candidate) {
@@ -44,7 +46,7 @@ Meeting meetingOf(uint i, uvec2 candidate) {
 }
 
 bool wentThrough(Meeting m, out vec3 b) {
-    const float back = step.h * m.height / (m.height - m.heightBefore); // since it was in the plane [s]
+    const float back = step.h * m.height / (m.height - m.heightBefore); // time since it was in the plane [s]
     return hasPassed(m.ap - back * m.vp, m.ab - back * m.vb, m.ac - back * m.vc, m.reach, b);
 }
 
@@ -54,10 +56,10 @@ Nearest nearestBefore(Meeting m) {
 
 bool isWithinReach(Meeting m) { return dot(m.nearest.d, m.nearest.d) < m.reach * m.reach; }
 
-// The angle that a face has at the nearest place on it.
+// The angle that the face spans at its point nearest to the point.
 float angleOf(Meeting m) {
     const vec3 w = m.nearest.weights, bc = m.ac - m.ab;
-    vec3 one = m.ab, other = -m.ab; // an edge
+    vec3 one = m.ab, other = -m.ab; // on an edge
     if (w.x > 0.999) other = m.ac;
     else if (w.y > 0.999) one = bc;
     else if (w.z > 0.999) {

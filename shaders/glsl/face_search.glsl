@@ -1,6 +1,6 @@
-// What finding pairs of a point and a face shares: the buffers, and the test. A pair is listed where the two are nearer than
-// touching, a margin, and what they move against each other in this substep: so nothing that meets on the way is missed, however
-// fast, and what goes along together is not listed for its speed.
+// Shared by the kernels that find pairs of a point and a face: the buffers, and the test. A pair is listed if its
+// distance is below the reach, plus a margin, plus the relative motion in this substep: so no pair that meets during
+// the substep is missed, however fast, and particles that move together are not listed because of their speed.
 #include "kernel.glsl"
 #include "math.glsl"
 #include "triangle.glsl"
@@ -27,9 +27,9 @@ layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; };     /
 #endif
 layout(std430, binding = 3) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 4) buffer PointChains { uint pointChains[]; };
-layout(std430, binding = 5) buffer FaceChains { uint faceChains[]; }; // of moving faces
+layout(std430, binding = 5) buffer FaceChains { uint faceChains[]; }; // of faces that move
 layout(std140, binding = 9) uniform Step { StepParams step; };
-layout(std430, binding = WEIGHT_BINDING) readonly buffer Masses { float inverseMass[]; }; // also of what sleeps [1/kg]
+layout(std430, binding = WEIGHT_BINDING) readonly buffer Masses { float inverseMass[]; }; // of sleeping particles too [1/kg]
 layout(push_constant) uniform Push { FaceFindPush push; };
 layout(std430, binding = 6) coherent volatile buffer Bounds { GridBounds bounds; };
 #define PAIRS_BINDING 7
@@ -37,15 +37,15 @@ layout(std430, binding = 6) coherent volatile buffer Bounds { GridBounds bounds;
 #define ENTRIES_OF_PAIR 1u
 #include "listed_pairs.glsl"
 
-// A face at the end of its way.
+// A face with its positions and velocities at the end of the substep.
 struct Searched {
     uint index;
     ContactFace face;
     vec3 a;
     Triangle triangle;
     vec3 low, high; // box of the corners
-    float reach;    // beyond radius and way of a point [m]
-    float still;    // the same without its own way [m]
+    float reach;    // search distance without radius and motion of the point [m]
+    float still;    // the same without the motion of the face [m]
     vec3 va, vb, vc; // [m/s]
 };
 
@@ -57,23 +57,25 @@ Searched searchedOf(uint f) {
     const vec3 low = min(a, min(b, c)), high = max(a, max(b, c)), size = high - low;
     const Triangle triangle = triangleOf(b - a, c - a);
     float still = abs(face.thickness) + push.margin;
-    if (isSliver(triangle)) still += 1e-3 * length(size); // as thick as its edges may be apart
+    if (isSliver(triangle)) still += 1e-3 * length(size); // its edges may be as far apart as that
     return Searched(f, face, a, triangle, low, high, still + way, still, va, vb, vc);
 }
 
 #include "excluded.glsl"
 
-// Links from a point to the corners of a face: none; diagonals alone, so that the two touch at LINKED_REACH; or such that they never touch.
+// Links between a point and the corners of a face: none; only diagonals, so that the contact distance is
+// LINKED_REACH; or links that exclude the contact.
 #define BOND_NONE 0u
 #define BOND_DIAGONAL 1u
 #define BOND_EXCLUDED 2u
 
 #ifdef LINKS
-layout(std430, binding = LINKS_BINDING) readonly buffer Links { uint links[]; }; // that are alive, of each node of a lattice
+layout(std430, binding = LINKS_BINDING) readonly buffer Links { uint links[]; }; // live links of each lattice node
 #include "link_masks.glsl"
 #include "link_ways.glsl"
 
-// A row of a body that may be cut ends with where its strides stand in the table, and whether diagonals let it feel itself.
+// Finds the links between a point and a face. The row of a body that may be cut ends with the position of its strides
+// in the table, where a further entry says whether diagonal links permit contacts.
 uint bondOf(Searched face, uint i) {
     if (isExcluded(face.index, i)) return BOND_EXCLUDED;
     const uint end = EXCLUDED(face.index + 1u), last = end > EXCLUDED(face.index) ? EXCLUDED(end - 1u) : 0u;
@@ -91,7 +93,7 @@ uint bondOf(Searched face, uint i) {
 uint bondOf(Searched face, uint i) { return isExcluded(face.index, i) ? BOND_EXCLUDED : BOND_NONE; }
 #endif
 
-// `reach` with radius and way of the point.
+// True if x is within `reach` of the face's box; `reach` includes radius and motion of the point.
 bool isInBox(Searched face, vec3 x, float reach) {
     const vec3 d = max(max(face.low - x, x - face.high), vec3(0.0));
     return dot(d, d) < reach * reach;
@@ -99,8 +101,9 @@ bool isInBox(Searched face, vec3 x, float reach) {
 
 float longestOf(vec3 a, vec3 b, vec3 c) { return sqrt(max(dot(a, a), max(dot(b, b), dot(c, c)))); }
 
-// Whether a fast point, seen from the middle of a face, stays away from the ball around it on all of its way in this substep: else a fine
-// body would be listed whole with it. What it makes in the next one is within the margin, or lists are made again.
+// True if a fast point, seen from the centre of a face, stays outside of the ball around the face during the whole
+// substep: without this test a body of small faces would be listed completely with it. Its motion in the next substep
+// is within the margin, or lists are rebuilt.
 bool isBesideWay(Searched face, uint i, vec3 x) {
     const vec3 v = (face.va + face.vb + face.vc) / 3.0;
     const vec3 way = step.h * (VELOCITY(i).xyz - v), d = 0.5 * (face.low + face.high) - x;
@@ -112,7 +115,8 @@ bool isBesideWay(Searched face, uint i, vec3 x) {
     return dot(apart, apart) > reach * reach;
 }
 
-// But for excluded pairs, of which whoever asks must look in a table. `less`: by how much nearer the two touch than others [m].
+// True if a pair must be listed; the caller tests for excluded pairs. `less`: amount by which the reach of this pair
+// is shorter [m].
 bool isNear(Searched face, uint i, vec3 x, float less) {
     const uint f = face.index;
     if (i == face.face.a || i == face.face.b || i == face.face.c) return false;
@@ -123,7 +127,7 @@ bool isNear(Searched face, uint i, vec3 x, float less) {
     return dot(d, d) < reach * reach;
 }
 
-// Lists a pair that isNear().
+// Lists a pair that passes isNear().
 void listUnlessExcluded(Searched face, uint i) {
     const uint bond = bondOf(face, i), f = face.index;
     if (bond == BOND_EXCLUDED) return;

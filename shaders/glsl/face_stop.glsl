@@ -1,27 +1,28 @@
-// How a point meets a face that never gives way, and where it must end instead. In the names and buffers of stop_at_faces.
+// Continuous collision of a point with a face that never yields: the position at which the point must end. Requires
+// the names and buffers of stop_at_faces.
 struct Stop {
-    float urgency; // above 1: it passes, 2 - when; else the part of the reach by which it ends too near; 0 = no stop
-    vec3 n;        // unit, to the side that the point comes from, at the end
-    float rise;    // along n, as far as the point came nearer in this substep [m]
-    float lift;    // along n, as far as it was too near before: gives no speed [m]
-    vec3 carried;  // where it ends if it goes with the face
+    float urgency; // above 1: it crosses the face, 2 - time; else the missing distance as a part of the reach; 0 = no stop
+    vec3 n;        // unit, towards the side that the point comes from, at the end
+    float rise;    // correction along n of the approach in this substep [m]
+    float lift;    // correction along n of an earlier overlap: adds no velocity [m]
+    vec3 carried;  // position of the point if it moves with the face
 };
 
 const Stop noStop = Stop(0.0, vec3(0.0), 0.0, 0.0, vec3(0.0));
 
-// At the end of a substep, from corner a, and the ways of the substep.
+// Positions at the end of a substep, relative to corner a, and displacements in the substep.
 struct Passage {
     vec3 ap, ab, ac, wp, wb, wc; // [m]
 };
 
-// Above the plane of the face, `back` before the end [m].
+// Height of the point above the plane of the face, `back` before the end [m].
 float heightAt(Passage p, float back) {
     const vec3 normal = cross(p.ab - back * p.wb, p.ac - back * p.wc);
     return dot(normal, p.ap - back * p.wp) / max(length(normal), 1e-37);
 }
 
-// When the point comes to `least` above the plane, as a part of the substep: cornered by halving and by chords in turn. The first chord is
-// exact for a face that does not turn.
+// The time at which the point is `least` above the plane, as a part of the substep: bracketed by bisection and chords
+// in turn. The first chord is exact for a face that does not rotate.
 float timeAbove(Passage p, float least, float before, float after) {
     float low = 0.0, high = 1.0, atLow = before - least, atHigh = after - least;
     for (uint turn = 0u; turn < 9u; ++turn) {
@@ -37,25 +38,27 @@ float timeAbove(Passage p, float least, float before, float after) {
     return low + (high - low) * atLow / (atLow - atHigh);
 }
 
-// The place of the point if it goes with the face from where it was: `height` above it.
+// The position of the point if it moves with the face from its start: `height` above it.
 vec3 carriedBy(Passage p, vec3 a, float height, vec3 n) {
     const vec3 b = weightsOf(p.ap - p.wp, triangleOf(p.ab - p.wb, p.ac - p.wc));
     return a + b.y * p.ab + b.z * p.ac + height * n;
 }
 
-// The stop of a way that leads through the face.
+// The stop of a point that crosses the face.
 Stop passing(Passage p, vec3 a, vec3 normal, float reach, float least, float before, float after) {
     const float t = timeAbove(p, least, before, after), back = 1.0 - t, height = abs(before);
     const vec3 b = weightsOf(p.ap - back * p.wp, triangleOf(p.ab - back * p.wb, p.ac - back * p.wc));
-    if (min(b.x, min(b.y, b.z)) < -1e-3) return noStop; // of two faces at an edge at least one sees it
+    if (min(b.x, min(b.y, b.z)) < -1e-3) return noStop; // at an edge of two faces at least one detects it
     const vec3 n = before < 0.0 ? -normal : normal;
     return Stop(2.0 - t, n, min(height, reach) - dot(n, p.ap), max(0.0, reach - height), carriedBy(p, a, height, n));
 }
 
-// The part of a reach in a substep that is left to the contacts that share: cloth in folds must not be pressed through itself.
+// The part of the reach that is left to ordinary contacts in a substep: folded cloth must not be pressed through
+// itself.
 const float soft = 0.25;
 
-// The stop of a way that ends too near: that came nearer by more than this part, or ends nearer than half of the reach.
+// The stop of a point that ends too near: one that approached by more than this part of the reach, or ends nearer
+// than half of it.
 Stop pressing(Passage p, vec3 a, Triangle triangle, float reach, vec3 seen) {
     const Nearest nearest = nearestOf(p.ap, triangle);
     const float distance = length(nearest.d);
@@ -68,8 +71,9 @@ Stop pressing(Passage p, vec3 a, Triangle triangle, float reach, vec3 seen) {
     return Stop((reach - distance) / reach, n, rise, reach - distance - rise, vec3(0.0));
 }
 
-// A point goes from x0 to x1. It touches the face where it is nearer than `reach`. Before it is in the plane it is stopped a little above,
-// so that rounding does not decide its side. `seen`: a place that is within reach of all faces which it may end too near to.
+// The stop of a point that moves from x0 to x1. It touches the face at distances below `reach`. It is stopped
+// slightly above the plane, so that rounding does not decide its side. `seen`: a position within reach of all faces
+// that the point may end too near to.
 Stop stopAt(ContactFace face, float reach, vec3 x0, vec3 x1, vec3 seen) {
     const float h = step.h;
     const vec3 a = predicted[face.a].xyz, wa = h * predictedVelocities[face.a].xyz;

@@ -1,12 +1,13 @@
-// How a point touches a face in a substep, and on which side. In the names and buffers of touch_faces.
+// Narrow phase of a point and a face in a substep: their contact, and the side of the point. Requires the names and
+// buffers of touch_faces.
 #include "face_meeting.glsl"
 
 struct Touch {
     vec3 n;
-    float depth;    // > 0 where they touch [m]
+    float depth;    // > 0 if they touch [m]
     vec3 b;
-    float remembered; // the side, 1 = where the normal points, and the overlap
-    bool isThrough; // the point is beyond the face's plane, and came through the face
+    float remembered; // the side, 1 = along the normal, and the overlap
+    bool isThrough; // the point is beyond the plane, and went through the face
     ContactFace face;
 };
 
@@ -18,14 +19,14 @@ Meeting keptMeetingOf(uint i, uvec2 candidate) {
     return m;
 }
 
-// By how much the two overlapped when the substep began, measured as at its end.
+// The overlap at the start of the substep, measured as at its end.
 float overlapBefore(Meeting m, float side, bool isThrough) {
     const Nearest before = nearestBefore(m);
     return m.reach - (isThrough || before.isInside ? side * m.heightBefore : length(before.d));
 }
 
-// The most that the point keeps of its overlap with a face of that body, in front of it, as the overlap of a pair with this reach [m]. Two with
-// a rest distance below 0 give more than the reach.
+// The largest overlap that the point keeps with a face of `body` that it is in front of, as the overlap of a pair
+// with this reach [m]. A pair with a rest distance below 0 gives more than the reach.
 float mostKept(uint i, uvec2 list, uint body, float reach) {
     float most = 0.0;
     for (uint element = list.x; element < list.x + list.y; ++element) {
@@ -38,15 +39,16 @@ float mostKept(uint i, uvec2 list, uint body, float reach) {
     return most;
 }
 
-// How a point has come in front of a face of something solid.
+// How a point arrives in front of a face of a closed body.
 struct Exit {
     bool isLetOut; // from behind
-    float kept;    // of such an overlap, the part that is a rest distance [m]
+    float kept;    // the part of that overlap which is a rest distance [m]
 };
 const Exit noExit = Exit(false, 0.0);
 
-// A pair that keeps its rest distance has that of the other faces of the body. All else of an overlap parts. The sign of what is remembered says
-// so: it is not that of the front, the only side of something solid.
+// A point that comes out in front takes over the rest distance of the body's other faces, if its pair keeps one. All
+// other overlap recovers. Such an overlap is marked by the sign of the memory: it differs from that of the front, the
+// only side of a closed body.
 Exit exitOf(uint i, uvec2 list, uint element, Meeting m, bool wasBehind) {
     const float remembered = memory[element].w;
     if (!m.isKept) return Exit(wasBehind && remembered * m.front <= 0.0, 0.0);
@@ -55,7 +57,7 @@ Exit exitOf(uint i, uvec2 list, uint element, Meeting m, bool wasBehind) {
     return Exit(remembered != 0.0 || wasBehind || kept > m.reach, min(kept, m.reach));
 }
 
-// On `side` of the face, at the place with the weights b.
+// The contact on `side` of the face, at the place with the weights b.
 Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit outcome) {
     Touch touch = Touch(vec3(0.0), 0.0, b, 0.0, isThrough, m.face);
     const float h = step.h, distance = length(m.nearest.d);
@@ -75,15 +77,17 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit 
     touch.depth = max(0.0, overlap - left);
     touch.remembered = m.isKept ? rememberedKept(restSide, touch.depth, left) : rememberedOf(side, touch.depth, left);
     if (contacts[element].x < push.sheets) return touch;
-    // what parts by itself does not push, nor do the faces beside it
+    // a recovering contact does not push, nor do the faces beside it
     const float shown = withCorners(left > 0.0 ? max(touch.depth, 2e-30) : touch.depth, b, m.triangle, m.reach);
     touch.depth = touch.depth > 0.0 ? shown : -shown;
     return touch;
 }
 
-// The surface of something solid holds what is in front of it, or comes from there. What is behind it may come out. Where an edge
-// is nearest and the point is behind one of its faces, it is in front of another, or has none to do with them. A pair without a rest distance
-// remembers that the point was behind, by the sign: contacts may bring the point in front after this pass, so that the next one finds it there.
+// The contact with a face of a closed body. It acts on points in front of the face, and on points that came from
+// there. A point behind it may come out. Where an edge is nearest and the point is behind one of its faces, the point
+// is in front of another one, or in contact with neither. A pair without a rest distance remembers by the sign that
+// the point was behind: contacts may move the point to the front after this pass, so that the next one finds it
+// there.
 Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
     const bool isFromBehind = !m.isKept && memory[element].w * m.front < 0.0;
     const bool hasTouched = memory[element].w != 0.0 && !isFromBehind, wasBehind = isFromBehind || m.front * m.heightBefore < 0.0;
@@ -100,7 +104,8 @@ Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
     return touch;
 }
 
-// `through`: the side that a neighbouring face is being passed from, as a unit vector; 0 = none.
+// The contact with the face of a candidate. `through`: the side from which the point passes through a neighbouring
+// face, as a unit vector; 0 = none.
 Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
     const uvec2 candidate = contacts[element];
     const Meeting m = keptMeetingOf(i, candidate);
@@ -114,13 +119,13 @@ Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
     bool isThrough = false;
     if (side * m.height < 0.0) {
         if (isForced || hasTouched && side * m.heightBefore < 0.0) {
-            isThrough = isWithinReach(m); // what is farther may be in no list: let go
+            isThrough = isWithinReach(m); // a pair that is farther apart may be in no list: released
         } else {
             vec3 passed;
             isThrough = wentThrough(m, passed);
             if (isThrough && !m.nearest.isInside) b = passed;
         }
-        if (!isThrough) side = -side; // it went around, or is far beyond
+        if (!isThrough) side = -side; // it moved around the face, or is far beyond
     }
     return touchAt(m, element, side, b, isThrough, noExit);
 }

@@ -1,10 +1,10 @@
 #version 460
-// Puts every island to sleep that has rested long enough.
+// Puts every island to sleep that has rested for SLEEP_TIME.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "remainder.glsl"
 
-layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of what is awake [1/kg]
+layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of awake particles [1/kg]
 layout(std430, binding = 1) buffer Positions { vec4 positions[]; };       // x + thetaH v
 layout(std430, binding = 2) buffer Velocities { vec4 velocities[]; };
 layout(std140, binding = 3) uniform Step { StepParams step; };
@@ -17,7 +17,7 @@ void main() {
     const uint i = itemIndex(push.count);
     const vec4 velocity = velocities[i];
     if (weights[i] == 0.0 || velocity.w == 0.0) return;
-    if (uintBitsToFloat(least[islands[i]]) < 0.9999 * SLEEP_TIME) return; // a sum of steps, rounded
+    if (uintBitsToFloat(least[islands[i]]) < 0.9999 * SLEEP_TIME) return; // a sum of rounded steps
     positions[i].xyz -= step.thetaH * velocity.xyz;
     if (hasRemainders) positions[remainderOf(positions.length(), i)].xyz = vec3(0.0); // or it would move once more
     velocities[i] = vec4(0.0);

@@ -1,5 +1,5 @@
 #version 460
-// Counting sort, last pass: particles slot by slot.
+// Counting sort, last pass: stores the particles slot by slot.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,7 +1,7 @@
 #version 460
-// Particles that are linked never touch each other, those on both sides of a cut do (contacts: 3): keeps of each particle's
-// excluded partners those that it is still linked with. Rows stay sorted and as long as they were: the last one is repeated.
-// Where links were cut, or given back, all lists of contacts are made again.
+// Excluded pairs after a cut. Linked particles never touch each other, particles on both sides of a cut do: keeps of
+// each particle's excluded partners those that it is still linked with. Rows stay sorted and as long as before: the
+// last entry is repeated. Where links were cut, or restored, all contact lists are rebuilt.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -27,7 +27,7 @@ void main() {
     if (i == NO_SLOT) return;
     if (links[i] != savedLinks[i] && bounds.moved == 0u) atomicMax(bounds.moved, 1u);
     const uint end = allExcluded[i + 1u];
-    uint next = allExcluded[i], last = i; // nobody is listed with itself
+    uint next = allExcluded[i], last = i; // no particle is listed with itself
     for (uint e = allExcluded[i]; e < end; ++e) {
         if (!staysExcluded(i, allExcluded[e])) continue;
         last = allExcluded[e];

@@ -1,6 +1,6 @@
 #version 460
-// Lists every pair of particles that is nearer than touching and a margin, in any order: sort_lists sorts. SWEPT: in a substep
-// in which particles may have met on their way; fast ones are then searched one by one, like large ones.
+// Lists every pair of particles nearer than reach + margin, in any order: sort_lists sorts. SWEPT: in a substep with
+// possible impacts between particles; fast ones are then searched one by one, like large ones.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -39,7 +39,7 @@ layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; }; // fi
 #define SWEPT_BINDING 8
 #endif
 #include "contacts.glsl"
-layout(std430, binding = SWEPT_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // with which they came here
+layout(std430, binding = SWEPT_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // that led to these positions
 layout(std430, binding = SWEPT_BINDING + 1) readonly buffer Fast { uint fast[]; };
 layout(std140, binding = SWEPT_BINDING + 2) uniform Step { StepParams step; };
 #endif
@@ -58,7 +58,8 @@ bool isExcluded(uint i, uint j) { return false; }
 #include "sweep.glsl"
 #include "near_cells.glsl"
 
-// A pair with a particle that is searched one by one: a small one lists it, of two such the first does.
+// A pair with a particle that is searched one by one: listed by the small particle, or, of two that are not small, by
+// the first.
 void searchOne(uint i, vec3 x, float radius, bool isSmall, uint j) {
     if ((isSmall || i < j) && isNear(i, j, radius, x - POSITION(j).xyz)) list(i, j);
 }

@@ -1,7 +1,7 @@
 #version 460
-// Every edge looks for others near it, in the cells around it and among those that stand apart, and lists each pair once, in any order:
-// sort_lists and link_rows sort. A pair is listed where the two are nearer than touching, a margin, and what both move in this substep,
-// and their balls likewise, at both.
+// Every edge searches for others near it, in the cells around it and among the edges outside of the grid, and lists
+// each pair once, in any order: sort_lists and link_rows sort. A pair is listed if its distance, and that of the
+// balls around both edges, is below the reach, plus a margin, plus the motion of both in this substep.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -60,7 +60,7 @@ layout(push_constant) uniform Push { FaceFindPush push; };
 #include "grid_rows.glsl"
 #include "cell_points.glsl"
 
-// Of up to 32 visits from `from` on, those in a ball around the edge that this one looks for: bit v for visit from + v.
+// The visits, of up to 32 from `from` on, in a ball around the edge that it must test: bit v for visit from + v.
 uint around(Searched one, float range, Rows rows, uint from, uint total) {
     const uint last = min(from + 32u, rows.all);
     uint visits = 0u;
@@ -72,7 +72,7 @@ uint around(Searched one, float range, Rows rows, uint from, uint total) {
     return visits;
 }
 
-// Of these, the near ones.
+// The near ones of these visits.
 uint nearOf(Searched one, uint visits, Rows rows, uint from, Frame frame, uint total) {
     uint near = 0u;
     for (; visits != 0u; visits &= visits - 1u) {
@@ -88,7 +88,7 @@ uint nearOf(Searched one, uint visits, Rows rows, uint from, Frame frame, uint t
     return near;
 }
 
-// What stands under a condition is what costs: a batch is measured first, and what is left of it is looked at then.
+// Branches are what costs: a batch is measured first, and only the remaining edges are processed then.
 void searchRows(Searched one, float range, Rows rows, Frame frame, uint total) {
     for (uint from = 0u; from < rows.all && !isFull(); from += 32u) {
         uint near = nearOf(one, around(one, range, rows, from, total), rows, from, frame, total);
@@ -102,13 +102,13 @@ void searchRows(Searched one, float range, Rows rows, Frame frame, uint total) {
 void searchGrid(Searched one, uint total) {
     const Frame frame = frameOf(bounds, push.cells, push.edge);
     const vec3 top = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)), size = abs(one.middle);
-    // a little more: rounding
+    // slightly larger because of rounding
     const float range = 1.01 * (one.edge.radius + one.way + uintBitsToFloat(points.widest) + push.margin) +
                         1e-6 * max(size.x, max(size.y, size.z));
     const vec3 low = max(one.middle - range, frame.low), high = min(one.middle + range, top);
     if (any(lessThan(high, low))) return;
     const ivec3 first = cellOf(low, frame), last = cellOf(high, frame);
-    if (pointsIn(first, last, frame) > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // said, not lost
+    if (pointsIn(first, last, frame) > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // reported as overflow
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; y += 3)
             for (int x = first.x; x <= last.x; x += 3)
@@ -125,7 +125,7 @@ void main() {
     if (points.apart > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);
     for (uint k = 0u; k < min(points.apart, FACE_MOST_POINTS) && !isFull(); ++k) {
         const uint f = apart[k];
-        // of two apart the first lists the pair
+        // of two edges outside of the grid the first lists the pair
         if ((standsApart && f < e) || !isNear(one, f, edgeAt(f), wayOf(f), middles[f].xyz) || isExcluded(e, f)) continue;
         list(one, f);
     }

@@ -1,6 +1,7 @@
 #version 460
-// Every small face looks for points near it, in the cells around it and among those that stand apart, and lists the pairs in any
-// order: sort_lists and link_rows sort. A face with too much around it is left to find_wide_faces.
+// Every small face searches for points near it, in the cells around it and among the points outside of the grid, and
+// lists the pairs in any order: sort_lists and link_rows sort. A face with too many points around it is left to
+// find_wide_faces.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define WEIGHT_BINDING 15
@@ -31,7 +32,7 @@ bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
     return isInBox(face, x, reach) && (size <= push.most) != isApart && isNear(face, i, x, 0.0);
 }
 
-// Of up to 32 visits from `from` on, the points near the box of the face: bit v for visit from + v.
+// The points near the box of the face in up to 32 visits from `from` on: bit v for visit from + v.
 uint around(Searched face, float range, Rows rows, uint from, uint total) {
     const uint last = min(from + 32u, rows.all);
     uint visits = 0u;
@@ -42,7 +43,7 @@ uint around(Searched face, float range, Rows rows, uint from, uint total) {
     return visits;
 }
 
-// Of these, those near the face.
+// The points near the face, among these visits.
 uint nearOf(Searched face, uint visits, Rows rows, uint from, Frame frame, uint total) {
     uint near = 0u;
     for (; visits != 0u; visits &= visits - 1u) {
@@ -55,7 +56,7 @@ uint nearOf(Searched face, uint visits, Rows rows, uint from, Frame frame, uint 
     return near;
 }
 
-// What stands under a condition is what costs: a batch is measured first, and what is left of it is looked at then.
+// Branches are what costs: a batch is measured first, and only the remaining points are processed then.
 void searchRows(Searched face, float range, Rows rows, Frame frame, uint total) {
     for (uint from = 0u; from < rows.all && !isFull(); from += 32u) {
         uint near = nearOf(face, around(face, range, rows, from, total), rows, from, frame, total);

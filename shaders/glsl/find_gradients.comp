@@ -1,5 +1,5 @@
 #version 460
-// How what is around the particles near a cut has turned and strained, for whoever draws what hangs on them.
+// Deformation gradients at the particles near a cut, for drawing the vertices that are bound to them.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 #include "link_masks.glsl"

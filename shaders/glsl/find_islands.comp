@@ -1,11 +1,12 @@
 #version 460
-// Names the island of every particle that is awake, and finds how long it rests: as long as what rests least of it.
+// Finds the island of every awake particle, and the resting time of the island: that of its particle that has rested
+// least.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of what is awake [1/kg]
+layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of awake particles [1/kg]
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 2) readonly buffer Rests { vec4 rests[]; };      // w: how long [s]
+layout(std430, binding = 2) readonly buffer Rests { vec4 rests[]; };      // w: resting time [s]
 layout(std430, binding = 3) coherent buffer Islands { uint islands[]; };  // in: parents (join_islands)
 layout(std430, binding = 4) buffer Least { uint least[]; };               // bits of a float [s]
 layout(push_constant) uniform Push { SleepPush push; };
@@ -18,6 +19,6 @@ void main() {
         root = parent;
         parent = islands[root];
     }
-    islands[i] = root; // a shorter way to the same root for whoever comes by
+    islands[i] = root; // shortens the path to the root for later invocations
     atomicMin(least[root], floatBitsToUint(rests[i].w));
 }

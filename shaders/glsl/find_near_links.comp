@@ -1,7 +1,7 @@
 #version 460
-// First pass of a cut: lists the nodes that own a link whose box meets that of the blade, with those links. Few do, so what is
-// costly is done for these alone. A list has no order, and needs none: links die one by one. CRUMBS: not those of removed pieces,
-// which nobody sees.
+// First pass of a cut: lists the nodes that own a link whose box meets that of the blade, with those links. They are
+// few, and later passes process only these. The order of the list does not matter: links are cut one by one. CRUMBS:
+// leaves out links of removed fragments, which are invisible.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -17,8 +17,8 @@ layout(std430, binding = 0) readonly buffer Places { vec4 places[]; };
 layout(std430, binding = 1) readonly buffer Links { uint links[]; };
 layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
 layout(std430, binding = 3) readonly buffer Work { CutWork work; };
-layout(std430, binding = 4) buffer Counts { uint counts[]; };      // of nodes, by run
-layout(std430, binding = 5) writeonly buffer Nears { uvec2 nears[]; }; // slot, links; of a run from its first slot on
+layout(std430, binding = 4) buffer Counts { uint counts[]; };      // number of nodes, by run
+layout(std430, binding = 5) writeonly buffer Nears { uvec2 nears[]; }; // slot, links; each run begins at its first slot
 #ifdef CRUMBS
 layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
@@ -35,7 +35,7 @@ void main() {
     const vec3 low = blade.low.xyz - margin, high = blade.high.xyz + margin;
     uint near = 0u;
     [[unroll]] for (int bit = FIRST_OWNED; bit < FIRST_OWNED + OWNED_LINKS; ++bit) {
-        const bool isLink = (owned >> bit & 1u) != 0u; // else there may be no such node
+        const bool isLink = (owned >> bit & 1u) != 0u; // else the node may not exist
         const vec3 b = PLACE(uint(int(i) + (isLink ? offsetOf(directionOf(bit)) : 0)));
         near |= uint(all(lessThanEqual(min(a, b), high)) && all(greaterThanEqual(max(a, b), low))) << bit;
     }

@@ -1,6 +1,6 @@
 #version 460
-// Tearing, second pass: lists cells that are stretched beyond the limit and more than all around them, in any order: no two of them
-// share a link. CRUMBS: none of removed pieces, which nobody sees.
+// Tearing, second pass: lists cells that are stretched beyond the limit and more than all cells around them, in any
+// order: no two of them share a link. CRUMBS: leaves out cells of removed fragments, which are invisible.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -10,7 +10,7 @@ layout(std430, binding = 2) buffer Tears { TearCount tears; };
 #ifdef CRUMBS
 layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // of each slot
 layout(std430, binding = 4) readonly buffer Pieces { uint pieces[]; };
-bool isThere(uint cell) { return pieces[particles[cell]] != REMOVED_PIECE; } // its corners hang together
+bool isThere(uint cell) { return pieces[particles[cell]] != REMOVED_PIECE; } // its corners are connected
 #else
 bool isThere(uint cell) { return true; }
 #endif

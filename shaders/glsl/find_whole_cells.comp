@@ -1,6 +1,6 @@
 #version 460
-// Which cells still have all of their twelve edges: only those have a volume. Writes the fill of the cells around a node without
-// the others.
+// Finds the cells that still have all of their twelve edges: only those have a volume. Writes the fill of the cells
+// around a node, with 0 for all others.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 #include "link_masks.glsl"

@@ -1,12 +1,12 @@
 #version 460
-// Ends a substep of `split` after contacts with faces and between edges, where no particles touch each other: boundary planes,
-// one after another, and what is stored.
+// Ends a substep of `split` after contacts with faces and between edges, where particles do not touch each other:
+// projects onto boundary planes, one after another, and stores the state.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "remainder.glsl"
 
 layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
-layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; }; // with which they came here; w = inverse mass
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; }; // that led to these positions; w = inverse mass
 layout(std140, binding = 2) uniform Step { StepParams step; };
 layout(std430, binding = 3) writeonly buffer NextPositions { vec4 nextPositions[]; };
 layout(std430, binding = 4) writeonly buffer NextVelocities { vec4 nextVelocities[]; };

@@ -1,13 +1,14 @@
-// The end of a substep of `split` where particles touch: planes, and what is stored. In the names predicted, nextPositions,
-// nextVelocities and BEFORE of a kernel, and PLANE_BINDING; forces.glsl before it.
+// The end of a substep of `split` with contacts: boundary planes, and the stored state. Requires the names predicted,
+// nextPositions, nextVelocities and BEFORE of a kernel, PLANE_BINDING, and forces.glsl before it.
 #ifdef HAS_PLANES
 #include "planes.glsl"
 layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider planes[]; };
 layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
 #endif
 
-// Ends it for particle i, which contacts have moved from `found` by `correction`, to the velocity v; `velocity` is the one before, w its
-// inverse mass; `last` the last word of its position, passed on.
+// Ends the substep of particle i, which contacts have moved from `found` by `correction` and given the velocity v;
+// `velocity` is the one before contacts, w its inverse mass; `last` is the fourth component of its position, stored
+// unchanged.
 void finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3 v) {
     const float w = velocity.w, h = step.h;
     vec3 x = found + correction, way = correction;

@@ -1,8 +1,9 @@
 #version 460
-// Frames of bodies, third pass: the affine motion that takes each body's particles from where they were when lists were made
-// to where they are, and goes on at the rate at which they move now, fitted by least squares. Bodies whose boxes, swept over
-// the step, come near each other share a frame: only then do differences between their particles follow from it. Any frame is
-// right, for lists are checked against it in every substep (watch_motion); one that fits keeps them longer.
+// Frames of bodies, third pass: fits by least squares the affine motion that takes each body's particles from their
+// positions when lists were made to their present ones, and continues at their present rate. Bodies whose boxes,
+// swept over the step, come near each other share a frame: only then do differences between their particles follow
+// from it. Any frame is correct, for lists are checked against it in every substep (watch_motion); one that fits
+// keeps the lists valid for longer.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "math.glsl"
@@ -45,7 +46,7 @@ Fit clusterFit(uint b) {
 
 float mostDrift() { return 4.0 * push.margin; }
 
-// The box of what a body's particles may reach in the step.
+// Computes the box that a body's particles may reach in the step.
 void sweep(uint b, Fit fit) {
     const uint first = b * FRAME_SUMS;
     const vec3 from = sums[first + FRAME_SUM_LOW].xyz, to = sums[first + FRAME_SUM_HIGH].xyz, middle = 0.5 * (from + to);
@@ -54,7 +55,7 @@ void sweep(uint b, Fit fit) {
     const vec3 way = dt * (fit.u + fit.w * (middle - fit.to));
     const float more = (grown - 1.0 - turn) * arm + turn * grown * radius + dt * dt * length(step.gravity.xyz) +
                        grown * (2.0 * push.margin + mostDrift()) + 0.51 * push.reach;
-    const vec3 back = way / float(push.substeps); // particles are seen when the first substep ends
+    const vec3 back = way / float(push.substeps); // positions are those at the end of the first substep
     low[b] = vec4(min(from, min(from - back, from + way)) - more, 0.0);
     high[b] = vec4(max(to, max(to - back, to + way)) + more, 0.0);
 }
@@ -69,7 +70,8 @@ bool isOneCluster() {
     return true;
 }
 
-// The lowest body of all that meet each other, directly or by others. In uniform control flow.
+// Labels each body with the lowest body of its cluster: bodies that meet directly or through others. In uniform
+// control flow.
 void findClusters(uint b) {
     const bool exists = b < push.bodies;
     if (exists) cluster[b] = b;
@@ -104,7 +106,7 @@ void main() {
     }
     if (b == 0u) changed = 0u;
     barrier();
-    // With the frames that they share, boxes may be wider. All share one that stands still if some then meet.
+    // With shared frames boxes may be wider. If clusters then meet, all bodies share one frame that stands still.
     for (uint other = 0u; exists && other < push.bodies; ++other)
         if (cluster[other] != cluster[b] && meet(b, other)) changed = 1u;
     barrier();
@@ -113,13 +115,14 @@ void main() {
     if (changed != 0u) fit = standing(originOf(b));
     const float h = step.h;
     BodyFrame frame;
-    // A body that hangs or lies does not fall: one that is slower than a step of falling makes it is expected to stay.
+    // A body that hangs or lies does not fall: a body slower than the speed gained by falling for one step is
+    // expected to stay.
     const vec3 fall = float(push.substeps) * h * step.gravity.xyz;
     const bool falls = !fit.stands && dot(fit.u, fit.u) > dot(fall, fall);
     frame.gravity = vec4(falls ? step.gravity.xyz : vec3(0.0), 0.0);
     frame.from = vec4(fit.from, 0.0);
     frame.speed = vec4(fit.u - h * frame.gravity.xyz, 0.0);
-    setMap(frame, fit.a - h * fit.w * fit.a, fit.to - h * fit.u); // when the substep began
+    setMap(frame, fit.a - h * fit.w * fit.a, fit.to - h * fit.u); // at the start of the substep
     setRates(frame, fit.w);
     advance(frame, h, push.reach, push.margin);
     if ((step.lists & LISTS_REPEATS) != 0u) frame.speed.w *= LISTS_EARLY; // in the first substep

@@ -1,5 +1,5 @@
 #version 460
-// After remove_crumbs, which reads them: pieces that were removed have no size.
+// Sets the size of removed pieces to 0. Runs after remove_crumbs, which reads the sizes.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

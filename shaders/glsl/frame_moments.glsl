@@ -1,6 +1,6 @@
-// How a frame is fitted to sums over particles. In the names sums, bodies, positions and detected of a kernel.
+// Fits a frame to sums over particles. Requires the names sums, bodies, positions and detected of a kernel.
 
-// Sums like FRAME_SUMS, against one origin.
+// Sums as in FRAME_SUMS, relative to one origin.
 struct Moments {
     float count;
     vec3 r, x, v;
@@ -41,7 +41,8 @@ void add(inout Moments m, uint b, Origin origin) {
     m.vr += columnsAt(first + FRAME_SUM_VR) + outerProduct(v, toR);
 }
 
-// The inverse of a symmetric matrix that may be flat: a little is added to the diagonal, where nothing is known.
+// The inverse of a symmetric matrix that may be singular: a small multiple of the identity is added, which matters
+// only in directions without data.
 mat3 inverseOf(mat3 moments) {
     const float trace = max(moments[0][0] + moments[1][1] + moments[2][2], 1e-20);
     return inverse(moments / trace + 1e-5 * mat3(1.0)) / trace;

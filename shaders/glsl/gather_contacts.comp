@@ -1,14 +1,15 @@
 #version 460
-// Contacts, second pass, which ends a substep of `split`: a particle is moved out of all others that it touches, at once
-// and as a part of itself 1 / (number of its contacts) each (mass-split Jacobi, contacts: 7, variant B). For a pair,
+// Contacts between particles, second pass, which ends a substep of `split`: moves a particle out of all others that
+// it touches at once, with a share 1 / (number of its contacts) of its mass for each (mass-split Jacobi). For a pair,
 //
 //   l = (reach - |d|) / (c_i w_i + c_j w_j),   x_i += w_i l n   and the opposite for j: momentum is exact to rounding.
 //
-// Friction pulls back the way t that the two have slid on each other since they touched, by at most friction x l; beyond, t
-// is dragged along. Without that memory a pile creeps for ever. Boundary planes come last and one after another.
-// v changes by the corrections / h, not by a difference of positions, which is coarser. HAS_MEMORY: something is remembered
-// of each candidate, the way t, and what is left of an overlap that it had when the scene was loaded. HAS_SURFACES: pairs
-// differ in friction. Those that met on the way of a substep with fast particles part along the line on which they met.
+// Friction takes back the slip t of the pair since it first touched, by at most friction x l; beyond that bound, t is
+// reduced to the bound. Without this memory a pile creeps for ever. Boundary planes come last and one after another.
+// v changes by the corrections / h, not by a difference of positions, whose rounding is coarser. HAS_MEMORY: each
+// candidate stores its slip t and the remaining overlap of those it had when the scene was loaded. HAS_SURFACES:
+// friction differs between pairs. Particles that met during a substep with fast particles separate along the line on
+// which they met.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"
@@ -30,12 +31,12 @@ layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; /
 #define VELOCITY(i) velocities[i]
 #endif
 layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
-layout(std430, binding = 4) readonly buffer Predicted { vec4 predicted[]; };         // after the links (remainder.glsl); w: passed on
+layout(std430, binding = 4) readonly buffer Predicted { vec4 predicted[]; };         // after the links (remainder.glsl); w: not changed
 layout(std430, binding = 5) writeonly buffer NextPositions { vec4 nextPositions[]; }; // x + thetaH v
 layout(std430, binding = 6) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 layout(std140, binding = 7) uniform Step { StepParams step; };
 layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // when each first met another, where isSwept
+layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // time of each particle's first impact, where isSwept
 #include "contact_memory.glsl"
 layout(push_constant) uniform Push { ContactPush push; };
 

@@ -1,21 +1,21 @@
 #version 460
-// `split` for bodies on a regular grid: neighbours are computed, not listed. An invocation marches a block of COLUMNS_X x
-// COLUMNS_Y columns of nodes along z and keeps two slices of it and its rim in registers, so that a node is loaded
-// once for every column that needs it. Every link is computed from both of its ends and a node's
+// `split` for bodies on a regular grid: neighbours are computed, not listed. An invocation marches a block of
+// COLUMNS_X x COLUMNS_Y columns of nodes along z and keeps two slices of the block and its rim in registers, so that
+// a node is loaded once for every column that needs it. Every link is computed from both of its ends and a node's
 // links are summed in the order z, y, x: bits do not depend on the shape of the block.
 //
-// A node's word holds the fill of the eight cells around it, four bits each in 1/15; cell k lies on the side
-// (k & 1, k >> 1 & 1, k >> 2). A link's stiffness is the sum over the cells that hold it, times a unit per kind of
-// link: this is the assembly per cell, and a link that no cell holds is absent. SHEET: one layer of nodes in y; a link is
-// whole where any cell holds it. VOLUME: every cell also resists a change of its signed volume. HAS_MASKS: a second word says
-// which of a node's links no blade has cut yet, with VOLUME a third which cells are whole.
+// A node's word holds the fill of the eight cells around it, four bits each in 1/15; cell k lies on the side (k & 1,
+// k >> 1 & 1, k >> 2). A link's stiffness is the sum over the cells that hold it, times a unit per kind of link: this
+// is the assembly per cell, and a link that no cell holds is absent. SHEET: one layer of nodes in y; a link is whole
+// where any cell holds it. VOLUME: every cell also resists a change of its signed volume. HAS_MASKS: a second word
+// has a bit for each live link of a node, and with VOLUME a third word marks whole cells.
 //
 // ONE_NODE: an invocation computes one node. A GPU needs many short invocations; a CPU would load each node 27 times.
 #extension GL_GOOGLE_include_directive : require
 #ifndef ONE_NODE
 #define GROUP_SIZE LATTICE_GROUP
 #elif defined RESIDENT
-#define GROUP_SIZE 512 // of a whole body, each invocation one node at a time; C++ reads it here
+#define GROUP_SIZE 512 // one group for a whole body, each invocation one node at a time; C++ reads this line
 #endif
 #include "split.glsl"
 #include "lattice_window.glsl"
@@ -46,14 +46,15 @@ void moveItem(uint item, Substep substep) {
 #endif
 
 #ifdef RESIDENT
-// All substeps of one body a work group. Bodies have equally many chunks; those of small ones are padded with empty ones.
+// All substeps of one body in one work group. All bodies have the same number of chunks; those of small bodies are
+// padded with empty ones.
 void main() {
     const uint lane = isReversed ? GROUP_SIZE - 1u - gl_LocalInvocationID.x : gl_LocalInvocationID.x;
     const uint body = itemIndex(push.count) / GROUP_SIZE, items = push.bodyChunks * CHUNK_ITEMS;
     firstSlot = bodies[body];
     lastSlot = firstSlot + push.bodySlots - 1u;
     for (uint i = lane; i < push.bodySlots; i += GROUP_SIZE)
-        resident[i] = resident[residentSlots + i] = positions[firstSlot + i]; // what nobody moves stays in both
+        resident[i] = resident[residentSlots + i] = positions[firstSlot + i]; // slots without a chunk keep their value in both buffers
     barrier();
     for (uint s = 0u; s < push.substeps; ++s) {
         const Substep substep = substepOf(s == 0u);

@@ -1,8 +1,9 @@
 #version 460
-// Contacts with faces and between edges, last pass: a particle is moved by all of its rows at once, x_i += w_i sum beta_ic l_c n_c.
-// Momentum is exact to rounding, for impulses are the same bits wherever they are read.
-// Predicted positions and velocities are changed where they stand, of groups in which somebody has a candidate. FORCES: what a point gets
-// of faces that never move is also theirs; these know no points. REBOUND: what velocities get of impulses [kg m/s] after all contacts of a substep.
+// Contacts with faces and between edges, last pass: moves a particle by all of its rows at once, x_i += w_i sum
+// beta_ic l_c n_c. Momentum is exact to rounding, for an impulse has the same bits wherever it is read. Changes
+// predicted positions and velocities in place, in groups with at least one candidate. FORCES: adds impulses on static
+// faces from their points, since these faces have no lists of points. REBOUND: changes velocities by impulses [kg
+// m/s] after all contacts of a substep.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "remainder.glsl"
@@ -38,7 +39,7 @@ vec3 impulseOn(uint i) {
 }
 
 #ifdef FORCES
-// Adds what faces that never move give to particle i at x: `scale` times the impulses.
+// Adds the impulses on static faces from particle i at x: `scale` times the impulses of its contacts.
 void addStopForces(uint i, float scale, vec3 x) {
 #ifdef STOPS
     const uvec2 list = lists[i];

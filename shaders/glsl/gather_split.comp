@@ -1,13 +1,13 @@
 #version 460
-// `split` for any graph: a particle's links are listed in slots, as many for each particle of the scene, or in ranges
-// (split_links.glsl has the forms).
+// `split` for any graph: a particle's links are listed in slots, equally many for every particle of the scene, or in
+// ranges (see the forms in split_links.glsl).
 #extension GL_GOOGLE_include_directive : require
 #include "split.glsl"
 #include "split_links.glsl"
 #include "gather_terms.glsl"
 
 #ifndef NO_LINKS
-// Padding is a link to oneself and contributes exactly 0.
+// Padding is a link to the particle itself and contributes exactly 0.
 vec3 impulseOf(uint index, uint s, vec4 y, vec3 v, float hh) {
 #ifdef LINKS_PACKED
     const uint word = LINK(index);

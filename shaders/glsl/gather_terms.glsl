@@ -1,9 +1,9 @@
-// What the gather of `split` adds for scenes that bend or damp (methods: D). Included by gather_split.comp; a scene
-// without them never runs these.
+// Part of gather_split.comp: terms for scenes with bends or damping. Compiled out for all other scenes.
 #ifdef HAS_DAMPING
-// A damper along a link, [kg m]: the kick divides by h^2 as for springs, so its coefficient c = dampingTime x stiffness
-// comes as c h. Equal and opposite at both ends to the bit: d and the relative velocity change sign, d d^T does not. The
-// clamp keeps h c D below step.dampingShare x omega, with which every mode is stable (substeps.hpp: dampingBudget).
+// A damper along a link, [kg m]: the kick divides by h^2 as for springs, so its coefficient c = dampingTime x
+// stiffness is passed as c h. Equal and opposite at both ends to the bit: d and the relative velocity change sign, d
+// d^T does not. The clamp keeps h c D below step.dampingShare x omega, with which every mode is stable (substeps.hpp:
+// dampingBudget).
 vec3 dampingImpulse(vec3 d, vec3 relative, float stiffness, float most, float h) {
     const float coefficient = min(push.dampingTime * stiffness * h, step.dampingShare * most);
     return h * coefficient * dot(relative, d) / (dot(d, d) + 1e-30) * d;

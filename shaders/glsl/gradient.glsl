@@ -1,14 +1,14 @@
-// How what is around a particle has turned and strained since the scene was loaded:
-// F = (sum d D^T) (sum D D^T)^-1 over its live links, D at rest. Where those lie in a plane the normal is that of the image;
-// where they lie in a line, or there is none, nothing is known and F = 1. Whoever includes this says what are
+// The deformation gradient around a particle since the scene was loaded: F = (sum d D^T) (sum D D^T)^-1 over its live
+// links, D at rest. If the links lie in a plane, the normal of that plane maps to the normal of its image; if they
+// lie in a line, or there are none, F = 1. The including kernel defines
 //
-//   ALIVE(i)   the links of a slot
-//   AT(i)      where its particle is
-//   REST(i)    where that was at rest
+//   ALIVE(i)   the live links of a slot
+//   AT(i)      the position of its particle
+//   REST(i)    the rest position of its particle
 
 mat3 cofactor(mat3 m) { return mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])); }
 
-// The column that says most about the direction in which a matrix of rank 2 is 0.
+// The largest column: for a cofactor matrix of rank 1, the best estimate of the null direction.
 vec3 largestColumn(mat3 m) {
     vec3 best = m[0];
     for (int c = 1; c < 3; ++c)

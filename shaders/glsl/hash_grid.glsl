@@ -1,14 +1,14 @@
-// The hash grid: cells of a uniform grid in a table of a power of two, found from the particles themselves (methods: J).
-// A cell's slot is linear in its coordinates, x + strideY y + strideZ z, so that three neighbours in x lie side by side and
-// the 27 cells around a particle are nine ranges. Where the box around all particles and a rim have at most as many cells
-// as the table, strides make it dense: no two cells share a slot. Else strides spread rows over the table (the additive
-// recurrence of the plastic number), and whoever reads a range compares the row of what it finds, so that two rows that
-// share slots never give a particle twice. Built on integer atomics alone. Inside a cell particles stand in any order: who
-// depends on an order sorts what it finds.
+// The hash grid: cells of a uniform grid in a table whose size is a power of two, fitted to the particles. A cell's
+// slot is linear in its coordinates, x + strideY y + strideZ z, so that three neighbours in x are adjacent and the 27
+// cells around a particle are nine ranges. If the box around all particles and a rim have at most as many cells as
+// the table, strides make it dense: no two cells share a slot. Else strides spread rows over the table (the additive
+// recurrence of the plastic number), and a reader of a range compares the row of each particle that it finds, so that
+// two rows that share slots never give a particle twice. Built with integer atomics alone. The order of particles in
+// a cell varies: a reader that depends on an order sorts.
 
 #include "math.glsl"
 
-// Integers in the order of the floats they stand for.
+// Maps a float to an integer with the same order.
 uint keyOf(float value) {
     const uint bits = floatBitsToUint(value);
     return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
@@ -23,8 +23,8 @@ struct Frame {
     uint strideY, strideZ, mask;
 };
 
-// Cells a little larger than `edge`: rounding of (x - low) perLength must not put two particles that are `edge` apart
-// two cells apart, however large the box is.
+// Cells are slightly larger than `edge`: rounding of (x - low) perLength must not put two particles that are `edge`
+// apart two cells apart, however large the box is.
 Frame frameOf(GridBounds bounds, uint cells, float edge) {
     Frame frame;
     frame.low = vec3(valueOf(bounds.lowX), valueOf(bounds.lowY), valueOf(bounds.lowZ));
@@ -33,7 +33,7 @@ Frame frameOf(GridBounds bounds, uint cells, float edge) {
     const float perLength = 1.0 / (1.015625 * edge + longest / 1048576.0);
     frame.perLength = perLength;
     frame.mask = cells - 1u;
-    const vec3 size = floor(extent * perLength) + 3.0; // with an empty cell at every end: nobody finds others there
+    const vec3 size = floor(extent * perLength) + 3.0; // with an empty cell at every end, so that searches beyond the box find nothing
     const float all = size.x * size.y * size.z;
     const bool isDense = all <= float(cells);
     const float spreadY = 0.75487767 * float(cells), spreadZ = 0.56984029 * float(cells);
@@ -54,13 +54,14 @@ uint slotOf(ivec3 cell, Frame frame) {
 // A radius below 0 marks a slot of the state that holds no particle.
 bool isInGrid(float radius, float most) { return radius >= 0.0 && radius <= most; }
 
-// How far something with velocity v goes in a substep of length h.
+// Distance covered at velocity v in a substep of length h.
 float wayOf(float h, vec3 v) {
     return length3(h * v);
 }
 
-// Whether a particle of the grid moves so far in a substep that the cells around its end do not hold all that it may have
-// met: it is then searched one by one, like a large one. Way x substep length; `quiet` as in GridPush.
+// True if a particle of the grid moves so far in a substep that the cells around its end position may lack particles
+// that it met: it is then searched one by one, like a large one. `way` is velocity x substep length; `quiet` as in
+// GridPush.
 bool isHurrying(float radius, float way, float quiet, float most) {
     const float size = radius + way;
     return isInGrid(radius, most) && way > quiet && size > most;

@@ -1,20 +1,21 @@
-// Points that lie behind the surface of something solid when the scene is loaded and keep that: they go no deeper. Their rest distance is
-// below 0. It is that of the point and the body, not of one face: the nearest face of the body holds the point. One that has come out in front of
-// the surface is a point like any other. A point that is pressed through the surface is held at the rest distance that it had in front. At most
-// four bodies hold a point. In the names and buffers of touch_faces.
+// Points that are behind the surface of a closed body when the scene is loaded and keep that overlap: they go no
+// deeper. Their rest distance is below 0. It belongs to the point and the body, not to one face: the nearest face of
+// the body holds the point. A point that has come out in front of the surface becomes an ordinary one. A point that
+// is pressed through the surface is held at the rest distance that it had in front. At most four bodies hold a point.
+// Requires the names and buffers of touch_faces.
 struct Held {
     uint body;
-    uint element; // of the face that holds; ~0 = none
+    uint element; // of the face that holds the point; ~0 = none
     float rest;   // [m]
-    vec3 d;       // to the point from the nearest place [m]
-    float off;    // faces of the body are as near whose d differs by less [m]
+    vec3 d;       // from the nearest place to the point [m]
+    float off;    // faces of the body whose d differs by less count as equally near [m]
 };
 const float far = 3e38;
 const uint mostHolders = 4u;
 Held holders[mostHolders];
 uint holderCount = 0u;
 
-// Up to where faces hold a point: lists reach as far.
+// True for faces that may hold a point: within twice the reach, which the lists cover.
 bool isHoldable(Meeting m) { return m.isKept && !isSliver(m.triangle) && length(m.nearest.d) < 2.0 * m.reach; }
 
 bool isOf(uint element, uint body) {
@@ -22,13 +23,13 @@ bool isOf(uint element, uint body) {
     return isSolid(face) && bodyOf(faces[face].a) == body;
 }
 
-// The nearest face of a body, and what the point remembers of all of them.
+// The nearest face of a body, and the memory of the point's contacts with all of them.
 struct Nearby {
     uint element;
     float reach, distance;
-    vec3 d, before;        // from the nearest place, at the end of the substep and at its beginning [m]
-    float rest;            // the least
-    bool remembers;        // some face
+    vec3 d, before;        // from the nearest place, at the end and at the start of the substep [m]
+    float rest;            // smallest rest distance
+    bool remembers;        // any contact has memory
 };
 
 Nearby nearbyOf(uint i, uvec2 list, uint body) {
@@ -52,9 +53,9 @@ Nearby nearbyOf(uint i, uvec2 list, uint body) {
 
 float offOf(Nearby nearby) { return 1e-3 * nearby.distance + REST_SLACK * nearby.reach; }
 
-// The normal of the surface at the nearest place, where several faces may meet: the sum over them by their angles says on which side a point is
-// (Baerentzen and Aanaes 2005). `rest`: the least distance that the point remembers of the nearest face and its neighbours, which are not across a
-// thin wall [m].
+// The normal of the surface at the nearest place, where several faces may meet: their normals weighted by their
+// angles give the side of a point (Baerentzen and Aanaes 2005). `rest`: the smallest rest distance of the point to
+// the nearest face and its neighbours, which excludes faces across a thin wall [m].
 vec3 normalAt(uint i, uvec2 list, Nearby nearby, uint body, out float rest) {
     vec3 sum = vec3(0.0);
     rest = far;
@@ -90,7 +91,8 @@ bool isKnown(uint body) {
     return false;
 }
 
-// Looks at each body behind a face of which the point is. One that does not hold is asked again at its next such face.
+// Finds the bodies that hold the point: tests each body with a face that the point is behind. A body that does not
+// hold it is tested again at its next such face.
 void findHolders(uint i, uvec2 list) {
     for (uint element = list.x; element < list.x + list.y && holderCount < mostHolders; ++element) {
         if (!isSolid(contacts[element].x)) continue;
@@ -109,20 +111,22 @@ Touch touchOfHolder(Meeting m, Held held, Touch touch) {
     touch.b = m.nearest.weights;
     const float depth = max(0.0, distance + held.rest);
     touch.remembered = rememberedKept(m.front, depth, left);
-    // as with all corners nearest: it hides what is beside it
+    // all three corner bits: a contact in the face hides those beside it
     const float shown = uintBitsToFloat(floatBitsToUint(max(depth, 2e-30)) | 7u);
     touch.depth = depth > 0.0 ? shown : -shown;
     touch.isThrough = false;
     return touch;
 }
 
-// The memory of a face of the same body that does not push: the same rest distance where it is as near, and its own where the point is in front.
+// The memory of another face of the same body, which does not push: the same rest distance if it is equally near, and
+// its own if the point is in front.
 float rememberedBeside(Meeting m, Held held, float remembered) {
     if (isHoldable(m) && distance(m.nearest.d, held.d) <= held.off) return rememberedKept(m.front, 0.0, m.reach - held.rest);
     return m.isKept && m.front * m.height >= 0.0 ? remembered : 0.0;
 }
 
-// A contact of a point that may be held: as it is, but for the faces of bodies that hold it: one of these alone pushes.
+// The contact of a point that may be held: unchanged, except for faces of bodies that hold it, only one of which
+// pushes.
 Touch heldTouch(uint i, uint element, Touch touch) {
     if (!isSolid(contacts[element].x)) return touch;
     const uint body = bodyOf(faces[contacts[element].x].a);
@@ -134,6 +138,6 @@ Touch heldTouch(uint i, uint element, Touch touch) {
     }
     const float reach = abs(uintBitsToFloat(contacts[element].y));
     if (abs(touch.remembered) - 1.0 <= reach) return touch;
-    touch.remembered = sign(touch.remembered) * (1.0 + reach); // out in front: 0 is the least rest distance there
+    touch.remembered = sign(touch.remembered) * (1.0 + reach); // the point is in front: the least rest distance there is 0
     return touch;
 }

@@ -1,4 +1,4 @@
-// Part of gather_lattice: what holds a link, and where bodies may be cut which links are left.
+// Part of gather_lattice: the fill that holds a link, and the masks of live links of bodies that may be cut.
 #ifdef HAS_MASKS
 #include "link_masks.glsl"
 #ifdef TEXELS
@@ -10,14 +10,15 @@ layout(std430, binding = CHUNK_BINDING + 1) readonly buffer Links { uint links[]
 #endif
 #ifdef VOLUME
 #define HAS_WHOLE_CELLS
-layout(std430, binding = CHUNK_BINDING + 2) readonly buffer WholeCells { uint wholeCells[]; }; // as cells; 0 where cut
+layout(std430, binding = CHUNK_BINDING + 2) readonly buffer WholeCells { uint wholeCells[]; }; // as cells; 0 = not whole
 #endif
 #else
 #define LINKS(i) 0u
 #define whole fill // cells of the march
 #endif
 
-// What holds a link: 0 where it is cut. AND, because lavapipe makes a branch of a choice.
+// Sum of the fill of the cells that hold a link: 0 if it is cut. Uses AND, because lavapipe turns a conditional into
+// a branch.
 float held(Fill fill, uint links, int dx, int dy, int dz) {
     const float sum = heldBy(fill, dx, dy, dz);
 #ifdef HAS_MASKS

@@ -1,5 +1,6 @@
-// Which of the faces that a point touches push it, of those that never move or are solid. Inner edges of a flat surface must not: a
-// point over one face is near an edge of the next one too. Needs faces, contacts, directions and push.
+// Selects the faces that push a point, among touched faces that are static or of closed bodies. Inner edges of a flat
+// surface must not push: a point over one face is near an edge of the next face too. Requires faces, contacts,
+// directions and push.
 bool isSolid(uint face) { return face >= push.sheets && face < push.moving; }
 
 bool isCorner(uint i, ContactFace face) { return i == face.a || i == face.b || i == face.c; }
@@ -8,31 +9,33 @@ bool areNeighbours(ContactFace one, ContactFace other) {
     return isCorner(one.a, other) || isCorner(one.b, other) || isCorner(one.c, other);
 }
 
-// Corners of a face between which its nearest place lies, bit k for corner k: all three, or those of an edge or a corner that
-// is as near to that place as rounding may decide where it lies. They stand in the lowest bits of a depth.
+// Stores in the lowest bits of a depth the corners of a face between which the nearest place lies, bit k for corner
+// k: all three, or those of an edge or a corner that is so near to that place that rounding decides.
 float withCorners(float depth, vec3 b, Triangle triangle, float reach) {
     const vec3 bc = triangle.ac - triangle.ab;
     const vec3 heights = length(triangle.normal) * inversesqrt(vec3(dot(bc, bc), dot(triangle.ac, triangle.ac), dot(triangle.ab, triangle.ab)));
     const bvec3 isFar = greaterThan(b * heights, vec3(0.01 * reach));
     const uint corners = (isFar.x ? 1u : 0u) | (isFar.y ? 2u : 0u) | (isFar.z ? 4u : 0u);
-    // of a triangle as small as that all count
+    // a triangle smaller than that counts with all corners
     return depth > 1e-30 ? uintBitsToFloat(floatBitsToUint(depth) & ~7u | (corners == 0u ? 7u : corners)) : 0.0;
 }
 uint cornersIn(float depth) { return floatBitsToUint(depth) & 7u; }
 
-// Whether `other` has all corners of `face` in the bit set `corners`.
+// True if `other` has all corners of `face` in the bit set `corners`.
 bool has(ContactFace other, ContactFace face, uint corners) {
     return ((corners & 1u) == 0u || isCorner(face.a, other)) && ((corners & 2u) == 0u || isCorner(face.b, other)) &&
            ((corners & 4u) == 0u || isCorner(face.c, other));
 }
 
-// Whether an overlap with a face of something solid parts (exitOf).
+// True if an overlap with a face of a closed body is recovering (exitOf).
 bool isParting(uint element) { return isSolid(contacts[element].x) && weights[element].w * uintBitsToFloat(contacts[element].y) < 0.0; }
 
-// Pairs that a cut parts keep no distance: they touched nothing when the scene was loaded.
+// True if a pair keeps its rest distance. Pairs separated by a cut do not: they touched nothing when the scene was
+// loaded.
 bool keepsUncut(uint i, uint j) { return keeps(i, j) && !(firstInner != ~0u && areParted(i, j)); }
 
-// A point that comes from above one face to above the next keeps the rest distance that it had: the hidden face takes it over.
+// The memory of a face with the rest distance of the hidden face beside it: a point that moves from above one face to
+// above the next keeps its rest distance.
 float withRestOf(uint i, uint element, uint beside) {
     const float own = weights[element].w, other = weights[beside].w;
     if (abs(other) <= 1.0 || !keepsUncut(i, faces[contacts[beside].x].a) || !keepsUncut(i, faces[contacts[element].x].a)) return own;
@@ -44,7 +47,7 @@ float withRestOf(uint i, uint element, uint beside) {
     return (parts != isParting(element) ? -taken : taken) * sign(own);
 }
 
-// On which side of a face's plane the particle j is: above 0 = in front. 0 for a sliver, which has no plane.
+// The side of particle j of a face's plane: above 0 = in front. 0 for a sliver, which has no plane.
 float sideOfFront(uint j, uint element) {
     const ContactFace face = faces[contacts[element].x];
     const vec3 a = predicted[face.a].xyz;
@@ -57,9 +60,9 @@ uint cornerBeside(ContactFace face, ContactFace other) {
     return !isCorner(other.a, face) ? other.a : !isCorner(other.b, face) ? other.b : other.c;
 }
 
-// Whether the edge that is nearest is that of a hollow fold, and the point is behind the face on its other side, `beside`. Seen from there, the
-// direction from the edge does not lead out of what is solid, but along its surface: what comes out would be pushed aside. A body that crumples
-// has many such folds: its own points are held by them.
+// True if the nearest edge is that of a concave fold, and the point is behind the face on its other side, `beside`.
+// The direction from the edge then leads along the surface of the body instead of out of it, and would push the point
+// aside. Not for points of the same body: a crumpling body has many such folds, and they hold its own points.
 bool isBehind(uint i, uint element, uint corners, uint beside) {
     if (bitCount(corners) != 2 || !isSolid(contacts[element].x) || !isSolid(contacts[beside].x)) return false;
     if (bodyOf(i) == bodyOf(faces[contacts[beside].x].a)) return false;
@@ -67,18 +70,20 @@ bool isBehind(uint i, uint element, uint corners, uint beside) {
     return sideOfFront(cornerBeside(faces[contacts[element].x], faces[contacts[beside].x]), element) > 0.0;
 }
 
-// An overlap that such an edge did not push apart parts at the speed of recovery once it pushes again.
+// Stores the overlap of a contact that such an edge does not push, so that it recovers at the speed of recovery once
+// it pushes again.
 void leaveOverlap(uint i, uint element) {
     const float own = weights[element].w;
     if (keepsUncut(i, faces[contacts[element].x].a)) return;
     weights[element].w = rememberedOf(sign(own), 0.0, max(0.0, abs(own) - 1.0) + directions[element].w);
 }
 
-// A face of which an edge or a corner is nearest says nothing that a face beside it does not, which has that edge or corner
-// too, and something nearer, or the same: then the first of them. Pushed from inner edges of a flat surface as well, what hits
-// it would be pushed aslant, too softly, and be thrown as it comes out. So such a contact does not push: its depth is below
-// 0. What it remembers goes on, for the nearest place may change from one face to the other. Not among those of sheets that move:
-// where cloth lies on cloth, to push its neighbours as well spreads what a point presses with, and folds rest sooner for it.
+// Hides contacts at an edge or a corner of a face if another face contains that edge or corner too, and the nearest
+// place on it is in a larger part, or in the same: then the first one stays. If inner edges of a flat surface pushed
+// as well, a hit would be deflected, be too soft, and be thrown as it comes out. A hidden contact does not push: its
+// depth is below 0. Its memory goes on, for the nearest place may move from one face to the other. Contacts with
+// moving sheets are not hidden: where cloth lies on cloth, pushing the neighbouring faces as well spreads the load of
+// a point, and folds come to rest sooner.
 void hide(uint i, uint first, uint end) {
     for (uint element = first; element < end; ++element) {
         const uint corners = cornersIn(directions[element].w);

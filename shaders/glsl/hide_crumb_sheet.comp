@@ -1,5 +1,5 @@
 #version 460
-// So does what the skin of a sheet falls into.
+// Hides fragments in the pieces of a sheet's skin.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "crumbs.glsl"

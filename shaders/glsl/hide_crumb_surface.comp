@@ -1,5 +1,5 @@
 #version 460
-// So does the surface of the cuts that have made them.
+// Hides fragments in the surface of cuts.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "crumbs.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Triangles of skins that are not clipped shrink to a point where any of the particles that they hang on was removed: those at the
-// rim would follow what nobody sees.
+// Collapses triangles of unclipped skins to a point if any of their particles was removed: triangles at the rim would
+// follow invisible particles.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,5 +1,5 @@
 #version 460
-// Skins of pieces that were removed shrink to a point each.
+// Hides fragments in skins: collapses the skin of each removed piece to a point.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "crumbs.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// The surface of a cut: triangles of a skin of which pieces are drawn instead shrink to a point. In a mixed skin so do those that whole
-// triangles stand for, and it is known which vertices are seen.
+// The surface of a cut: collapses skin triangles that are drawn in pieces to a point. In a mixed skin, collapses
+// triangles that whole triangles replace too, and marks the visible vertices.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -31,8 +31,8 @@ void main() {
     const uint whole = face.whole == NO_WHOLE ? WHOLE_PARTED : states[face.whole];
     const bool isPart = whole == WHOLE_PARTED || whole == WHOLE_MIXED;
     for (uint n = 0u; n < 3u; ++n) {
-        mixedTriangles[3u * face.mixed + n] = isPart && !isHidden ? corners[n] : 0u; // one vertex for all
-        if (isPart) atomicOr(shown[corners[n]], VERTEX_PLACED | VERTEX_SHOWN); // pieces of what is hidden go with it, too
+        mixedTriangles[3u * face.mixed + n] = isPart && !isHidden ? corners[n] : 0u; // one vertex for all three
+        if (isPart) atomicOr(shown[corners[n]], VERTEX_PLACED | VERTEX_SHOWN); // pieces of hidden triangles use these vertices too
     }
 #endif
 }

@@ -1,4 +1,4 @@
-// Part of the kernels that cut and of those that read it: where a link was cut, as a part of the way from the node that owns it.
+// Stores the position of a cut on a link, as a part of the way from the node that owns the link.
 
 void setHit(inout LinkHits hit, int bit, float t) {
     const int k = kuhnIndexOf(bit);

@@ -1,8 +1,8 @@
 #version 460
-// Who is held from this step on, by which hand, how far from its point and how much of the pull each one gets: of all that is
-// linked to the hand's particle what is within its radius, by (1 - (d / radius)^2)^2 and mass. Runs only in a step in which a
-// hand takes hold or lets go. Shares are whole numbers, so their sum is the same in any order; the order of the list is
-// not, but everybody in it is pulled by himself.
+// Finds the particles held by each grab from this step on, their offsets from its point and their shares of the pull:
+// all particles linked to the grabbed one and within its radius, weighted by (1 - (d / radius)^2)^2 and mass. Runs
+// only in a step in which a grab begins or ends. Shares are integers, so their sum does not depend on order; the list
+// of held particles is in any order, which is harmless, for each is pulled by itself.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -11,13 +11,13 @@ layout(std430, binding = 1) buffer States { GrabState states[]; };
 layout(std430, binding = 2) readonly buffer Bodies { GrabBody bodies[]; };
 layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; }; // public [m]
 layout(std430, binding = 4) buffer Grips { Grip grips[]; };
-layout(std430, binding = 5) writeonly buffer Held { uint held[]; }; // particles
+layout(std430, binding = 5) writeonly buffer Held { uint held[]; }; // particle indices
 layout(std430, binding = 6) buffer Pulling { DispatchArguments pulling; };
 layout(push_constant) uniform Push { GrabPush push; };
 
 const uint mostShare = 1u << (GRAB_SHARE_BITS - 1);
 
-// In 1 / mostShare of the mass of all that is linked; 0 = not held.
+// Share of particle p in 1 / mostShare of the mass of its component; 0 = not held.
 uint shareOf(uint p, GrabHand hand) {
     const uint chosen = hand.particle;
     if (bodies[p].component != bodies[chosen].component || bodies[p].part == 0.0) return 0u;

@@ -1,7 +1,7 @@
 #version 460
-// Connected components, first half of a round: where the ends of a link have two labels, the higher hangs on the lower, on the
-// lowest where there are several. Labels only become smaller: all end with the lowest slot of their piece, whatever the order. Where
-// some still differed there is another round.
+// Connected components, first half of a round: where the ends of a link have two labels, the higher label is attached
+// to the lower, or to the lowest of several. Labels only decrease: all end as the lowest slot of their piece,
+// whatever the order. If any labels still differed, another round runs.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define CUT_PUSH RoundPush
@@ -19,7 +19,7 @@ void main() {
     uint others[OWNED_LINKS];
     uint differ = 0u;
     [[unroll]] for (int k = 0; k < OWNED_LINKS; ++k) {
-        const bool isLink = (owned >> FIRST_OWNED + k & 1u) != 0u; // else there may be no such node
+        const bool isLink = (owned >> FIRST_OWNED + k & 1u) != 0u; // else the node may not exist
         others[k] = labels[uint(int(i) + (isLink ? offsetOf(directionOf(FIRST_OWNED + k)) : 0))];
         differ |= uint(others[k] != own) << k;
     }

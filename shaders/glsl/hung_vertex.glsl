@@ -1,4 +1,4 @@
-// The vertices of skins that hang, from HUNG_BINDING.
+// The vertices of bound skins, from HUNG_BINDING.
 #ifdef TEXELS
 layout(binding = HUNG_BINDING) uniform usamplerBuffer hung;
 HungVertex hungAt(uint v) {

@@ -1,12 +1,12 @@
-// What the two passes that part interlocked bodies share: which contacts are theirs, along which normal each pushes, and
-// how far (contacts: 3). Both ends of a contact compute equal bits, or exactly opposite ones.
+// Shared by the two passes that separate interlocked bodies: their contacts, and the normal and size of each
+// correction. Both ends of a contact compute equal bits, or exactly opposite ones.
 #include "contacts.glsl"
 
 layout(std430, binding = 0) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
 layout(std430, binding = 1) readonly buffer Lists { uvec2 lists[]; };
-layout(std430, binding = 2) readonly buffer Normals { vec4 normals[]; }; // out of the body, 0 = none; depth at rest [m]
+layout(std430, binding = 2) readonly buffer Normals { vec4 normals[]; }; // outward from the body, 0 = none; depth at rest [m]
 layout(std430, binding = 3) readonly buffer Nodes { InterlockNode nodes[]; };
-layout(std430, binding = 4) readonly buffer Partners { uint partners[]; }; // firsts of bodies; partner and pair of each
+layout(std430, binding = 4) readonly buffer Partners { uint partners[]; }; // first entry of each body; then partner and pair
 layout(std140, binding = 7) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { InterlockPush push; };
 
@@ -18,8 +18,9 @@ uint pairOf(uint body, uint other) {
     return noPair;
 }
 
-// From j to i: out of the body of the one that lies less deep, of two as deep the first. Between two surfaces, the line
-// between them: where these have parted they touch like any others.
+// Contact normal from j to i: outward from the body of the particle that is less deep, or of the first of two equally
+// deep ones. Between two surface particles it is the direction between them: where the bodies have separated they
+// touch like any others.
 vec3 normalOf(uint i, uint j, vec3 d) {
     const vec4 own = normals[i], other = normals[j];
     const bool isOwn = own.w < other.w || own.w == other.w && i < j;
@@ -28,8 +29,8 @@ vec3 normalOf(uint i, uint j, vec3 d) {
     return directionOf(d, i, j).n;
 }
 
-// By which a contact parts two in a substep that changed their difference d by `way`: what they came nearer, and what is
-// left of the overlap no faster than `most` [m].
+// Correction of a contact in a substep that changed the difference d by `way`: the approach, and the remaining
+// overlap no faster than `most` [m].
 float partingOf(vec3 n, vec3 d, vec3 way, float reach, float most) {
     const float depth = reach - dot3(n, d), left = most - dot3(n, way);
     return max(0.0, min(depth, left));

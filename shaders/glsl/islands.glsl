@@ -1,7 +1,7 @@
-// A forest of islands in one buffer: an element holds its parent, a root itself, and parents stand before their children.
-// Roots are only ever hung below smaller ones, each by one exchange that fails where another was quicker, so that in the end
-// the root of an island is its first slot, whatever the order.
-layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of what is awake [1/kg]
+// Union-find over islands in one buffer: an element holds its parent, a root itself, and parents have lower indices
+// than their children. Roots are only attached to smaller ones, by one atomic exchange that fails if another
+// invocation was faster, so that in the end the root of an island is its first slot, whatever the order.
+layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of awake particles [1/kg]
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) coherent buffer Islands { uint islands[]; };
 

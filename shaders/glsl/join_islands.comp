@@ -1,5 +1,5 @@
 #version 460
-// Joins the islands of particles that have touched in the last substep.
+// Joins the islands of particles that touched each other in the last substep.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"
@@ -7,7 +7,7 @@
 
 layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
-layout(std430, binding = 5) readonly buffer Touching { vec4 touching[]; }; // where contacts were counted [m]
+layout(std430, binding = 5) readonly buffer Touching { vec4 touching[]; }; // positions with which contacts were counted [m]
 layout(push_constant) uniform Push { SleepPush push; };
 
 void main() {

@@ -1,8 +1,8 @@
 #version 460
-// Counts the votes of the three axes for 32 samples at a time. A line that the surface enters as often as it leaves it
-// counts windings, so overlapping parts are inside; one with an even number of crossings counts parity, so flipped triangles
-// do no harm; any other line has met a hole and has no vote. Where the votes are not three and equal the sample is doubtful.
-// CENTERS: an item is 32 cells. Else it is half of the 64 samples of a hull cell.
+// Inside test of 32 samples at a time, from the votes of the three axes. A line that enters the surface as often as
+// it leaves it counts windings, so overlapping parts are inside; one with an even number of crossings counts parity,
+// so flipped triangles do no harm; any other line has met a hole and has no vote. Unless all three votes exist and
+// agree the sample is doubtful. CENTERS: an item is 32 cells. Else it is half of the 64 samples of a hull cell.
 #extension GL_GOOGLE_include_directive : require
 #include "voxel.glsl"
 

@@ -1,4 +1,5 @@
-// Puts away what contacts of a list remember, with whom. Who does not touch remembers nothing.
+// Saves the contact memory of a list with the partners; contacts that do not touch have none. Returns the saved
+// range.
 uvec2 keep(uvec2 list) {
     uint next = list.x;
     for (uint element = list.x; element < list.x + list.y; ++element) {

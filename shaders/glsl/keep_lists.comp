@@ -1,5 +1,5 @@
 #version 460
-// Before lists of particles are made again: puts away what contacts remember.
+// Saves contact memory before lists of particles are rebuilt.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,4 +1,4 @@
-// What every kernel starts with: the shared structs, the group size, and the index of its item.
+// Included first by every kernel: the shared structs, the group size, and the index of its item.
 #include "layout.h"
 
 #ifndef GROUP_SIZE
@@ -9,12 +9,12 @@ layout(local_size_x = GROUP_SIZE) in;
 // Maps invocation i to count - 1 - i. The state must not change: our race and order detector.
 layout(constant_id = 0) const bool isReversed = false;
 
-// Whether a step came to its end: all is finite, and there was room for all contacts. Else it is undone.
+// True if a step finished: all values are finite, and all contacts fitted. Else the step is undone.
 bool isFinished(StatusWords status) { return (status.nonFinite | status.candidates | status.lacksLists) == 0u; }
 
-// The item of this invocation; the caller returns where it is >= count.
+// The item of this invocation; the caller returns if it is >= count.
 #ifdef AWAKE
-// Of a scene that sleeps: only those work groups run in which somebody is awake (list_awake.comp).
+// In a scene that sleeps: runs only the work groups with an awake particle (list_awake.comp).
 layout(std430, binding = LAST_BINDING) readonly buffer AwakeGroups { uint awakeGroups[]; };
 uint itemIndex(uint count) {
     const uint place = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
@@ -22,7 +22,7 @@ uint itemIndex(uint count) {
     return awakeGroups[place] * GROUP_SIZE + lane;
 }
 #elif defined LISTED
-// Over slots of the state that hold a particle, not over padding; ~0 behind the last.
+// Runs over slots of the state that hold a particle, not over padding; ~0 after the last.
 layout(std430, binding = LAST_BINDING) readonly buffer Slots { uint slots[]; };
 uint itemIndex(uint count) {
     const uint i = gl_GlobalInvocationID.x;

@@ -1,4 +1,4 @@
-// Part of gather_lattice: the links of a node. Every one is computed from both of its ends.
+// Part of gather_lattice: the links of a node. Every link is computed from both of its ends.
 
 vec3 latticeLink(vec4 a, vec4 b, float stiffness, int dx, int dy, int dz, float hh) {
     const int kind = abs(dx) + abs(dy) + abs(dz) - 1; // edge, face diagonal, body diagonal

@@ -1,10 +1,10 @@
-// Part of gather_lattice: one node an invocation. Neighbours in x are neighbours in a work group, so that loads of a window
-// come from the same lines. Sums have the order of the march, so that both give the same bits. One slice or one cell is in
-// registers at a time: a GPU hides the time of loads behind other invocations, and it has room for the more of these the
-// fewer registers each needs.
+// Part of gather_lattice: one node an invocation. Neighbours in x are neighbours in a work group, so that loads of a
+// window come from the same cache lines. Sums have the order of the march, so that both forms give the same bits.
+// Only one slice or one cell is in registers at a time: a GPU hides the latency of loads behind other invocations,
+// and the fewer registers each needs, the more of them fit.
 
 #ifdef VOLUME
-// The impulses on node i of four of the cells around it, `first` and on; `cells` is their fill.
+// The impulses on node i of four of the cells around it, from cell `first` on; `cells` is their fill.
 vec3 pressedBy(uint i, uint cells, uint first, float hh) {
     vec3 sum = vec3(0.0);
     [[dont_unroll]] for (uint k = first; k < first + 4u; ++k) {
@@ -23,7 +23,7 @@ void moveNode(uint i, Substep substep) {
     const uint cellWord = CELLS(i), alive = LINKS(i);
     const Fill fill = unpack(cellWord);
     const int home = homeOf(0);
-    vec4 slice[SLICE], other[SLICE]; // of the first, the node alone
+    vec4 slice[SLICE], other[SLICE]; // the first holds the node alone
     slice[home] = POSITION(i);
     loadSlice(i - push.sliceStride, other);
     vec3 sum = gather(slice, other, home, fill, alive, -1, substep.hh);

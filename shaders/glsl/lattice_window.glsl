@@ -1,5 +1,5 @@
-// Part of gather_lattice: what it reads, and the shape of the window, a block of columns and its rim, that an invocation holds
-// of a slice.
+// Part of gather_lattice: its buffers, and the shape of the window, the part of a slice that an invocation holds: a
+// block of columns and its rim.
 
 #ifdef TEXELS
 layout(binding = LINK_BINDING) uniform usamplerBuffer cells;
@@ -30,7 +30,7 @@ int homeOf(int n) {
     return n % COLUMNS_X + 1 + WIDTH * (n / COLUMNS_X + RIM_Y);
 }
 
-// The window of a slice; `origin` is the slot of the block's first node there.
+// Loads the window of a slice; `origin` is the slot of the block's first node there.
 void loadSlice(uint origin, out vec4 slice[SLICE]) {
     [[unroll]] for (int s = 0; s < SLICE; ++s)
         slice[s] = POSITION(origin + (s / WIDTH - RIM_Y) * push.rowStride + s % WIDTH - 1);

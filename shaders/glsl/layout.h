@@ -1,4 +1,4 @@
-// Every struct and push constant that C++ and GLSL share, defined once. std430: scalars align to 4, vec4 to 16; a
+// Every struct and push constant shared by C++ and GLSL, defined once. std430: scalars align to 4, vec4 to 16; a
 // struct that mixes them lists its vec4 first. C++ sees them in sinew::sim::layout with equal sizes and strides.
 #ifndef SINEW_LAYOUT_H
 #define SINEW_LAYOUT_H
@@ -15,10 +15,10 @@ struct alignas(16) vec4 {
 // Work-group size of every kernel.
 #define GROUP_ITEMS 128
 
-// The one binding that need not follow on the one before it, for what a form of any kernel has in addition.
+// The binding for an extra buffer in a form of any kernel; the only one that need not follow the one before it.
 #define LAST_BINDING 31
 
-// How many groups an indirect dispatch has, written by a kernel: VkDispatchIndirectCommand, padded to 16 bytes.
+// Group count of an indirect dispatch, written by a kernel: VkDispatchIndirectCommand, padded to 16 bytes.
 struct DispatchArguments {
     uint groupsX, groupsY, groupsZ; // 0 groups in x = nothing runs
     uint unused0;
@@ -35,17 +35,17 @@ struct StepParams {
     float restSpeed;      // impacts slower than this do not rebound: 2 |g| h [m/s]
     uint frame;
     float dampingShare; // `split`: h x damping coefficient of a link, at most this x k~ x the smaller tau of its ends
-    float multiplierScale; // `gauss_seidel`: of the multipliers kept from the step before, min(1, (h / hPrevious)^2)
+    float multiplierScale; // `gauss_seidel`: scale of the multipliers kept from the step before, min(1, (h / hPrevious)^2)
     float thetaHStored; // `split`: thetaH, or 0 where contacts follow the gather: it then stores x
-    uint wakes; // 1 = the host wakes all that sleep
+    uint wakes; // 1 = the host wakes all sleeping particles
     uint lists; // bits of LISTS_...
 };
 
 #include "lists_layout.h"
 
-// `split` keeps the links of a work group's particles together, slot by slot: link s of particle i is element
-// (i / LINK_BLOCK * degree + s) * LINK_BLOCK + i % LINK_BLOCK. Slots of the whole scene behind one another would lie a power
-// of two apart where the particle count is one, and evict each other from a CPU's cache.
+// `split` keeps the links of a work group's particles together, slot by slot: link s of particle i is element (i /
+// LINK_BLOCK * degree + s) * LINK_BLOCK + i % LINK_BLOCK. If each slot held the links of all particles of the scene,
+// slots would lie a power of two apart where the particle count is one, and evict each other from a CPU's cache.
 #define LINK_BLOCK GROUP_ITEMS
 
 // One of a particle's links, in the general form.
@@ -62,25 +62,25 @@ struct SplitLink {
 #define PACKED_CODES 256
 #define PACKED_GROUPS 4
 
-// `split`: a bend as one of its three particles sees it.
+// `split`: a bend, as seen by one of its three particles.
 struct SplitBend {
     uint a, b, c;     // in a row; all three the particle itself in padding
-    float weight;     // of C = x_a - 2 x_b + x_c in its impulse: -1 for an end, 2 for the middle
+    float weight;     // factor of C = x_a - 2 x_b + x_c in its impulse: -1 for an end, 2 for the middle
     float stiffness;  // [N/m]
     float clamp;      // stiffness x h^2 at most [kg]
     uint unused0, unused1;
 };
 
-// `jacobi`: a bend, and what both ends and the middle really take of each new multiplier.
+// `jacobi`: a bend, and the share of each new multiplier that its ends and its middle take.
 struct BendRow {
     uint a, b, c;
     float compliance; // [m/N]
     float share;
-    uint sleeping;         // particles
+    uint sleeping;         // number of sleeping particles
     uint unused0, unused1;
 };
 
-// `gauss_seidel`: likewise.
+// `gauss_seidel`: a bend.
 struct ColoredBend {
     uint a, b, c;
     float compliance; // [m/N]
@@ -89,13 +89,13 @@ struct ColoredBend {
 struct DrivenParticle {
     vec4 place; // in the frame of its body [m]
     uint particle;
-    uint pose; // among those of a substep
+    uint pose; // index among the poses of a substep
     uint unused0, unused1;
 };
 
 struct DrivenPush {
     uint count;
-    uint before, after; // first of the poses when the substep begins and when it ends
+    uint before, after; // first pose at the start of the substep, and at its end
 };
 
 struct AttachedParticle {
@@ -105,37 +105,37 @@ struct AttachedParticle {
     uint unused0;
 };
 
-// A hand that may hold something, as the host has it in a step: where the point that it holds goes, and how.
+// A grab, as the host sets it for a step: the motion of the held point, and the properties of the hold.
 #define GRAB_HANDS 8
 struct GrabHand {
-    vec4 from, to;         // of the held point when the step begins and ends [m]
-    vec4 velocity;         // in between [m/s]
-    uint serial;           // 0 = holds nothing; another one than in the step before = takes hold anew
-    uint particle;         // around which it does
-    float radius;          // of what it takes [m]
-    float stiffness;       // what it does to all that is linked to what it holds: [1/s^2]
+    vec4 from, to;         // held point at the start and at the end of the step [m]
+    vec4 velocity;         // of the held point [m/s]
+    uint serial;           // 0 = holds nothing; a value that differs from that of the step before starts a new grab
+    uint particle;         // at the centre of the grab
+    float radius;          // of the grabbed region [m]
+    float stiffness;       // per mass of all particles linked to the held ones [1/s^2]
     float damping;         // [1/s]
     float maxAcceleration; // [m/s^2]
     uint unused0, unused1;
 };
 
-// Of a hand, between steps.
+// State of a grab between steps.
 struct GrabState {
     uint serial;
-    uint isNew; // 1 = lets go of what it held and takes hold of what the host says, in this step
-    uint total; // of the shares of what it holds
+    uint isNew; // 1 = ends the grab of the step before and starts the one set by the host, in this step
+    uint total; // sum of the shares of held particles
     uint unused0;
 };
 
-// What a hand needs to know of a particle.
+// The values of a particle that grabs use.
 struct GrabBody {
-    uint component; // by which the linked ones are named
-    float part;     // of the mass of all that is linked; 0 = never moves
-    float mass;     // of all that is linked [kg]
+    uint component; // identifies the particles linked to it
+    float part;     // of the mass of its component; 0 = never moves
+    float mass;     // of its component [kg]
     uint slot;      // of the particle in the solver's state
 };
 
-// What holds a particle: GRAB_SHARE bits its share, above them the number of the hand + 1, or 0.
+// The grab that holds a particle: GRAB_SHARE_BITS bits of its share, above them the index of the grab + 1, or 0.
 #define GRAB_SHARE_BITS 28
 struct Grip {
     vec4 offset; // from the held point [m]
@@ -144,10 +144,10 @@ struct Grip {
 };
 
 struct GrabPush {
-    uint count;  // of particles
-    uint groups; // of work groups for that many
+    uint count;  // number of particles
+    uint groups; // work groups for that many particles
     uint hands;
-    float fraction; // of the step that is over when this substep is
+    float fraction; // part of the step that is over at the end of this substep
     float lateKick; // part of h g that is in v and has not moved x
 };
 
@@ -168,23 +168,23 @@ struct DistanceEdge {
     float compliance; // [m/N]
 };
 
-// `jacobi`: the multiplier of a compliant constraint and the share of each new one that both ends really take.
+// `jacobi`: the multiplier of a compliant constraint, and the share of each new one that both ends take.
 struct DistanceMultiplier {
     float lambda; // [N s^2]
     float share;
 };
 
-// `gauss_seidel`: what the constraints of the open substep have moved a particle by, and what it touched.
+// `gauss_seidel`: displacement of a particle by the constraints of the open substep, and the planes that it touched.
 struct ParticleCorrection {
     float x, y, z; // [m]
     uint touched;  // bit set of planes
 };
 
-// `gauss_seidel`: one of a particle's links in the warm start is the index of its constraint, with this bit set at the
-// constraint's end a; in blocks like those of `split`.
+// `gauss_seidel`: one of a particle's links in the warm start is the index of its constraint, with this bit set at
+// the constraint's end a; in blocks like those of `split`.
 #define WARM_LINK_SIGN 0x80000000u
 
-// `jacobi`: which slots of the correction buffer belong to a particle.
+// `jacobi`: the slots of the correction buffer that belong to a particle.
 struct Incidence {
     uint first, count;
     float weight; // over-relaxation x averaging weight
@@ -192,43 +192,43 @@ struct Incidence {
 
 struct PlaneCollider {
     vec4 normalOffset;    // unit normal, offset [m]
-    float friction;       // of what slides
+    float friction;       // kinetic
     float restitution;
-    float staticFriction; // of what does not, at least as much
+    float staticFriction; // at least `friction`
     float unused0;
 };
 
-// A box grown by a radius, about its middle and along its own axes.
+// A box grown by a radius, centred at its pose and along its own axes.
 struct Collider {
     vec4 core;            // half extents, radius [m]
-    float friction;       // of what slides
-    float staticFriction; // of what does not, at least as much
+    float friction;       // kinetic
+    float staticFriction; // at least `friction`
     float restitution;
-    uint isAbsent;        // 1 = a poke that is not there
+    uint isAbsent;        // 1 = an absent kinematic collider
 };
 
 struct ColliderPose {
-    // Of the middle [m]. w: of the way of a poke, where from: how far it reached before the step [m]; where to: how often it
-    // came, left or took another shape, below 0 while it is not there.
+    // Centre [m]. w: for a kinematic collider, at the start of the step: its extent before the step [m]; at
+    // the end: number of times that it appeared, disappeared or changed shape, below 0 while absent.
     vec4 position;
     vec4 rotation; // unit quaternion x, y, z, w from the collider's frame to the world
 };
 
-// `jacobi`: temporary constraints of a particle, found anew each substep.
+// `jacobi`: contacts of a particle with planes, found in each substep.
 struct PlaneContact {
     float vx, vy, vz; // velocity before the substep [m/s]
     uint touched;     // bit set of planes
 };
 
-// What a step found out about the state.
+// Results of a step: faults of the state, overflow, and counts.
 struct StatusWords {
     uint nonFinite;        // particles with a non-finite position or velocity
     uint invertedFirstBad; // ~index of the first of them
     uint frame;
-    uint candidates;       // the most that a particle needs room for, where its list was too short; else 0
+    uint candidates;       // entries per particle that contacts would need, if they do not fit; else 0
     uint slowed;           // particles slowed down by cap_speeds, in all substeps
-    uint sleeping;         // particles
-    uint laterLists;       // times that lists had to be made, or particles slowed down, in substeps after the first
+    uint sleeping;         // number of sleeping particles
+    uint laterLists;       // times that lists had to be rebuilt, or particles slowed down, in substeps after the first
     uint lacksLists;       // 1 = one of those was needed in a calm step, or in one before it that was not repeated
 };
 
@@ -238,12 +238,12 @@ struct CellVertex {
     uint corners[8];
 };
 
-// Squared heights of triangles, by the squared place of a vertex, that some thirty steps of float32 make there: flatter ones may be
-// turned over by rounding, and hardly count in normals.
+// Squared height of a triangle, over the squared distance of the vertex from the origin, that about thirty roundings
+// of float32 can produce: flatter triangles may be flipped by rounding, and hardly count in normals.
 #define NORMAL_BLUR 4e-12
 
 struct SkinVertex {
-    vec4 position; // xyz [m], w = 0 where nothing moves that carries the vertex, else 1
+    vec4 position; // xyz [m], w = 0 if none of the particles that carry the vertex can move, else 1
     vec4 normal;   // xyz unit length
 };
 
@@ -256,66 +256,66 @@ struct CountPush {
     uint count; // items; the last group may be partly idle
 };
 
-struct BoxesPush { // particles on grids that are equal, full and one behind another
+struct BoxesPush { // particles on equal, full grids, stored one after another
     uint count;
-    uint perBox;         // particles of a grid
+    uint perBox;         // particles per grid
     uint nodesX, nodesY; // of a grid
     uint origin;         // slot of the first particle
-    uint rowStride, sliceStride, boxStride; // slots from a node to the next in y, in z, in the next grid
+    uint rowStride, sliceStride, boxStride; // slots from a node to the next in y, in z, to that in the next grid
 };
 
-// Hash grid (hash_grid.glsl): the box around what is in it, as integers in the order of the floats they stand for, and the
-// farthest that anything has moved since it was built.
+// Hash grid (hash_grid.glsl): the box around its particles, as integers in the order of the floats that they
+// represent, and the largest displacement since it was built.
 struct GridBounds {
     uint lowX, lowY, lowZ, highX, highY, highZ; // keys
     uint moved;                                 // bits of a float [m]
-    uint builds;                                // how often it was built since the simulation began
-    // Of the substep that is watched: whether somebody moves so far that contacts may lie on the way, and how many are
-    // listed as too fast for cells. plan_grid hands them on:
+    uint builds;                                // number of builds since the simulation began
+    // Results for the next substep: 1 if particles move so far that contacts may lie on their paths, and the number
+    // listed as too fast for cells. plan_grid moves them to:
     uint sweeping, hurrying;
-    uint isSwept, fast; // of the substep that is solved
-    uint listed, listedParticles; // work groups in which an owner of a list, a particle, has a candidate
-    uint lacking; // room that a step of this simulation has lacked (StatusWords::candidates), or 0: no later one may end either
-    float drift;  // how far particles may still stray, together, from where their bodies are expected in this step [m]
-    // Of the lists that were made last (pooled_lists): pairs that were found, also those that there was no room for; entries of all lists;
-    // links of faces to entries.
+    uint isSwept, fast; // the same for the substep that is solved
+    uint listed, listedParticles; // work groups with an owner of a list, with a particle, that has a candidate
+    uint lacking; // StatusWords::candidates of a step of this simulation that lacked capacity, else 0: no later step may finish either
+    float drift;  // distance that particles may still stray, in sum, from their expected positions in this step [m]
+    // The newest lists (pooled_lists): number of pairs found, including those that did not fit; entries of all
+    // lists; links from faces to entries.
     uint pairs, entries, links;
     uint lacksLists; // StatusWords::lacksLists of the last step
 };
 
 #include "frames_layout.h"
 
-// Cells that one invocation sums up, and particles that one measures.
+// Cells that one invocation adds up, and particles that one invocation measures.
 #define GRID_CHUNK 64
 
-// Indices into the arguments of its passes: one item a particle, a chunk of particles, a chunk of cells, one group; one a
-// particle where more are too fast than there is room for, where contacts may lie on the way, where they do not.
+// Indices into the arguments of its passes: one item per particle, per chunk of particles, per chunk of cells, one
+// group; then one item per particle if too many are fast, if contacts may lie on paths, if none can.
 #define GRID_PARTICLES 0
 #define GRID_PARTICLE_CHUNKS 1
 #define GRID_CELL_CHUNKS 2
 #define GRID_ONE_GROUP 3
-#define GRID_OTHERS 4 // only where there are others
+#define GRID_OTHERS 4 // only if GridPush::others is not 0
 #define GRID_SLOWED 5
 #define GRID_SWEPT 6
 #define GRID_UNSWEPT 7
 #define GRID_ARGUMENTS 8
 
-// Particles too fast for cells, at most; where there are more, all of them are slowed down.
+// Largest number of particles too fast for cells; if there are more, all of them are slowed down.
 #define MOST_FAST 256
 
 struct GridPush {
     uint count;  // of particles; whole work groups
     uint cells;  // a power of two
-    float edge;  // of a cell, at least [m]
-    float most;  // radius in the grid [m]; particles with more are searched one by one
+    float edge;  // smallest size of a cell [m]
+    float most;  // largest radius in the grid [m]; larger particles are searched one by one
     uint others; // items of further passes that run with a build; 0 = none
-    float quiet; // way in a substep up to which nobody meets anybody on it [m]
-    uint bodies; // with a frame
+    float quiet; // motion in a substep up to which no contact can lie on a path [m]
+    uint bodies; // bodies with a frame
     float reach, margin; // as in FramePush
     uint isLater; // 1 = in a substep after the first
 };
 
-// Element of a list, which stands in one piece in the pool of all lists (ListRange).
+// Element of a contact list, which is a contiguous range of the pool of all lists (ListRange).
 struct ContactCandidate {
     uint other;
     float reach; // distance below which they touch [m]
@@ -324,32 +324,32 @@ struct ContactCandidate {
 struct FindPush {
     uint count, cells;
     float edge, most;
-    float margin;  // beyond touching, up to which a pair is listed [m]
-    uint room;     // entries of the pool, of all lists together
+    float margin;  // distance beyond the reach up to which a pair is listed [m]
+    uint room;     // capacity of the pool, in entries of all lists together
     uint large;    // particles that are searched one by one
     float quiet;   // as in GridPush
 };
 
 struct ContactPush {
     uint count; // of particles; whole work groups
-    float friction, staticFriction; // as a pair of surfaces has them
+    float friction, staticFriction; // of the pair of surfaces, if there is only one
     float restitution;
     float recoverySpeed; // of pairs that overlapped when the scene was loaded [m/s]
-    uint surfaces;       // where there are several: pair (a, b) of them is element a * surfaces + b of a table
+    uint surfaces;       // number of surfaces, if there are several: pair (a, b) is element a * surfaces + b of a table
 };
 
-// A particle of bodies that lie in each other when the scene is loaded. Where it is a node of a lattice: the slots before and
-// after it along the three axes, its own where there is none.
+// A particle of bodies that overlap each other when the scene is loaded. If it is a lattice node: the slots before
+// and after it along the three axes, its own slot where there is no node.
 struct InterlockNode {
     uint before[3], after[3];
-    uint body; // from 1 on; 0 = of none of these bodies
+    uint body; // from 1 on; 0 = in none of these bodies
     uint unused0;
 };
 
-// The depth of a node from which no way leads out, and of what is no node.
+// Depth of a node that no path leads out from, and of particles that are no nodes.
 #define INTERLOCK_DEEPEST 1e30f
 
-// What becomes of two such bodies: they part along their lattices' normals, have just done so, touch like any others.
+// State of a pair of such bodies: ordinary contacts; separating along their lattices' normals; has just separated.
 #define INTERLOCK_APART 0
 #define INTERLOCK_PARTING 1
 #define INTERLOCK_LEFT 2
@@ -357,7 +357,7 @@ struct InterlockNode {
 
 struct InterlockPair {
     uint state;
-    uint deepest; // overlap in this step by the reach of the contact, bits of a float; 0 = nobody awake looked
+    uint deepest; // overlap in this step over the reach of the contact, bits of a float; 0 = no awake particle tested it
 };
 
 struct InterlockPush {
@@ -366,73 +366,73 @@ struct InterlockPush {
     uint pairs; // of bodies
 };
 
-// What two surfaces make of a contact.
+// Coefficients of a contact between two surfaces.
 struct SurfacePair {
-    float friction;       // of what slides
+    float friction;       // kinetic
     float restitution;
-    float staticFriction; // of what does not, at least as much
+    float staticFriction; // at least `friction`
 };
 
-// A triangle between particles that others touch.
+// A triangle between particles that takes part in contacts.
 struct ContactFace {
     uint a, b, c;
-    float thickness; // [m]; below 0 where the front of something solid is the other side
+    float thickness; // [m]; below 0 = the front of a closed body is opposite to the normal
 };
-#define EXCLUDED_LINKED 0x80000000u // in the last word of a row of points that a face never touches, beside where strides stand
+#define EXCLUDED_LINKED 0x80000000u // flag in the last word of a face's row of excluded points, beside the index of the strides
 
-// Of all particles that may touch faces: those too wide or too fast for the grid are listed apart. Of all faces: those with
-// too much around them are listed as wide. Some devices end a kernel's loops silently at 65,535 turns in all.
+// Points outside of the grid, and wide faces. A point is apart if it is too wide or too fast for the grid; a face is
+// wide if it has too many points around it. Some devices silently end a kernel's loops at 65,535 iterations in all.
 struct FacePoints {
-    uint apart;  // how many points
-    uint widest; // radius and way in a substep of the others, at most; bits of a float [m]
-    uint wide;   // how many faces
+    uint apart;  // number of points apart
+    uint widest; // largest radius + motion in a substep of all other points; bits of a float [m]
+    uint wide;   // number of wide faces
     uint unused0;
 };
 
-// Entries that a list may have: some devices end a kernel's loops silently at 65,535 turns in all. A list that is longer ends a step as one
-// without room does, and so do more entries on average than there can be room for.
+// Largest number of entries of a list: some devices silently end a kernel's loops at 65,535 iterations in all. A
+// longer list ends a step like a lack of capacity, and so do more entries per particle than CONTACT_MOST_ROOM.
 #define LIST_MOST 2048u
 #define CONTACT_MOST_ROOM 1024u
 
-// Where a list stands in the pool of some lists; a uvec2 in kernels.
+// Range of a list in the pool of its lists; a uvec2 in kernels.
 struct ListRange {
     uint first, count;
 };
 
-#define FACE_MOST_POINTS 20000 // that a face looks at itself
-#define FACE_MOST_WIDE 50000   // faces that a point looks at itself
+#define FACE_MOST_POINTS 20000 // largest number of points that a face tests itself
+#define FACE_MOST_WIDE 50000   // largest number of faces that a point tests itself
 
 struct FaceFindPush {
-    uint points, searched; // particles; small faces; whole work groups
+    uint points, searched; // particles; small faces; in whole work groups
     uint cells;            // of the grid
     float edge;
-    float most;    // radius and way of a point that the grid is searched for [m]
-    float margin;  // beyond touching, up to which a pair is listed [m]
-    uint room;     // entries of the pool, of all lists together
-    uint moving;   // faces before that one have a corner that moves
-    uint large;    // faces that every point is compared with, beside wide ones
+    float most;    // largest radius + motion of a point in the grid [m]
+    float margin;  // distance beyond the reach up to which a pair is listed [m]
+    uint room;     // capacity of the pool, in entries of all lists together
+    uint moving;   // faces below this index have a corner that moves
+    uint large;    // number of faces that every point is tested with, besides wide ones
 };
 
-// An edge of faces that other edges touch. In the grid it is its middle.
+// An edge of faces that takes part in contacts with other edges. The grid holds its midpoint.
 struct ContactEdge {
     uint a, b;
     uint isMoving; // 1 = one of its ends may move
-    float radius;  // of the ball around its middle that holds all of it; below 0 in padding [m]
+    float radius;  // of the ball around its midpoint that contains it; below 0 in padding [m]
 };
 
-struct PlaceEdgesPush { uint items, edges, members; }; // the larger, whole work groups; edges; ends that are watched
+struct PlaceEdgesPush { uint items, edges, members; }; // the larger number, in whole work groups; edges; watched ends
 
 struct FacePush {
     uint count;   // of particles, or edges; whole work groups
-    uint surfaces; // pair (a, b) of them is element a * surfaces + b of a table
-    float recoverySpeed; // of what overlapped when the scene was loaded [m/s]
-    uint moving; // faces before that one have a corner that moves; of edges nothing
-    uint sheets; // of those, faces before that one have two sides, the others are the surface of something solid
+    uint surfaces; // number of surfaces; pair (a, b) is element a * surfaces + b of a table
+    float recoverySpeed; // of overlaps at the load of the scene [m/s]
+    uint moving; // faces below this index have a corner that moves; unused for edges
+    uint sheets; // of those, faces below this index have two sides, the others are the surface of closed bodies
 };
 
 struct StopPush {
-    uint count; // of points that move
-    uint moving, faces; // faces from the first to before the second have no corner that gives way
+    uint count; // points that move
+    uint moving, faces; // faces from the first index to before the second are static or driven
 };
 
 struct SubstepPush {
@@ -448,18 +448,18 @@ struct PackedSubstepPush {
     float shares[PACKED_GROUPS];      // of shares [N/m]
 };
 
-// Bodies on a regular grid: the invocations of a work group that march, as well the slots of a run where an invocation
-// computes one node; and one unit in the fill of a cell.
+// Bodies on a regular grid: the invocations of a work group of the march, which is also the number of slots in a run
+// where an invocation computes one node; and the fill of a full cell.
 #define LATTICE_GROUP 32
 #define LATTICE_FULL 15
 
-// The part of its volume below which a cell is unfolded, with all pressure from 0 on.
+// The relative volume below which a cell is unfolded, with the whole pressure from 0 on.
 #define RECOVERY_START 0.5
 
-// A run of slices of a block of columns, which one invocation marches; or a run of slots, each the node of an invocation.
+// A run of slices of a block of columns, marched by one invocation; or a run of slots, with one node an invocation.
 struct LatticeChunk {
     uint origin; // slot of its first node
-    uint layers; // 0 = nothing to do; of a run of slots, their number
+    uint layers; // number of slices, or of slots in a run; 0 = padding
 };
 
 // Kinds of link: along an edge, a face diagonal, a body diagonal.
@@ -469,12 +469,12 @@ struct LatticePush {
     uint rowStride, sliceStride; // slots from a node to the next in y, in z
     float restLengths[3];        // [m]
     float units[3];              // stiffness for each 1/15 of a cell's fill [N/m]
-    float shares[3];             // k~ likewise
+    float shares[3];             // k~ for each 1/15 of a cell's fill [N/m]
     uint substeps, bodySlots, bodyChunks; // RESIDENT: all substeps of a step at once; count = bodies x group size
     float volumeUnit;            // lambda_v a for each 1/15 of a cell's fill [N/m]
-    float volumeShare;           // 2 k~ likewise
-    float recoveryUnit;          // pressure x a likewise
-    float recoveryShare;         // 2 k~ likewise
+    float volumeShare;           // 2 k~ for each 1/15 of a cell's fill [N/m]
+    float recoveryUnit;          // pressure x a for each 1/15 of a cell's fill [N/m]
+    float recoveryShare;         // 2 k~ for each 1/15 of a cell's fill [N/m]
 };
 
 #include "cut_layout.h"
@@ -487,16 +487,16 @@ struct DampedSubstepPush {
 
 struct AttachmentPush {
     uint count;
-    float fraction; // of the step that is over when this substep is
+    float fraction; // part of the step that is over at the end of this substep
 };
 
 struct ColliderPush {
     uint count;         // of particles; whole work groups
-    uint before, after; // first pose of the colliders when the substep begins, and when it ends
+    uint before, after; // first pose of the colliders at the start of the substep, and at its end
     float lateKick;     // part of h g that is in v and has not moved x
 };
 
-// Indices into the arguments of passes that only pokes need.
+// Indices into the arguments of passes for kinematic colliders.
 #define POKES_PLACED 0
 #define POKES_TOUCHING 1 // once a substep
 #define POKE_ARGUMENTS 2
@@ -506,14 +506,14 @@ struct PlacePush {
     uint colliders, substeps;
 };
 
-// What rests for so long, no faster than that, sleeps (contacts: 6).
+// A particle that has moved no faster than SLEEP_SPEED for SLEEP_TIME rests, and may sleep.
 #define SLEEP_TIME 0.5   // [s]
 #define SLEEP_SPEED 0.03 // [m/s]
 #define SLEEP_MOST_SPEED 0.1 // [m/s], of large particles (watch_rest)
-#define SLEEP_DRIVEN -1.0f // stands for the inverse mass of what is driven
+#define SLEEP_DRIVEN -1.0f // replaces the inverse mass of driven particles
 
-// Indices into the arguments of waking and falling asleep: all particles, or one group, when a step begins, in a substep,
-// and after a step that came to its end; one group after any step in which somebody was awake.
+// Indices into the arguments of sleep passes: all particles, or one group, at the start of a step; the same in a
+// substep; all particles after a finished step; one group after any step with an awake particle.
 #define SLEEP_OPENING 0
 #define SLEEP_OPENING_ONE 1
 #define SLEEP_WAKING 2
@@ -522,32 +522,32 @@ struct PlacePush {
 #define SLEEP_CLOSING_ONE 5
 #define SLEEP_ARGUMENTS 6
 
-// What of the passes of a step runs while not everybody sleeps: how many groups it has in all, and which of them.
-#define SLEEP_ALL 0    // all, while anybody is awake
-#define SLEEP_LISTED 1 // those of particles of which one is awake
-#define SLEEP_MIXED 2  // likewise, while anybody sleeps
+// Group counts of a step's passes while particles sleep: the total of a pass, and its kind.
+#define SLEEP_ALL 0    // all groups, while any particle is awake
+#define SLEEP_LISTED 1 // the groups with an awake particle
+#define SLEEP_MIXED 2  // the same, only while any particle sleeps
 #define SLEEP_MIXED_ALL 3
 struct SleepPass {
     uint groups, kind;
 };
 
 struct SleepState {
-    vec4 gravity;  // of the last step that came to its end [m/s^2]
-    float h;       // likewise [s]
-    uint sleeping; // particles, at the end of the last step
-    uint listed;   // groups that the next substep runs
-    uint isMixed;  // 1 = somebody is awake, somebody sleeps
-    uint wakes;    // 1 = all, as soon as a step comes to its end
-    uint touched;  // 1 = somebody awake has come to touch somebody asleep
-    uint wakesAll; // 1 = in this step
+    vec4 gravity;  // of the last finished step [m/s^2]
+    float h;       // of the last finished step [s]
+    uint sleeping; // number of particles asleep at the end of the last step
+    uint listed;   // number of groups that run in the next substep
+    uint isMixed;  // 1 = some particles are awake and some sleep
+    uint wakes;    // 1 = all wake at the end of the next finished step
+    uint touched;  // 1 = an awake particle touches a sleeping one
+    uint wakesAll; // 1 = all wake in this step
     uint unused0;
 };
 
 struct SleepPush {
     uint count;  // of particles; whole work groups
-    uint groups; // of them
+    uint groups; // number of these groups
     uint attachments, colliders;
-    uint driven;   // so many of the colliders, the last, are balls around driven bodies
+    uint driven;   // number of colliders, the last ones, that are balls around driven bodies
     uint passes;   // entries of the list of SleepPass
     uint substeps; // of a step
 };
@@ -567,21 +567,21 @@ struct IterationPush {
 
 struct ColorPush {
     uint count;      // constraints of the color, padded to whole work groups
-    uint first;      // of them in the list
+    uint first;      // index of the first one in the list
     uint isOpening;  // 1 in the first sweep of a step
     uint isClosing;  // 1 in the last sweep of a substep
-    float warmStart; // share of a multiplier that the next substep starts with
+    float warmStart; // share of a multiplier that starts the next substep
 };
 
 struct BendColorPush {
     uint count;   // bends of the color, padded to whole work groups
-    uint first;   // of them in the list
+    uint first;   // index of the first one in the list
     uint isFirst; // 1 in the first sweep of a substep
 };
 
 struct DampColorPush {
     uint count;        // constraints of the color, padded to whole work groups
-    uint first;        // of them in the list
+    uint first;        // index of the first one in the list
     float dampingTime; // damping coefficient over stiffness [s]
 };
 
@@ -589,7 +589,7 @@ struct DampColorPush {
 
 struct SkinPush {
     uint count;
-    uint firstVertex; // of this skin in the vertex buffer
+    uint firstVertex; // index of the skin's first vertex in the vertex buffer
 };
 
 #ifdef __cplusplus

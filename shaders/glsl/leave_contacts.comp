@@ -1,5 +1,5 @@
 #version 460
-// Particles of pieces that were removed leave a grid of contacts, of which the lists are made again in the next step.
+// Removes the particles of fragments from a grid of contacts, and requests a rebuild of its lists in the next step.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

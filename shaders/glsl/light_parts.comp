@@ -1,7 +1,7 @@
 #version 460
-// Normals of mixed skins at vertices that only parts have, which are in one triangle of the mesh, or two: what those of its corners are in
-// between, as where it is drawn whole, so that nobody sees which is. Beside a cut corners may be on the other side of it, and are
-// not asked.
+// Normals of mixed skins at vertices of parts alone, which lie in one triangle of the mesh or on the edge of two:
+// interpolated between the normals of the triangle's corners, as when it is drawn whole, so that the two look alike.
+// Beside a cut the corners may be on its other side, and the gradient of the material is used instead.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -27,7 +27,7 @@ void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const PartVertex part = parts[item];
-    if (rims[part.vertex] != 0u) return; // turn_rims has it
+    if (rims[part.vertex] != 0u) return; // turn_rims computes it
     const HungVertex vertex = hungAt(part.vertex);
 #ifdef SHOWN
     if ((shown[vertex.vertex] & VERTEX_SHOWN) == 0u) return;

@@ -1,6 +1,7 @@
 #version 460
-// Makes the links of every moving face, EDGES: of every edge, to its rows in the lists of others, sorted by owner. There its corners find
-// what these do to them. Lists the groups of particles that contacts are solved for, and says how many groups of elements there are.
+// Links every moving face, EDGES: every edge, to its rows in the lists of others, sorted by owner, so that its
+// corners find the impulses of those contacts. Lists the groups of particles with contacts, and writes the number of
+// groups of elements.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -48,19 +49,19 @@ void put(uint element, uint owner) {
         if (contacts[middle].other < shape) low = middle + 1u;
         else high = middle;
     }
-    links[element] = min(low, push.room - 1u); // not there only where the step will be undone
+    links[element] = min(low, push.room - 1u); // missing only if the step will be undone
 }
 #include "sort_pairs.glsl"
 
 void main() {
     const uint f = itemIndex(push.moving);
     if (f == 0u) {
-        points = FacePoints(0u, 0u, 0u, 0u); // for the next time
+        points = FacePoints(0u, 0u, 0u, 0u); // for the next build
         arguments[2] = DispatchArguments(min((bounds.entries + GROUP_SIZE - 1u) / GROUP_SIZE, uint(ROWS_MOST_GROUPS)), 1u, 1u, 0u);
     }
     if (f >= push.moving) return;
     const uint chain = chains[f], all = lengthOf(chain), n = min(all, LIST_MOST);
-    if (all > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // said, not lost
+    if (all > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // reported as overflow
     uvec2 list = uvec2(0u, n);
     if (n > 0u) list.x = atomicAdd(bounds.links, n);
     listGroups(f, n > 0u);

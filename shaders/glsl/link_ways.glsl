@@ -1,5 +1,5 @@
-// Bits of the links of a node that lead to a slot so many further on; 0 = none does. In a body two nodes wide several directions may.
-// Those that leave the body have no link that is alive. In a sheet, rowStride 0, there is no y.
+// Bits of a node's links that lead to the slot `slots` further; 0 = none does. In a body two nodes wide several
+// directions may. Links that would leave the body are never alive. In a sheet, rowStride 0, there is no y.
 uint linksTo(int slots, uint rowStride, uint sliceStride) {
     uint ways = 0u;
     [[dont_unroll]] for (int k = 0; k < 9; ++k) {

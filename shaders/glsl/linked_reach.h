@@ -1,5 +1,5 @@
-// Shared by C++ and GLSL. In a voxel body that may be cut, the part of the ordinary distance at which a point touches a face to which
-// only diagonal links join it.
+// Shared by C++ and GLSL. Part of the ordinary contact distance that applies to a point and a face of a voxel body
+// that may be cut, while only diagonal links join them.
 #ifndef LINKED_REACH
 #define LINKED_REACH 0.8f
 #endif

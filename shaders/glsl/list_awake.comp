@@ -1,11 +1,11 @@
 #version 460
-// Lists the work groups that run, in their order, and says of every pass how many it has. One group, whose lanes each take
-// a run of the list.
+// Lists the work groups that run, in order, and writes the group count of every pass. One group, whose lanes process
+// a run of the list each.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Groups { uint groups[]; };   // of particles; 0 = nobody in it is awake
-layout(std430, binding = 1) writeonly buffer Listed { uint listed[]; };  // what runs
+layout(std430, binding = 0) readonly buffer Groups { uint groups[]; };   // of particles; 0 = all asleep
+layout(std430, binding = 1) writeonly buffer Listed { uint listed[]; };  // groups that run
 layout(std430, binding = 2) readonly buffer Passes { SleepPass passes[]; };
 layout(std430, binding = 3) writeonly buffer Arguments { DispatchArguments arguments[]; }; // of each pass
 layout(std430, binding = 4) buffer State { SleepState state; };
@@ -14,7 +14,7 @@ layout(push_constant) uniform Push { SleepPush push; };
 shared uint sums[GROUP_SIZE];
 shared uint before[GROUP_SIZE];
 
-// Of the groups below `end`, from `first` on, how many run.
+// Number of running groups from `first` to below `end`.
 uint running(uint first, uint end) {
     uint sum = 0u;
     for (uint g = first; g < end; ++g) sum += groups[g] != 0u ? 1u : 0u;

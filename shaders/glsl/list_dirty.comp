@@ -1,12 +1,12 @@
 #version 460
-// Lists the slots of cells near the links that died: those of which a corner is marked. An invocation takes the slots of a word.
-// What is made of a cell depends on no order, so the list has none.
+// Lists the slots of cells near dead links: those with a marked corner. An invocation handles the 32 slots of a word.
+// The order of the list varies and changes nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 
 layout(std430, binding = 0) readonly buffer Dirty { uint dirty[]; };
-layout(std430, binding = 1) buffer Counts { uint counts[]; };         // of slots, by run
-layout(std430, binding = 2) writeonly buffer Listed { uint listed[]; }; // of a run from its first slot on
+layout(std430, binding = 1) buffer Counts { uint counts[]; };         // number of slots, by run
+layout(std430, binding = 2) writeonly buffer Listed { uint listed[]; }; // each run begins at its first slot
 
 // The marks of 32 slots from `slot` on; none beyond the run.
 uint marksFrom(uint slot) {
@@ -26,7 +26,7 @@ void main() {
             const uint row = start + uint(offsetOf(ivec3(0, y, z)));
             marks |= marksFrom(row) | marksFrom(row + 1u);
         }
-    if (start < push.first) marks &= ~0u << push.first - start; // of the run before
+    if (start < push.first) marks &= ~0u << push.first - start; // slots of the run before
     if (start + 32u > push.first + push.count) marks &= ~0u >> start + 32u - push.first - push.count;
     if (marks == 0u) return;
     uint next = push.first + atomicAdd(counts[push.run], uint(bitCount(marks)));

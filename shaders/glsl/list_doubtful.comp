@@ -1,5 +1,5 @@
 #version 460
-// The doubtful samples as a list of word x 32 + bit. Their order varies and changes nothing.
+// Lists the doubtful samples as word x 32 + bit. Their order varies and changes nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "voxel.glsl"
 

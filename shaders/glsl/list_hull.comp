@@ -1,5 +1,5 @@
 #version 460
-// The hull cells in order: which cell each of them is.
+// Lists the hull cells in order.
 #extension GL_GOOGLE_include_directive : require
 #include "voxel.glsl"
 

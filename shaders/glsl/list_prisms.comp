@@ -1,6 +1,6 @@
 #version 460
-// Lists the prisms of a skin near the blade of a step, and those near the links that died, by the slots that they stand on. What is costly
-// is done for these alone; the lists have no order, and need none.
+// Lists the prisms of a skin near the blade of a step, and those near dead links, by their anchor slots. Costly
+// passes run for these alone; the order of the lists does not matter.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -12,8 +12,8 @@
 layout(std430, binding = 6) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 7) readonly buffer Dirty { uint dirty[]; };
 layout(std430, binding = 8) buffer Counts { uint counts[]; };            // SKIN_LISTS of each body
-layout(std430, binding = 9) writeonly buffer Nears { uint nears[]; };    // of a body from its first prism on
-layout(std430, binding = 10) writeonly buffer Parted { uint parted[]; }; // likewise
+layout(std430, binding = 9) writeonly buffer Nears { uint nears[]; };    // each body begins at its first prism
+layout(std430, binding = 10) writeonly buffer Parted { uint parted[]; }; // the same
 layout(std430, binding = 11) buffer Flags { uint flags[]; };             // of slots
 #define POINTS_BINDING 12
 #include "blade_points.glsl"
@@ -28,7 +28,7 @@ void listNear(uint i) {
     [[unroll]] for (uint n = 0u; n < 3u; ++n) atomicOr(flags[anchors[n]], SLOT_ASKED);
 }
 
-// A prism is listed once, by the first of its corners.
+// Lists a prism once, at the first of its corners near a dead link.
 void listParted(uint i, uint corner) {
     const uint anchors[3] = prismAt(i).anchors;
     if (corner > 0u && isDirty(anchors[0]) || corner > 1u && isDirty(anchors[1])) return;
@@ -44,7 +44,7 @@ void main() {
     const bool isNewStroke = isCutting && blade.isCarried == 0u;
     const bool wasMet = (atomicOr(flags[slot.slot], isNear ? SLOT_MET : 0u) & SLOT_MET) != 0u;
     if (isNewStroke && !isNear && wasMet) atomicAnd(flags[slot.slot], ~SLOT_MET);
-    const bool isMet = isNear || isNewStroke && wasMet; // a new stroke forgets what older ones have met
+    const bool isMet = isNear || isNewStroke && wasMet; // a new stroke clears the hits of earlier ones
     const bool isParted = isDirty(slot.slot);
     if (!isMet && !isParted) return;
     for (uint k = 0u; k < slot.corners; ++k) {

@@ -1,5 +1,6 @@
 #version 460
-// Lists the vertices of a skin that skin_split may have to move: in cells that a cut has parted, and those that have moved to the blade.
+// Lists the vertices of a skin that skin_split may have to move: those in cells that a cut has split, and those that
+// have moved to the blade.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 
@@ -7,7 +8,7 @@ layout(std430, binding = 0) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 1) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 2) readonly buffer Moved { vec4 moved[]; };
 layout(std430, binding = 3) buffer Counts { uint counts[]; };
-layout(std430, binding = 4) writeonly buffer Listed { uint listed[]; }; // of a body from its first vertex on
+layout(std430, binding = 4) writeonly buffer Listed { uint listed[]; }; // each body begins at its first vertex
 
 void main() {
     const uint item = itemIndex(push.count);

@@ -1,6 +1,6 @@
 #version 460
-// Lists the vertices of a skin that the passes over what is near the blade ask for: those of listed prisms, and those that may move, by
-// the slots that they go with.
+// Lists the vertices of a skin for the passes near the blade: those of listed prisms, and those that may move, by
+// their anchor slots.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -9,7 +9,7 @@
 layout(std430, binding = 5) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 6) buffer Flags { uint flags[]; }; // of slots
 layout(std430, binding = 7) buffer Counts { uint counts[]; };
-layout(std430, binding = 8) writeonly buffer Listed { uint listed[]; }; // of a body from its first vertex on
+layout(std430, binding = 8) writeonly buffer Listed { uint listed[]; }; // each body begins at its first vertex
 layout(std430, binding = 9) writeonly buffer Placed { PlacedVertex placed[]; };
 #define POINTS_BINDING 10
 #include "blade_points.glsl"
@@ -25,7 +25,7 @@ void main() {
     const uint word = flags[slot.slot];
     const bool isNear = (word & SLOT_ASKED) != 0u || isNearBlade(slot.slot), wasListed = (word & SLOT_LISTED) != 0u;
     const bool isOfStroke = isNear || blade.isCarried != 0u && (word & SLOT_OF_STROKE) != 0u;
-    const bool isListed = isNear || !isOfStroke && (word & SLOT_OF_STROKE) != 0u; // a new stroke forgets what older ones have met
+    const bool isListed = isNear || !isOfStroke && (word & SLOT_OF_STROKE) != 0u; // a new stroke clears the state of earlier ones
     flags[slot.slot] = word & SLOT_MET | (isListed ? SLOT_LISTED : 0u) | (isOfStroke ? SLOT_OF_STROKE : 0u);
     if (!isListed && !wasListed) return;
     const uint first = slot.first + slot.corners;

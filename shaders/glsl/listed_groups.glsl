@@ -1,8 +1,8 @@
-// Lists the work groups that contacts are solved for: those of owners of lists, and those of particles. In the names
-// bounds and GROUPS_BINDING of a kernel; LISTS_OWNERS, LISTS_PARTICLES: which.
+// Lists the work groups with contacts: those of owners of lists (LISTS_OWNERS), and those of particles
+// (LISTS_PARTICLES). Requires the names bounds and GROUPS_BINDING of a kernel.
 layout(std430, binding = GROUPS_BINDING) buffer Arguments { DispatchArguments arguments[]; };
 #ifdef LISTS_OWNERS
-layout(std430, binding = GROUPS_BINDING + 1) buffer Marks { uint marks[]; }; // of each group: the last build that listed it
+layout(std430, binding = GROUPS_BINDING + 1) buffer Marks { uint marks[]; }; // of each group: the newest build that listed it
 layout(std430, binding = GROUPS_BINDING + 2) writeonly buffer Owners { uint owners[]; };
 
 void listOwner(uint i) {

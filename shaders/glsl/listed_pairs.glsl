@@ -1,16 +1,16 @@
-// Pairs as a search finds them, before lists of their owners are made (sort_pairs.glsl): each stands in a chain of both owners. A chain
-// begins with 2 x pair + 1 for the first owner of a pair, 2 x pair + 2 for the second; 0 is its end. In the names bounds, PAIRS_BINDING
-// and push.room of a kernel.
+// Pairs found by a search, before the lists of their owners are made (sort_pairs.glsl): each is in a chain of both
+// owners. A chain begins with 2 x pair + 1 for the first owner of a pair, 2 x pair + 2 for the second; 0 ends it.
+// Requires the names bounds, PAIRS_BINDING and push.room of a kernel.
 #ifdef FINDS_PAIRS
-layout(std430, binding = PAIRS_BINDING) writeonly buffer Pairs { uvec4 pairs[]; }; // both owners; what follows in their chains
+layout(std430, binding = PAIRS_BINDING) writeonly buffer Pairs { uvec4 pairs[]; }; // both owners; the next elements of their chains
 #else
-layout(std430, binding = PAIRS_BINDING) buffer Pairs { uvec4 pairs[]; }; // behind them, entries while they are sorted
+layout(std430, binding = PAIRS_BINDING) buffer Pairs { uvec4 pairs[]; }; // after them, entries during the sort
 #endif
 
 #ifdef FINDS_PAIRS
 const uint noPair = ~0u;
 
-// Where so many more are found than there is room for, the search ends: that bounds the time of a step.
+// Number of found pairs at which the search ends: this bounds the time of a step.
 uint mostPairs() { return 4u * (push.room / ENTRIES_OF_PAIR); }
 bool isFull() { return bounds.pairs > mostPairs(); }
 
@@ -21,7 +21,7 @@ uint newPair() {
 #else
 uint nextIn(uint chain) { return chain % 2u == 1u ? pairs[(chain - 1u) / 2u].z : pairs[(chain - 1u) / 2u].w; }
 uint otherIn(uint chain) { return chain % 2u == 1u ? pairs[(chain - 1u) / 2u].y : pairs[(chain - 1u) / 2u].x; }
-// No more than a list may have, and one.
+// Length of a chain, counted up to LIST_MOST + 1.
 uint lengthOf(uint chain) {
     uint n = 0u;
     for (; chain != 0u && n <= LIST_MOST; chain = nextIn(chain)) ++n;

@@ -1,5 +1,5 @@
-// Part of the kernels that follow a cut: the slots near the links that died (list_dirty). Whoever includes this has listedCounts[] and
-// listed[]; the caller returns where there is none.
+// The slots near dead links (list_dirty), for kernels that follow a cut. Requires listedCounts[] and listed[]; the
+// caller returns on NO_SLOT.
 #define NO_SLOT ~0u
 
 uint listedSlot() {

@@ -1,5 +1,5 @@
-// Part of gather_lattice: an invocation's way through the slices of a chunk. Two of them are at hand, the nodes' own and the
-// one above; what links to the one below contribute was summed when it was at hand.
+// Part of gather_lattice: the march of an invocation through the slices of a chunk. It holds two slices, that of the
+// nodes and the one above; the contribution of links to the slice below was summed when that slice was held.
 
 uint nodeAt(uint origin, int n) {
     return origin + n % COLUMNS_X + n / COLUMNS_X * push.rowStride;
@@ -10,7 +10,7 @@ void march(LatticeChunk chunk, Substep substep) {
     vec4 slice[SLICE], above[SLICE];
     Fill fill[NODES];
     uint alive[NODES]; // links of the slice
-    vec3 below[NODES]; // what the links to the slice before contribute
+    vec3 below[NODES]; // contribution of the links to the slice before
     loadSlice(origin - push.sliceStride, slice);
     loadSlice(origin, above);
     [[unroll]] for (int n = 0; n < NODES; ++n) {

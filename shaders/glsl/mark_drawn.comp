@@ -1,6 +1,6 @@
 #version 460
-// Mixed skins, of which few triangles are drawn: which, a bit for each of the MIXED_WORD triangles of an item. Those that are not are
-// points.
+// Marks the drawn triangles of mixed skins, a bit for each of the MIXED_WORD triangles of an item. Few are drawn; the
+// others are collapsed to points.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

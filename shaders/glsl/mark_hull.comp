@@ -1,7 +1,8 @@
 #version 460
-// The hull: every cell that a triangle touches, by the separating axis test of Schwarz and Seidel (2010), section 3. An item is
-// one row of cells, along x, in the bounding box of one triangle, so that a large triangle is many items. First the
-// triangles of every cell are counted, then (LISTS) they are listed; their order in a list varies and changes nothing.
+// The hull: finds every cell that a triangle touches, by the separating axis test of Schwarz and Seidel (2010),
+// section 3. An item is one row of cells, along x, in the bounding box of one triangle, so that a large triangle is
+// many items. First the triangles of every cell are counted, then (LISTS) they are listed; their order in a list
+// varies and changes nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "voxel.glsl"
 

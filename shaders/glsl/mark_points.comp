@@ -1,7 +1,8 @@
 #version 460
-// The surface of a cut, second pass: which points there are. On an edge between two parts of some tetrahedron, one for each
-// end, or one for both where another tetrahedron holds the ends together: that closes the front of a cut without a gap and
-// without a search. On a face that is split in three likewise; in the middle of what is split in three or four.
+// The surface of a cut, second pass: finds the points that exist. An edge between two parts of a tetrahedron has a
+// point for each end, or one for both if another tetrahedron connects the ends: that closes the front of a cut
+// without a gap and without a search. The same holds for a face split in three; a tetrahedron with three or four
+// parts has points at its centre.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -20,7 +21,7 @@ layout(std430, binding = 5) readonly buffer Listed { uint listed[]; };
 #include "seen_faces.glsl"
 #include "needed_points.glsl"
 
-// Whether any tetrahedron at a node is split, or a prism may be.
+// True if a tetrahedron at a node is split, or a prism may be.
 bool isSplitAround(uint i) {
     uint all = complex[i] & COMPLEX_HAS_PRISMS;
     [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) all |= partitions[i - slotOf(0u, k)];

@@ -1,14 +1,15 @@
 #version 460
-// Marks the islands that wake when a step begins: all, or those of particles on an anchor that has moved, and of those near
-// the way of a collider or a driven body, taken as the ball around it; and what is driven when that begins to move.
+// Marks the islands that wake at the start of a step: all, or those with a particle at a moved anchor or near the
+// path of a collider or of a driven body, treated as the ball around it; and driven particles when their body begins
+// to move.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "sleep.glsl"
 
 layout(std430, binding = 0) readonly buffer State { SleepState state; };
-layout(std430, binding = 1) readonly buffer Weights { float weights[]; };     // inverse mass of what is awake [1/kg]
+layout(std430, binding = 1) readonly buffer Weights { float weights[]; };     // inverse mass of awake particles [1/kg]
 layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; };  // of what sleeps: x [m]
+layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; };  // of sleeping particles: x [m]
 layout(std430, binding = 4) readonly buffer Islands { uint islands[]; };
 layout(std430, binding = 5) buffer Marks { uint marks[]; };
 layout(std430, binding = 6) readonly buffer Attachments { AttachedParticle attachments[]; };
@@ -26,8 +27,9 @@ float wayTo(vec3 x, vec3 a, vec3 b) {
     return length(x - a - t * d);
 }
 
-// A little farther than touching: what rests on a collider touches it to rounding. A poke that comes has made no way, one
-// that has shrunk reaches as far as before.
+// True if x is near a moving collider. Tests slightly beyond the contact distance: a particle at rest on a collider
+// touches it up to rounding. A kinematic collider that appears has no path; one that has shrunk counts with its
+// extent before.
 bool isNearMoving(vec3 x, float offset) {
     bool isNear = false;
     for (uint c = 0u; c < push.colliders; ++c) {

@@ -1,11 +1,11 @@
 #version 460
-// Mixed skins, second pass: the corners of whole triangles that their parts stand for.
+// Mixed skins, second pass: marks the corners of whole triangles that are replaced by their parts.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Wholes { WholeTriangle wholes[]; };
 layout(std430, binding = 1) readonly buffer States { uint states[]; };
-layout(std430, binding = 2) writeonly buffer Marks { uint marks[]; }; // of vertices that hang
+layout(std430, binding = 2) writeonly buffer Marks { uint marks[]; }; // of bound vertices
 layout(push_constant) uniform Push { CountPush push; };
 
 void main() {

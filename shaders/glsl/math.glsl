@@ -1,5 +1,6 @@
-// Products and sums of vectors that are the same bits in every kernel: dot(), cross() and length() a compiler computes as it wants, products and
-// sums it may not fuse (vk::withoutContraction). tests/vk/test_exact.cpp lists the functions that promise equal bits.
+// Products and sums of vectors with equal bits in every kernel: a compiler chooses how to compute dot(), cross() and
+// length(), but may not fuse these products and sums (vk::withoutContraction). tests/vk/test_exact.cpp lists the
+// functions that promise equal bits.
 #ifndef MATH_GLSL
 #define MATH_GLSL
 
@@ -9,7 +10,7 @@ vec3 cross3(vec3 a, vec3 b) { return a.yzx * b.zxy - a.zxy * b.yzx; }
 
 float length3(vec3 a) { return sqrt(dot3(a, a)); }
 
-// A radius, and how far its owner goes with velocity v in a substep of length h.
+// A radius plus the distance covered at velocity v in a substep of length h.
 float sizeOf(float radius, float h, vec3 v) { return radius + h * length3(v); }
 
 #endif

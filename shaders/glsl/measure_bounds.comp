@@ -1,5 +1,6 @@
 #version 460
-// The box around the particles in the grid. An invocation measures a chunk, so that few meet at the shared words.
+// Computes the box around the particles in the grid. An invocation measures a chunk, so that there are few atomics on
+// the shared words.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "hash_grid.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Counts particles with a non-finite state. Integer atomics only, and only where something is wrong.
+// Counts particles with a non-finite state. Uses integer atomics, and only for such particles.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -10,7 +10,7 @@ layout(std140, binding = 3) uniform Step { StepParams step; };
 #define SLOTS_BINDING 4
 #include "slots.glsl"
 
-// All exponent bits set: Inf or NaN. On bits, so that no compiler may assume it away.
+// False if all exponent bits are set: Inf or NaN. Tests bits, so that no compiler may assume the test away.
 bool isFinite(vec3 a) {
     return all(notEqual(floatBitsToUint(a) & uvec3(0x7f800000u), uvec3(0x7f800000u)));
 }

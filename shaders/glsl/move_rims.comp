@@ -1,6 +1,7 @@
 #version 460
-// Vertices of a skin on the wrong side of a blade, which has passed between them and the particle that they go with: once that has lost a
-// link, they move along the skin to where the blade was, so that both rims of the cut are there; the skin beyond goes with the other side.
+// Moves skin vertices that a blade has separated from their anchors: once the anchor has lost a link, such a vertex
+// moves along the skin to the place where the blade passed, so that both rims of the cut are there; the skin beyond
+// belongs to the other side.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -20,17 +21,17 @@ layout(std430, binding = 10) buffer Rims { uint rims[]; };
 layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 12) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 13) readonly buffer Listed { uint listed[]; }; // vertices (list_vertices)
-layout(std430, binding = 14) readonly buffer Placed { PlacedVertex placed[]; }; // likewise (place_vertices)
+layout(std430, binding = 14) readonly buffer Placed { PlacedVertex placed[]; }; // by vertex (place_vertices)
 layout(std430, binding = 15) readonly buffer Planes { vec4 planes[]; };         // of the skin
 
 #include "near_skin.glsl"
 #include "blade_sweep.glsl"
 
 const float mostWay = 1.5;      // [cells]
-const float leastVolume = 1e-3; // of its own at rest: flatter material does not say where it was
-const float leastTangent = 0.2; // of the normal of a blade along the skin, squared: flatter ones shave
+const float leastVolume = 1e-3; // relative to its rest volume: flatter material gives no rest position
+const float leastTangent = 0.2; // of the blade's normal in the plane of the skin, squared: a blade at a smaller angle shaves along the skin
 
-// Where the blade that meets the way to its particle lets the vertex be, at rest; w = 0 where it does not.
+// The rest position to which the blade between the vertex and its anchor moves the vertex; w = 0 if it does not.
 vec4 behindBlade(HungVertex self, PlacedVertex vertex, vec3 plane) {
     const uint i = self.anchor;
     const vec3 x = vertex.now.xyz;
@@ -40,7 +41,7 @@ vec4 behindBlade(HungVertex self, PlacedVertex vertex, vec3 plane) {
     const mat3 turn = gradientAt(i);
     if (!(abs(determinant(turn)) > leastVolume)) return vec4(0.0);
     const vec3 n = meeting.normal / size;
-    const vec3 skin = cofactor(turn) * plane; // zero where its triangles are all folded upon each other
+    const vec3 skin = cofactor(turn) * plane; // zero if its triangles are folded upon each other
     const float area = dot(skin, skin);
     vec3 way = area > 0.0 ? n - dot(n, skin) / area * skin : n;
     if (dot(way, way) < leastTangent) way = n;
@@ -52,16 +53,16 @@ vec4 behindBlade(HungVertex self, PlacedVertex vertex, vec3 plane) {
 void main() {
     readBlade();
     const uint count = counts[SKIN_LISTS * push.run + SKIN_VERTICES], item = itemIndex(count);
-    if (item >= count || blade.quads == 0u || !isFinished(status)) return; // strokes go on over steps without a blade
+    if (item >= count || blade.quads == 0u || !isFinished(status)) return; // strokes continue over steps without a blade
     const uint v = listed[push.first + item];
     const HungVertex self = hungAt(v);
     vec4 to = moved[v];
     const bool isNear = isNearBlade(self.anchor);
     if (to.w == VERTEX_MOVED || !isNear && to.w == 0.0) return;
     if (blade.isCarried == 0u) to = vec4(0.0);
-    if (isNear && (rims[v] == 0u || blade.isCarried != 0u)) { // beside an older cut what a stroke begins with leaves the rim where it is
+    if (isNear && (rims[v] == 0u || blade.isCarried != 0u)) { // at an older cut, the first step of a stroke does not move the rim
         const vec4 behind = behindBlade(self, placed[v], planes[v].xyz);
-        if (behind.w > 0.0) to = to.w == 0.0 ? behind : vec4(0.0); // else it came back
+        if (behind.w > 0.0) to = to.w == 0.0 ? behind : vec4(0.0); // else the vertex came back
     }
     if (to.w > 0.0 && bitCount(links[self.anchor]) < int(self.weights.w)) {
         to.w = VERTEX_MOVED;

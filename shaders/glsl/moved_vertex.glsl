@@ -1,4 +1,5 @@
-// Where such a vertex has moved to beside a cut (move_rims), from MOVED_BINDING: w = VERTEX_MOVED, or it has not.
+// Rest positions to which bound vertices have moved beside a cut (move_rims), from MOVED_BINDING: valid if w =
+// VERTEX_MOVED.
 #ifdef TEXELS
 layout(binding = MOVED_BINDING) uniform samplerBuffer moved;
 #define MOVED(v) texelFetch(moved, int(v))

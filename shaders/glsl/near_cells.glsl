@@ -1,4 +1,4 @@
-// Where find_contacts looks for those near a particle, in the hash grid. In the names of that kernel.
+// Part of find_contacts: searches the hash grid around a particle. Requires the names of that kernel.
 
 bool isNear(uint i, uint j, float radius, vec3 d) {
     const float touching = radius + (hasOneRadius ? radius : RADIUS(j)), reach = touching + push.margin;
@@ -12,9 +12,9 @@ void list(uint i, uint j) {
     pairs[pair] = uvec4(i, j, next, nextOfOther);
 }
 
-// Lists those near particle i among three rows of cells. The rows are visited in one loop, because lanes
-// wait for the longest list among them: of three rows together it is less above the mean than of one. A batch is measured
-// first and the few that may be near are looked at then: what stands under a condition is what costs.
+// Lists the near particles of particle i in three rows of cells. The rows are visited in one loop, because lanes wait
+// for the longest list among them, and the length of three rows together exceeds the mean by less than that of one. A
+// batch is measured first and only the few that may be near are processed then: branches are what costs.
 void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], uint cells[3], Frame frame, uint total) {
     uint start[3], count[3];
     [[unroll]] for (int row = 0; row < 3; ++row) {
@@ -41,14 +41,14 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], u
             const vec3 xj = uintBitsToFloat(other.xyz);
             const ivec3 cell = cellOf(xj, frame);
             const ivec2 row = firstCells[visit < second ? 0 : visit < third ? 1 : 2].yz;
-            if (cell.yz != row || cell == home && other.w <= i) continue; // of two in one cell the first lists both
+            if (cell.yz != row || cell == home && other.w <= i) continue; // of two in one cell the first lists the pair
             if (isFast(other.w) || !isNear(i, other.w, radius, x - xj)) continue;
             list(i, other.w);
         }
     }
 }
 
-// Half of the 27 cells around a particle: those behind its own in z, y, x, and its own. A pair is found once.
+// Searches half of the 27 cells around a particle: those after its own in z, y, x, and its own. A pair is found once.
 void searchCells(uint i, vec3 x, float radius, Frame frame) {
     const ivec3 home = cellOf(x, frame);
     const uint total = START(push.cells);

@@ -1,10 +1,10 @@
-// What find_edges knows of an edge, and which pairs it lists. In the names of that kernel.
+// Part of find_edges: the data of an edge, and the test for pairs to list. Requires the names of that kernel.
 struct Searched {
     uint index;
     ContactEdge edge;
     vec3 middle;
     vec3 a, ab;
-    float way, thickness; // way of the faster end in this substep, and what it is stretched by (place_edges) [m]
+    float way, thickness; // motion of the faster end in this substep; thickness with stretch (place_edges) [m]
 };
 
 float wayOf(uint e) { return sizeOf(0.0, step.h, SPEED(e).xyz); }
@@ -15,7 +15,7 @@ Searched searchedOf(uint e) {
     return Searched(e, edge, middles[e].xyz, a, POSITION(edge.b).xyz - a, wayOf(e), THICKNESS(e));
 }
 
-bool isApart(ContactEdge edge, float way) { // as part_points has it
+bool isApart(ContactEdge edge, float way) { // as in part_points
     const float size = edge.radius + way;
     return !(size <= push.most);
 }
@@ -24,9 +24,9 @@ bool isApart(ContactEdge edge, float way) { // as part_points has it
 
 bool shareAnEnd(ContactEdge e, ContactEdge f) { return e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b; }
 
-// But for excluded pairs, of which whoever asks must look in a table.
+// True if a pair must be listed; the caller tests for excluded pairs.
 bool isNear(Searched one, uint f, ContactEdge edge, float way, vec3 middle) {
-    if (f == one.index || edge.radius < 0.0) return false; // that, cut
+    if (f == one.index || edge.radius < 0.0) return false; // removed by a cut
     const vec3 d = one.middle - middle;
     const float more = push.margin + (one.way + way), outer = one.edge.radius + edge.radius + more;
     if (dot(d, d) >= outer * outer || (one.edge.isMoving | edge.isMoving) == 0u || shareAnEnd(one.edge, edge)) return false;
@@ -35,10 +35,10 @@ bool isNear(Searched one, uint f, ContactEdge edge, float way, vec3 middle) {
     return squaredBetween(one.a - c, one.ab, POSITION(edge.b).xyz - c) < reach * reach;
 }
 
-// Which of two edges in the grid looks for the other: half of all do so for each, and near ones as many as far ones.
+// True if, of two edges in the grid, e searches for f: each edge searches for half of all others, at every distance.
 bool looksFor(uint e, uint f) { return ((e ^ f) & 1u) == 0u ? e < f : f < e; }
 
-// The owner of a pair, in whose list it stands: an edge that moves, if the other never does.
+// True if the first edge owns a pair, which is in the list of its owner: an edge that moves, if the other never does.
 bool owns(Searched one, uint f, bool isMoving) {
     const bool moves = one.edge.isMoving != 0u;
     return moves == isMoving ? looksFor(one.index, f) : moves;

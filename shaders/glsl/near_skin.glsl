@@ -1,12 +1,11 @@
-// Part of the kernels that find which slots of a skin the blade of a step may meet. Whoever includes this has blade_places.glsl and
-// blade_points.glsl.
+// Finds the slots of a skin that the blade of a step may meet. Requires blade_places.glsl and blade_points.glsl.
 #include "math.glsl"
 
-const float skinReach = 2.5; // of what goes with a particle, along an axis [cells]
+const float skinReach = 2.5; // largest distance of a skin vertex from its anchor, along an axis [cells]
 
-// A quad of the strip is nowhere beyond its four points, along whatever direction: along that across it says most, as its box, which lies along
-// the axes, is nearly all of the body where a blade does not. What goes with a particle is in a box around it, too: so far that reaches.
-// Exact: several kernels ask it of one slot.
+// True if the blade may meet vertices with anchor i: projects the strip's quads and the box around the vertices onto
+// the normal of each quad. A quad never extends beyond its four points in any direction; its normal separates best,
+// as the axis-aligned box of a slanted quad covers nearly all of the body. Exact: several kernels test the same slot.
 bool isNearBlade(uint i) {
     const vec3 now = PLACE(i), then = placeBefore(i);
     const float reach = skinReach * push.spacing;

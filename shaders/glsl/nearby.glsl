@@ -1,14 +1,15 @@
-// Where a point beside a cut is that goes with a particle: the mean of the motions around that and around all that are linked with it, near ones
-// more, so that points next to each other move alike whichever particles they go with. Whoever includes this says what are, of a slot,
+// Position beside a cut of a point bound to a particle: the mean of the affine motions around that particle and
+// around all that are linked with it, weighted towards near ones, so that adjacent points move alike whichever
+// particles they are bound to. The including kernel defines, for a slot,
 //
-//   NEAR(i), LINKS(i)   whether how the material has turned is known there, and its links
-//   HOME(i)             where its particle was at rest
+//   NEAR(i), LINKS(i)   whether its gradient is known, and its live links
+//   HOME(i)             rest position of its particle
 //   TURN(i)             the gradient
-//   AT(i)               where its particle is
+//   AT(i)               position of its particle
 const float meanReach = 2.0; // [cells]
 
 struct Nearby {
-    vec3 place, end; // where the point and another one would be
+    vec3 place, end; // position of the point, and of a second one
     mat3 turn;
 };
 

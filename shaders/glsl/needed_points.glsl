@@ -1,7 +1,8 @@
-// Part of mark_points: which points an edge and a face need. A point for each part that some tetrahedron or prism has there apart; one for
-// several where another one of those around holds them together. In the names of that kernel.
+// Part of mark_points: finds the points of an edge and of a face. There is a point for each part that a tetrahedron
+// or prism has separated there, and one for several parts if another one around connects them. Requires the names of
+// that kernel.
 
-// What prisms on the two faces of a tetrahedron at the edge from corner a to b make of it.
+// Applies the prisms on the two faces of a tetrahedron at the edge from corner a to b.
 void seePrisms(uint cell, uint p, uint a, uint b, inout bool isNeeded, inout bool isJoined) {
     [[dont_unroll]] for (uint m = 0u; m < 4u; ++m) {
         const Face owner = ownerOf(cell, p, m);
@@ -18,7 +19,7 @@ void markEdge(uint i, uint d, inout uvec4 own) {
     bool isNeeded = hasThinPrisms(complex[i], d), isJoined = false;
     [[dont_unroll]] for (uint n = 0u; n < 6u; ++n) {
         const uint around = aroundOf(d, n), low = around & 7u, p = around >> 3, cell = i - slotOf(0u, low);
-        const uint a = uint(bitCount(low)), b = uint(bitCount(low | d)); // corners of a way have 0, 1, 2, 3 bits
+        const uint a = uint(bitCount(low)), b = uint(bitCount(low | d)); // corners of a path have 0, 1, 2, 3 bits
         const uvec4 labels = labelsOf(partitionOf(partitions[cell], p));
         if (hasTetrahedron(complex[cell], p)) {
             if (labels[a] == labels[b]) isJoined = true;

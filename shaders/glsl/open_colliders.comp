@@ -1,5 +1,5 @@
 #version 460
-// Keeps where a particle is and how fast when a substep begins, for scenes in which something rebounds (solve_colliders).
+// Saves position and velocity of particles at the start of a substep, for scenes with restitution (solve_colliders).
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

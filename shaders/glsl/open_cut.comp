@@ -1,5 +1,6 @@
 #version 460
-// Opens a step with a blade: puts down where every particle is, and how far anything has moved since the last blade.
+// Opens a step with a blade: stores the position of every particle, and the largest displacement since the last
+// blade.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 
@@ -30,5 +31,5 @@ void main() {
     places[i] = vec4(x, 1.0);
     const vec4 then = BEFORE(i);
     const uint way = then.w > 0.0 ? floatBitsToUint(distance(x, then.xyz)) : 0u;
-    if (way > work.farthest) atomicMax(work.farthest, way); // whole numbers order like the floats: none is negative
+    if (way > work.farthest) atomicMax(work.farthest, way); // integers in the order of the floats: none is negative
 }

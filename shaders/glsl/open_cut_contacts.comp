@@ -1,6 +1,7 @@
 #version 460
-// In the first substep after a cut, when contacts are listed anew: pairs that a link held until now may overlap, and part at a
-// limited speed, as pairs do that overlap when a scene is loaded (contacts: 3). Both copies of a pair get the same bits.
+// Runs in the first substep after a cut, after the lists were rebuilt: pairs whose link was cut may overlap, and
+// separate at a limited speed, like pairs that overlap when a scene is loaded. Both copies of a pair get the same
+// bits.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -9,10 +10,10 @@
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
-layout(std430, binding = 2) readonly buffer Places { vec4 places[]; }; // when the step began [m]
+layout(std430, binding = 2) readonly buffer Places { vec4 places[]; }; // at the start of the step [m]
 layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
-layout(std430, binding = 5) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m]
+layout(std430, binding = 5) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m]
 
 void main() {
     const uint item = itemIndex(push.count);
@@ -24,6 +25,6 @@ void main() {
         const ContactCandidate candidate = contacts[slot];
         if ((dead & linksTo(int(candidate.other) - int(i), push.rowStride, push.sliceStride)) == 0u) continue;
         const float overlap = candidate.reach - length(places[i].xyz - places[candidate.other].xyz);
-        slips[slot].w = clamp(overlap, 0.0, 0.999999 * candidate.reach); // all of it would be what interlocks
+        slips[slot].w = clamp(overlap, 0.0, 0.999999 * candidate.reach); // an overlap equal to the reach would mark an interlocked pair
     }
 }

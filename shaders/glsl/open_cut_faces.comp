@@ -1,8 +1,9 @@
 #version 460
-// In the first substep after a cut, when contacts are listed anew: points that are nearer than touching to a face that this step has
-// opened part from it at a limited speed, as overlaps do that a scene is loaded with. Links may have held them so near, or particles alone.
-// So do points of a body that may be cut from its own faces: one that diagonals alone joined to a face touched it at a part of the distance
-// (linked_reach.h), and touches it at all of it once they are dead.
+// Runs in the first substep after a cut, after the lists were rebuilt: points within reach of a face that this step
+// has opened separate from it at a limited speed, like overlaps at the load of a scene, whether links or only
+// contacts between particles held them so near. The same applies to points of a body that may be cut and the body's
+// own faces: a point joined to a face by diagonals alone touched it at a part of the distance (linked_reach.h), and
+// touches it at the whole distance once they are dead.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "triangle.glsl"
@@ -14,14 +15,14 @@ layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // C
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) buffer Memory { vec4 memory[]; }; // w: side and overlap, 0 = has not touched
 layout(std140, binding = 6) uniform Step { StepParams step; };
-layout(std430, binding = 7) readonly buffer Opened { uint opened[]; }; // by face, as part_solid_faces has it
+layout(std430, binding = 7) readonly buffer Opened { uint opened[]; }; // by face, from part_solid_faces
 layout(push_constant) uniform Push { FacePush push; };
 #define MARKS_BINDING 8
 #include "linked_marks.glsl"
 #include "face_meeting.glsl"
 #include "linked_reach.h"
 
-// When the substep began; 0 behind the face [m].
+// Overlap at the start of the substep; 0 behind the face [m].
 float overlapBefore(Meeting m) {
     const float h = step.h;
     if (m.front * m.height < 0.0 || m.front * m.heightBefore < 0.0) return 0.0;
@@ -39,7 +40,8 @@ void main() {
         const Meeting m = meetingOf(i, candidate);
         if (isSliver(m.triangle)) continue;
         const float overlap = overlapBefore(m);
-        // A pair that touched already did so at LINKED_REACH, or else rests on the face at its whole distance, and is to go on resting.
+        // A pair that touched before did so at LINKED_REACH, or rests on the face at its whole distance, and must
+        // stay at rest.
         if (memory[element].w != 0.0 && overlap < (1.0 - LINKED_REACH) * m.reach) continue;
         if (overlap > max(0.0, abs(memory[element].w) - 1.0)) memory[element].w = m.front * (1.0 + overlap);
     }

@@ -1,13 +1,13 @@
 #version 460
-// Begins a step in which hands may hold something: compares what the host says with what they hold. Where one takes hold or
-// lets go, all that is held is listed again. One group, an invocation a hand.
+// Begins a step with grabs: compares the grabs set by the host with the present ones. If one begins or ends, all held
+// particles are listed again. One group, one invocation a grab.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Hands { GrabHand hands[]; };
 layout(std430, binding = 1) buffer States { GrabState states[]; };
 layout(std430, binding = 2) writeonly buffer Holding { DispatchArguments holding; };
-layout(std430, binding = 3) buffer Pulling { DispatchArguments pulling; }; // unused0: how many are held
+layout(std430, binding = 3) buffer Pulling { DispatchArguments pulling; }; // unused0: number of held particles
 layout(push_constant) uniform Push { GrabPush push; };
 
 shared uint changes;

@@ -1,5 +1,6 @@
 #version 460
-// Opens the temporary constraints of a substep of `jacobi`: no plane touched yet, and the velocity an impact has.
+// Opens the contacts of a substep of `jacobi`: no plane is touched yet, and the velocity of an impact is the present
+// one.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// Begins a step of a scene that sleeps: says whether there may be a reason to wake somebody: another gravity or length of the
-// step, a wish of the host, an anchor or a collider that is not where it was, a cut (wake_cut). One group.
+// Begins a step of a scene that sleeps: detects reasons to wake: a change of gravity or of the step length, a request
+// by the host, a moved anchor or collider, a cut (wake_cut). One group.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -8,9 +8,9 @@ layout(std430, binding = 0) buffer State { SleepState state; };
 layout(std430, binding = 1) buffer Status { StatusWords status; };
 layout(std430, binding = 2) writeonly buffer Waking { DispatchArguments waking[]; };
 layout(std140, binding = 3) uniform Step { StepParams step; };
-layout(std430, binding = 4) readonly buffer Anchors { vec4 anchors[]; };         // of each attachment: from, to [m]
+layout(std430, binding = 4) readonly buffer Anchors { vec4 anchors[]; };         // of each attachment: start and end of the step [m]
 layout(std430, binding = 5) readonly buffer SeenAnchors { vec4 seenAnchors[]; }; // at the end of the last step
-layout(std430, binding = 6) readonly buffer Ways { ColliderPose ways[]; };       // of each collider: from, to
+layout(std430, binding = 6) readonly buffer Ways { ColliderPose ways[]; };       // of each collider: start and end of the step
 layout(std430, binding = 7) readonly buffer SeenPoses { ColliderPose seenPoses[]; };
 layout(push_constant) uniform Push { SleepPush push; };
 
@@ -31,9 +31,9 @@ void main() {
     if (isChanged) atomicOr(changes, isDriven ? 3u : 1u);
     barrier();
     if (lane > 0u) return;
-    status.frame = step.frame; // nobody else says so while all sleep
+    status.frame = step.frame; // no other kernel writes it while all particles sleep
     status.sleeping = state.sleeping;
-    state.wakes |= step.wakes; // until a step comes to its end
+    state.wakes |= step.wakes; // until a step finishes
     const bool wakesAll = state.wakes != 0u || state.gravity.xyz != step.gravity.xyz || state.h != step.h;
     state.wakesAll = wakesAll ? 1u : 0u;
     const bool wakes = state.sleeping > 0u && (wakesAll || changes != 0u || state.touched != 0u);

@@ -1,6 +1,6 @@
 #version 460
-// Mixed skins, first pass: whole triangles that their parts stand for, since pieces stand for one of these or it may not be where the
-// whole triangle has it, beside a cut.
+// Mixed skins, first pass: marks whole triangles that are replaced by their parts, because one part is drawn in
+// pieces, or a vertex beside a cut may have left its place in the whole triangle.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -28,6 +28,6 @@ void main() {
     if (i >= push.count) return;
     const SkinFace face = faceAt(i);
     if (face.whole == NO_WHOLE) return;
-    const uint corners[3] = prismAt(cellOf(face) - push.first).vertices; // its item of the surface is a prism
+    const uint corners[3] = prismAt(cellOf(face) - push.first).vertices; // the surface item of a part is a prism
     if (isInPieces(face) || isBesideCut(corners[0]) || isBesideCut(corners[1]) || isBesideCut(corners[2])) states[face.whole] = WHOLE_PARTED;
 }

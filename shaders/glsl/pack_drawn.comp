@@ -1,5 +1,5 @@
 #version 460
-// Mixed skins: the triangles that are drawn, one behind the other. Who draws them meets no others.
+// Mixed skins: copies the drawn triangles into a contiguous range of indices, so that a draw reads no others.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

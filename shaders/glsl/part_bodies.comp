@@ -1,5 +1,5 @@
 #version 460
-// Lets hands hold pieces each for itself: what is linked to a particle, and the mass of that.
+// Updates the particle data of grabs after a cut: each piece is held by itself, with its own mass.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// Edges on a sheet of which the link is dead, or the piece was removed, touch nothing, as edges with a radius below 0 do, and do
-// again where links are given back. Where links at one have changed, all lists are made again.
+// Disables the edges of a sheet whose link is dead, or whose piece was removed, by a radius below 0, and enables them
+// again when links are restored. If links at an edge have changed, all lists are rebuilt.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "link_masks.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Faces on a sheet between corners that a cut has parted leave the list of those that look for points near them, and come back with
-// links that are given back; faces of crumbs leave it too. Where links around one have changed, all lists are made again.
+// Removes the faces of a sheet between corners separated by a cut from the list of faces that search for points, and
+// adds them again when links are restored; removes faces of fragments too. If links around a face have changed, all
+// lists are rebuilt.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -8,7 +9,7 @@ layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
 layout(std430, binding = 2) readonly buffer Faces { CutFace faces[]; };
 layout(std430, binding = 3) writeonly buffer Searched { uint searched[]; }; // ~0 = none
-layout(std430, binding = 4) writeonly buffer Large { uint large[]; };       // likewise
+layout(std430, binding = 4) writeonly buffer Large { uint large[]; };       // the same
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };

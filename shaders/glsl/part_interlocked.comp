@@ -1,6 +1,7 @@
 #version 460
-// Interlocked bodies, second pass: each contact with a partner parts the two, as a part of themselves 1 / (number of such
-// contacts) each, like gather_contacts; momentum is exact to rounding. Ordinary contacts come after.
+// Interlocked bodies, second pass: each contact with a partner body separates the two particles, with a share 1 /
+// (number of such contacts) of the mass of each, like gather_contacts; momentum is exact to rounding. Ordinary
+// contacts come after.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "interlocks.glsl"
@@ -8,7 +9,7 @@
 layout(std430, binding = 5) readonly buffer Pairs { InterlockPair pairs[]; };
 layout(std430, binding = 6) readonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass
 layout(std430, binding = 8) readonly buffer Moving { vec4 moving[]; };
-layout(std430, binding = 9) buffer Predicted { vec4 predicted[]; };   // w: passed on
+layout(std430, binding = 9) buffer Predicted { vec4 predicted[]; };   // w: not changed
 layout(std430, binding = 10) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
 #include "forces.glsl"
 
@@ -20,7 +21,7 @@ vec3 impulseFrom(uint i, uvec2 candidate, vec4 self, vec3 velocity) {
     if (!touches(d, reach)) return vec3(0.0);
     const vec3 n = normalOf(i, j, d), way = step.h * (velocity - moving[j].xyz);
 #ifdef FORCES
-    if (self.w + other.w == 0.0) return vec3(0.0); // two that never move give each other nothing
+    if (self.w + other.w == 0.0) return vec3(0.0); // two static particles exchange nothing
 #endif
     return partingOf(n, d, way, reach, step.h * push.recoverySpeed) / max(self.w + other.w, 1e-30) * n;
 }

@@ -1,6 +1,6 @@
 #version 460
-// After pieces were found anew: what is linked, for those that sleep. A piece is named by its lowest slot, which may be one
-// that never moves.
+// Updates the components that sleep as one after pieces were found again. A component is named by the lowest slot of
+// its piece, which may hold a static particle.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 

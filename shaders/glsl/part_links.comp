@@ -1,6 +1,6 @@
 #version 460
-// What a sheet that may be cut has in lists loses its stiffness with the links that it leads over, and has it back with them.
-// BENDS: bends, else links.
+// Disables the listed links of a sheet that may be cut, BENDS: its bends, when a link that they span is dead, by
+// setting their stiffness to 0, and enables them again when links are restored.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

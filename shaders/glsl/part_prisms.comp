@@ -1,6 +1,6 @@
 #version 460
-// The surface of a cut, second pass for skins of meshes: how the corners of every prism near the last blade hang together, which points
-// there are (as mark_points has it for tetrahedra), and how many triangles.
+// The surface of a cut, second pass for skins of meshes: finds the connectivity of the corners of every prism near
+// the last blade, the points that exist (as mark_points does for tetrahedra), and the number of triangles.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -9,11 +9,11 @@
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer ListCounts { uint listCounts[]; };
 layout(std430, binding = 2) readonly buffer Prisms { SkinPrism prisms[]; };
-layout(std430, binding = 3) writeonly buffer Near { uint near[]; };    // 1 = a point may hang on the particle
+layout(std430, binding = 3) writeonly buffer Near { uint near[]; };    // 1 = a point may be bound to the particle
 layout(std430, binding = 4) writeonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 5) writeonly buffer Counts { SurfaceCounts counts[]; };
-layout(std430, binding = 6) writeonly buffer Rims { uint rims[]; };    // of vertices that hang: 1 = a triangle around is in pieces
-layout(std430, binding = 7) readonly buffer Parted { uint parted[]; };  // prisms near what was cut (list_prisms)
+layout(std430, binding = 6) writeonly buffer Rims { uint rims[]; };    // of bound vertices: 1 = a triangle around it is drawn in pieces
+layout(std430, binding = 7) readonly buffer Parted { uint parted[]; };  // prisms near dead links (list_prisms)
 layout(push_constant) uniform Push { PrismPush push; };
 
 #include "skin_prisms.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Faces of voxel bodies after a cut. A square is part of the surface where the cell on one side alone is whole: then it faces away from
-// that cell, and looks for points near it. So what a cut lays open has faces in the same step. Faces of crumbs have none.
+// Updates the faces of voxel bodies after a cut. A square belongs to the surface if exactly one of the cells on its
+// two sides is whole: it then faces away from that cell, and searches for points near it. So the faces that a cut
+// opens exist in the same step. Fragments have no faces.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "link_masks.glsl"
@@ -9,12 +10,12 @@ layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
 layout(std430, binding = 2) readonly buffer Parts { CutSolidFace parts[]; };
 layout(std430, binding = 3) buffer Searched { uint searched[]; }; // ~0 = none
-layout(std430, binding = 4) buffer Large { uint large[]; };       // likewise
+layout(std430, binding = 4) buffer Large { uint large[]; };       // the same
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
 layout(std430, binding = 8) buffer Faces { ContactFace faces[]; };
-layout(std430, binding = 9) writeonly buffer Opened { uint opened[]; }; // by face: 1 = new, or a link at a corner of it has died
+layout(std430, binding = 9) writeonly buffer Opened { uint opened[]; }; // by face: 1 = new, or a link at one of its corners has died
 layout(std430, binding = 10) readonly buffer Corners { uint corners[]; }; // as in rows_of.glsl
 layout(std430, binding = 11) writeonly buffer CornerEnds { uint cornerEnds[]; };
 layout(push_constant) uniform Push { CutFacesPush push; };
@@ -33,12 +34,12 @@ void main() {
                        links[face.c] != savedLinks[face.c];
     opened[part.face] = isNew && left != ~0u ? 1u : 0u;
     if (!isNew) return;
-    if (left != ~0u) { // all faces around these corners count from now on
+    if (left != ~0u) { // from now on all faces around these corners count
         cornerEnds[face.a] = corners[face.a + 1u];
         cornerEnds[face.b] = corners[face.b + 1u];
         cornerEnds[face.c] = corners[face.c + 1u];
     }
-    // The sign of a thickness of 0 counts, too.
+    // The sign of a thickness of 0 counts too.
     const uint front = isBelow == (part.isFrontUp != 0u) ? 0u : 0x80000000u;
     if (left != ~0u) faces[part.face].thickness = uintBitsToFloat(floatBitsToUint(face.thickness) & 0x7fffffffu | front);
     if (part.isLarge != 0u) large[part.place] = left;

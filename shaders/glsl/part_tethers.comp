@@ -1,5 +1,5 @@
 #version 460
-// Tethers between particles that a cut has parted hold nothing any more, and do again where links are given back.
+// Disables tethers between particles that a cut has separated, and enables them again when links are restored.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

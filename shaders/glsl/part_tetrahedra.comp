@@ -1,5 +1,5 @@
 #version 460
-// The surface of a cut, first pass: which corners of every tetrahedron near the last blade hang together.
+// The surface of a cut, first pass: finds the connectivity of the corners of every tetrahedron near the last blade.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -10,7 +10,7 @@ layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer Complex { uint complex[]; };
 layout(std430, binding = 2) readonly buffer ListedCounts { uint listedCounts[]; };
 layout(std430, binding = 3) writeonly buffer Partitions { uint partitions[]; }; // of the cell above a slot, 5 bits each
-layout(std430, binding = 4) writeonly buffer Near { uint near[]; };             // 1 = something is asked how it has turned there
+layout(std430, binding = 4) writeonly buffer Near { uint near[]; };             // 1 = the gradient is needed there
 layout(std430, binding = 5) readonly buffer Listed { uint listed[]; };
 #include "listed_slot.glsl"
 
@@ -21,18 +21,18 @@ bool isLinked(uint words[8], uint low, uint high) {
 
 uint partitionOf(uint words[8], uvec4 corners) {
     uvec4 labels = uvec4(0u, 1u, 2u, 3u);
-    [[dont_unroll]] for (int round = 0; round < 3; ++round) // three links at most lead from a corner to another
+    [[dont_unroll]] for (int round = 0; round < 3; ++round) // a path between two corners has at most three links
         [[dont_unroll]] for (int a = 0; a < 3; ++a)
             [[dont_unroll]] for (int b = a + 1; b < 4; ++b)
                 if (isLinked(words, corners[a], corners[b])) labels[a] = labels[b] = min(labels[a], labels[b]);
     return labels.y | labels.z << 1 | labels.w << 3;
 }
 
-// Whether all edges of a cell's tetrahedra live: those of a corner lead along the axes on which it is low.
+// True if all edges of a cell's tetrahedra are alive: those owned by a corner lead along the axes on which it is low.
 bool isWhole(uint words[8]) {
     uint dead = 0u;
     [[unroll]] for (uint low = 0u; low < 7u; ++low) {
-        uint edges = 0u; // folded to a number
+        uint edges = 0u; // folded to a constant
         [[unroll]] for (uint d = 1u; d < 8u; ++d) {
             const ivec3 direction = cornerOf(int(d));
             if ((low & d) == 0u) edges |= 1u << bitOf(direction.x, direction.y, direction.z);
@@ -42,7 +42,7 @@ bool isWhole(uint words[8]) {
     return dead == 0u;
 }
 
-// Whether all links between its corners that carry something live.
+// True if all links with stiffness between the cell's corners are alive.
 bool isHeld(uint words[8]) {
     bool isHeld = true;
     [[dont_unroll]] for (int low = 0; low < 7; ++low)

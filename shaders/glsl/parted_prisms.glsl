@@ -1,6 +1,6 @@
-// Part of write_prisms: the triangles of a prism between its points. In the names of that kernel.
+// Part of write_prisms: the triangles between the points of a prism. Requires the names of that kernel.
 
-// Corner a is apart from the two others.
+// Corner a is separated from the two others.
 void partTwo(SkinPrism prism, uint self, uint a) {
     const uint b = (a + 1u) % 3u, c = (a + 2u) % 3u; // edges a: a to b, b: b to c, c: c to a
     const bool isThin = linkOf(prism, b) == 0u;

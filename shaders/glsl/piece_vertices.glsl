@@ -1,6 +1,7 @@
-// Part of write_pieces: the vertices of what is left of a triangle of a skin. In the names of that kernel.
+// Part of write_pieces: the vertices of the pieces of a skin triangle. Requires the names of that kernel.
 
-// Points: 0 to 2 are corners; 3 + n the point on edge n on the side of its start, 6 + n on that of its end, 9 + n the middle.
+// Points: 0 to 2 are corners; 3 + n is the point on edge n on the side of its start, 6 + n that on the side of its
+// end, 9 + n the centre.
 CutVertex vertexAt(uint point) {
     const uint n = point % 3u;
     const HungVertex from = hung[prism.vertices[n]], to = hung[prism.vertices[(n + 1u) % 3u]];

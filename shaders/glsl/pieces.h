@@ -1,8 +1,8 @@
-// In place of the particle that a piece is named after. For C++ and GLSL.
+// Values that replace the particle that a piece is named after. For C++ and GLSL.
 #ifndef SINEW_PIECES_H
 #define SINEW_PIECES_H
 
-#define NO_PARTICLE 0xffffffffu   // nothing there can be cut
-#define REMOVED_PIECE 0xfffffffeu // a crumb: Scene::crumbs
+#define NO_PARTICLE 0xffffffffu   // the slot belongs to no body that may be cut
+#define REMOVED_PIECE 0xfffffffeu // a removed fragment: Scene::crumbs
 
 #endif

@@ -1,10 +1,10 @@
 #version 460
-// Where the colliders are at the ends of all substeps of a step: evenly from where they were before it to where their paths
-// lead by its end, once a step. Pose c of row s is that after s substeps.
+// Poses of the colliders at the ends of all substeps of a step, once a step: evenly spaced from the pose before the
+// step to the pose of their paths at its end. Pose c of row s is that after s substeps.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Ways { ColliderPose ways[]; }; // of each collider: where from, where to
+layout(std430, binding = 0) readonly buffer Ways { ColliderPose ways[]; }; // of each collider: start and end of the step
 layout(std430, binding = 1) writeonly buffer Poses { ColliderPose poses[]; };
 layout(push_constant) uniform Push { PlacePush push; };
 
@@ -14,7 +14,8 @@ void main() {
     const uint c = item % push.colliders;
     const float fraction = float(item / push.colliders) / float(push.substeps);
     const ColliderPose from = ways[2u * c], to = ways[2u * c + 1u];
-    // What stands still must do so to the last bit, as where nothing moves, which a mix of two equal numbers does not.
+    // A collider at rest must have bit-equal poses, as if nothing moved; a mix of two equal numbers need not be equal
+    // to them.
     if (from.position.xyz == to.position.xyz && from.rotation == to.rotation)
         poses[item] = from;
     else

@@ -1,6 +1,7 @@
 #version 460
-// Before lists of edges are made: where the middles of edges are, and how fast the faster end of each is. Also remembers where ends are, and of
-// which body: until they have left there by more than the slack, lists stay complete.
+// Runs before lists of edges are made: computes the midpoints of edges, and the speed of each edge's faster end. Also
+// stores the positions and bodies of the ends: lists stay complete until ends have moved from there by more than the
+// slack.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -17,8 +18,8 @@ layout(std430, binding = 9) readonly buffer Members { uint members[]; };    // p
 layout(std140, binding = 10) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { PlaceEdgesPush push; };
 
-// The ball around an edge that was stretched is wider by that. It is searched as if that was a way of its ends. An edge that a cut has taken
-// away touches nothing: its radius is below 0.
+// Widening of the ball around a stretched edge; the search treats it as a motion of the ends. Edges removed by a cut
+// have a radius below 0 and touch nothing.
 float stretchOf(float len, uint e) { return edges[e].radius < 0.0 ? 0.0 : max(0.0, 0.5 * len + thickness[e] - edges[e].radius); }
 
 void placeEdge(uint e) {

@@ -1,5 +1,6 @@
 #version 460
-// Where the listed vertices of a skin are in the state that the step begins with, once for all prisms around each.
+// Positions of the listed vertices of a skin in the state at the start of the step, computed once for all prisms
+// around each.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -15,7 +16,7 @@ layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 10) buffer Placed { PlacedVertex placed[]; };
 
-// Cells that were whole hang together.
+// The corners of cells that were whole are all connected.
 vec3 placeNow(HungVertex vertex) {
     uint held = 255u;
     if (partitions[vertex.cell] != 0u) held = heldWith(vertex.cell, vertex.corner);
@@ -31,7 +32,7 @@ void main() {
     const uint anchor = vertex.anchor;
     const vec3 x = placeNow(vertex);
     const vec4 last = placed[v].now;
-    // what has only now come near goes as its particle does: nobody has asked about it before
+    // a vertex that has just come near moves like its particle: no test has used it before
     const bool isOnItsWay = blade.isCarried != 0u && last.w > 0.0;
     placed[v] = PlacedVertex(vec4(isOnItsWay ? last.xyz : x + placeBefore(anchor) - PLACE(anchor), 1.0), vec4(x, 1.0));
 }

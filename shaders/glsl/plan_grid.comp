@@ -1,7 +1,7 @@
 #version 460
-// Says how many groups the passes that build the grid have: none while lists are still complete. And those that depend on
-// how fast particles are. Moves the frames of bodies on to the next substep. A calm step has those passes in its first substep only:
-// it is undone where a later one needs them.
+// Writes the group counts of the passes that build the grid, which are 0 while lists are still complete, and of the
+// passes that depend on the speed of particles. Advances the frames of bodies to the next substep. A calm step has
+// those passes in its first substep only: it is undone if a later one needs them.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "math.glsl"
@@ -10,7 +10,7 @@
 layout(std430, binding = 0) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 1) writeonly buffer Arguments { DispatchArguments arguments[]; };
 layout(std430, binding = 2) buffer Frames { BodyFrame frames[FRAME_MOST_BODIES]; };
-layout(std430, binding = 4) writeonly buffer Touching { DispatchArguments touching[]; }; // of groups that contacts are solved for
+layout(std430, binding = 4) writeonly buffer Touching { DispatchArguments touching[]; }; // groups with contacts
 layout(std430, binding = 5) buffer Status { StatusWords status; };
 layout(std140, binding = 3) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
@@ -21,12 +21,13 @@ void plan(uint element, bool runs, uint items) {
     arguments[element] = DispatchArguments(runs ? groupsOf(items) : 0u, 1u, 1u, 0u);
 }
 
-// How far particles may have strayed when lists are made: those that were not noticed by less than half of the margin.
+// Distance that particles may have strayed when lists are made: unreported particles have strayed by less than half
+// of the margin.
 float strayOf(uint moved) { return max(uintBitsToFloat(moved), 0.49 * push.margin); }
 
 bool isCalm() { return push.isLater != 0u && (step.lists & LISTS_CALM) != 0u; }
 
-// Steps behind one that lacked lists are undone as well, until that one is repeated.
+// Steps after one that lacked lists are undone as well, until that one is repeated.
 void noteLists(bool needsPasses) {
     if (push.isLater == 0u) {
         if ((step.lists & LISTS_RESUMES) != 0u) bounds.lacksLists = 0u;
@@ -50,7 +51,7 @@ void planPasses(bool isBuilt, bool isComplete) {
     plan(GRID_SWEPT, isBuilt && isSwept, push.count);
     plan(GRID_UNSWEPT, isBuilt && !isSwept, push.count);
     if (isBuilt) {
-        bounds.listed = bounds.listedParticles = 0u; // whoever makes lists counts anew
+        bounds.listed = bounds.listedParticles = 0u; // the passes that make lists count again
         bounds.pairs = bounds.entries = bounds.links = 0u;
         bounds.lowX = bounds.lowY = bounds.lowZ = ~0u;
         bounds.highX = bounds.highY = bounds.highZ = 0u;
@@ -66,8 +67,8 @@ void planPasses(bool isBuilt, bool isComplete) {
     bounds.hurrying = 0u;
 }
 
-// Bodies far from each other have frames of their own while no particle strays; once some have, all frames stand still until
-// the next step.
+// Bodies far from each other have frames of their own while no particle strays; after that, all frames stand still
+// until the next step.
 void planFrame(uint b, uint moved, bool stands) {
     BodyFrame frame = frames[b];
     if (moved > 0u) restart(frame, stands);
@@ -77,7 +78,7 @@ void planFrame(uint b, uint moved, bool stands) {
 
 void main() {
     const uint b = gl_LocalInvocationID.x;
-    const uint strayed = bounds.moved; // watch_motion writes only what is too far
+    const uint strayed = bounds.moved; // watch_motion writes only distances that are too large
     const uint moved = isCalm() ? 0u : strayed;
     const bool stands = bounds.drift < strayOf(moved);
     memoryBarrierBuffer();

@@ -1,5 +1,5 @@
 #version 460
-// How many groups the passes over a list have, for each of several lists.
+// Group counts of the passes over several lists.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// Says whether pieces are to be found anew: only where links were cut. The first round is always there then, each later one where the one
-// before says so (hook_pieces).
+// Writes the group counts of the passes that find pieces, which run only if links were cut. The first round always
+// runs then, each later one if the round before requests it (hook_pieces).
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -8,7 +8,7 @@ layout(std430, binding = 0) readonly buffer Work { CutWork work; };
 layout(std430, binding = 1) buffer Counts { CutCounts counts; };
 layout(std430, binding = 2) readonly buffer Groups { uint groups[]; }; // of every argument
 layout(std430, binding = 3) writeonly buffer Arguments { DispatchArguments arguments[]; };
-layout(std430, binding = 4) readonly buffer Listed { uint listedCounts[]; }; // by run: slots near what was cut
+layout(std430, binding = 4) readonly buffer Listed { uint listedCounts[]; }; // by run: slots near dead links
 layout(std430, binding = 5) writeonly buffer Even { DispatchArguments even[]; }; // rounds 0, 2, 4 ..., by run
 layout(std430, binding = 6) writeonly buffer Odd { DispatchArguments odd[]; };
 layout(push_constant) uniform Push { PiecesPush push; };

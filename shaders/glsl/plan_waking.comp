@@ -1,5 +1,5 @@
 #version 460
-// After wake_touched: whether anybody wakes. One item.
+// Runs after wake_touched: writes the group counts of the passes that wake islands. One item.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

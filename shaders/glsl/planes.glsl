@@ -1,18 +1,19 @@
-// Boundary planes as temporary constraints: C = n . x - offset - contactOffset >= 0, found active anew each substep.
-// Projected exactly and one after another inside the particle (contacts: 0.4); a correction c of x adds c / h to v.
+// Boundary planes as temporary constraints: C = n . x - offset - contactOffset >= 0, active ones found again in each
+// substep. Projected exactly and one after another in the invocation of the particle; a correction c of x adds c / h
+// to v.
 #include "math.glsl"
 layout(constant_id = 2) const uint planeCount = 1; // at most 32
 
-// Where a particle is in a substep.
+// State of a particle during a substep.
 struct Motion {
     vec3 x;            // [m]
     vec3 v;            // [m/s]
-    vec3 displacement; // since the substep began [m]
+    vec3 displacement; // since the start of the substep [m]
 };
 
 // Keeps a particle in front of a plane; true if it touched. Coulomb friction in position form (Unified Particle
-// Physics, 2014): the tangential displacement of this substep is taken back whole if the static bound allows, else up to
-// friction x depth.
+// Physics, 2014): the tangential displacement of this substep is cancelled entirely if the static bound allows, else
+// up to friction x depth.
 bool projectOntoPlane(PlaneCollider plane, float contactOffset, float h, inout Motion motion) {
     const vec3 n = plane.normalOffset.xyz;
     const float depth = plane.normalOffset.w + contactOffset - dot3(n, motion.x);

@@ -1,11 +1,11 @@
 #version 460
-// Contacts with faces and between edges, third pass: the impulse of each, along n and against the way t that the two would slide on
-// each other since they touched:
+// Contacts with faces and between edges, third pass: the impulse of each contact, along n and against the slip t of
+// the pair since it first touched:
 //
 //   l = depth / D,   D = sum_k |beta_k| S_k w_k,   friction: t / D, at most static friction x l, else friction x l.
 //
-// What is remembered is the way that they really had slid when the substep began, less what is beyond the bound: the way that
-// was predicted is longer by what friction took back, and summing it up would let a slope be crept up.
+// The memory stores the actual slip at the start of the substep, less the part beyond the friction bound: the
+// predicted slip is larger by what friction took back, and summing it up would make bodies creep uphill.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -15,9 +15,9 @@ layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // o
 layout(std430, binding = 4) readonly buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };
-layout(std430, binding = 7) buffer Memory { vec4 memory[]; };            // t [m], side and overlap
+layout(std430, binding = 7) buffer Memory { vec4 memory[]; };            // slip t [m]; w: side and overlap
 layout(std430, binding = 8) writeonly buffer Impulses { vec4 impulses[]; }; // [kg m]
-layout(std430, binding = 9) readonly buffer Before { vec4 before[]; };      // velocities when the substep began
+layout(std430, binding = 9) readonly buffer Before { vec4 before[]; };      // velocities at the start of the substep
 layout(std140, binding = 10) uniform Step { StepParams step; };
 layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
 layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
@@ -30,14 +30,14 @@ layout(push_constant) uniform Push { FacePush push; };
 void press(uint owner, uint element) {
     const vec4 direction = directions[element], weight = weights[element];
     if (direction.w == 0.0) {
-        memory[element] = vec4(vec3(0.0), weight.w); // an overlap that has yet to part
+        memory[element] = vec4(vec3(0.0), weight.w); // an overlap that has yet to recover
         return;
     }
     const Row row = rowOf(owner, contacts[element].x, weight);
     const vec3 n = direction.xyz;
     const float D = SHARED(row, shares);
     const float share = D > 0.0 ? 1.0 / D : 0.0, lambda = share * abs(direction.w);
-    vec3 slid = vec3(0.0); // until this substep
+    vec3 slid = vec3(0.0); // slip until this substep
     if (memory[element].w != 0.0) slid = memory[element].xyz + step.h * BETWEEN(row, before);
     vec3 slip = slid + step.h * BETWEEN(row, velocities);
     slip -= dot(slip, n) * n;

@@ -1,11 +1,12 @@
 #version 460
-// Ends a step for lists of contacts. Those of an undone step may lack pairs: nobody is where they were made any more, so that they are made
-// again at once. HAS_MEMORY: what contacts remember is saved, or taken back where the step is undone.
+// Ends a step for contact lists. The lists of an undone step may lack pairs: the positions for which they were made
+// are set far away, so that they are rebuilt at once. HAS_MEMORY: contact memory is saved, or restored if the step is
+// undone.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Status { StatusWords status; };
-layout(std430, binding = 1) writeonly buffer Detected { vec4 detected[]; }; // of each particle: where it was when lists were made
+layout(std430, binding = 1) writeonly buffer Detected { vec4 detected[]; }; // of each particle: position when lists were made
 layout(std430, binding = 2) buffer Bounds { GridBounds bounds; };
 #ifdef HAS_MEMORY
 layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };
@@ -31,7 +32,7 @@ void main() {
     const uint i = itemIndex(push.count);
     const bool stays = isFinished(status);
     if (!stays && i < detected.length()) detected[i] = vec4(1e18);
-    if (i == 0u && status.candidates > 0u && bounds.lacksLists == 0u) bounds.lacking = status.candidates; // else it may need less
+    if (i == 0u && status.candidates > 0u && bounds.lacksLists == 0u) bounds.lacking = status.candidates; // else less may be enough
     if (i == 0u) bounds.lacksLists = status.lacksLists;
 #ifdef HAS_MEMORY
     if (i >= push.count) return;

@@ -1,6 +1,6 @@
 #version 460
-// Ends a step for what a solver remembers beside positions and velocities: saved while the state is finite, else taken back
-// as publish_state takes back the state.
+// Ends a step for solver state other than positions and velocities: saves it while the state is finite, else restores
+// it, as publish_state does for the state.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

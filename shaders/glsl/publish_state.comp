@@ -1,7 +1,8 @@
 #version 460
-// Ends a step: writes the public positions and velocities from the solver's state. Where that is no longer finite
-// anywhere, or contacts had no room, the whole step is undone instead: the solver's state is made from the public one, which is the last finite.
-// What put a NaN there once (a fault, a host) then harms nobody; a motion that diverges does so again and is reported again.
+// Ends a step: writes the public positions and velocities from the solver's state. If any value is not finite, or
+// contacts did not fit, the whole step is undone instead: the solver's state is restored from the public one, which
+// is the last finite one. A single NaN (from a fault or the host) then does no lasting harm; a motion that diverges
+// does so again and is reported again.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "remainder.glsl"
@@ -33,7 +34,7 @@ void main() {
 #ifndef NO_VELOCITIES
         const vec4 velocity = publicVelocities[i];
 #else
-        const vec4 velocity = vec4(0, 0, 0, publicPositions[i].w); // what it was is not kept: the body stops
+        const vec4 velocity = vec4(0, 0, 0, publicPositions[i].w); // velocities are not stored: the body stops
 #endif
         velocities[slot] = velocity;
         positions[slot].xyz = publicPositions[i].xyz + step.thetaH * velocity.xyz;

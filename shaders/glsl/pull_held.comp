@@ -1,8 +1,9 @@
 #version 460
-// Pulls held particles to where their hand wants them at the end of a substep, each by itself: a spring and a damper to the
-// moving point, implicit and solved exactly, so that any gains are stable [Baraff and Witkin 1998, for one particle], and
-// limited. Gains and limit are those of the hand times the mass of all that is linked, divided among who is held.
-// Serves every solver: thetaH is 0 but for `split`; the substep of `gauss_seidel` is still open (solve_attachments.comp).
+// Pulls held particles towards the target of their grab at the end of a substep, each by itself: a spring and a
+// damper to the moving point, implicit and solved exactly, so that any gains are stable [Baraff and Witkin 1998, for
+// one particle], and limited. Gains and limit are those of the grab times the mass of the held component, divided
+// among the held particles. Serves every solver: thetaH is 0 except for `split`; the substep of `gauss_seidel` is
+// still open (solve_attachments.comp).
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -26,7 +27,7 @@ layout(std430, binding = 9) buffer Corrections { vec4 corrections[]; }; // Parti
 layout(push_constant) uniform Push { GrabPush push; };
 #include "forces.glsl"
 
-// What the hand gives to a particle at x that moves at v [kg m/s].
+// Impulse of the grab on a particle at x with velocity v [kg m/s].
 vec3 impulseOf(uint p, vec3 x, vec3 v, float w) {
     const Grip grip = grips[p];
     const uint k = (grip.held >> GRAB_SHARE_BITS) - 1u;
@@ -34,7 +35,7 @@ vec3 impulseOf(uint p, vec3 x, vec3 v, float w) {
     const float share = float(grip.held & (1u << GRAB_SHARE_BITS) - 1u) / float(states[k].total);
     const float mass = share * bodies[p].mass, h = step.h;
     const vec3 way = mix(hand.from.xyz, hand.to.xyz, push.fraction) + grip.offset.xyz - x;
-    const vec3 moved = v - push.lateKick * h * step.gravity.xyz; // what x does, 0 at rest
+    const vec3 moved = v - push.lateKick * h * step.gravity.xyz; // the velocity of x, 0 at rest
     const vec3 force = mass * (hand.stiffness * way + hand.damping * (hand.velocity.xyz - moved));
     const vec3 impulse = h * force / (1.0 + w * mass * (hand.stiffness * h + hand.damping) * h);
     const float most = mass * hand.maxAcceleration * h, size = length(impulse);

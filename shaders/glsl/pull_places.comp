@@ -1,7 +1,7 @@
 #version 460
-// Where particles are for a blade: those that the skin of a mesh goes with, but that lie outside of it, are just below the skin
-// (src/sim/surface/skin_complex), moved with what is around them. Within a stroke they keep their way there: what is around them
-// changes as it is cut, and a link must not leap over the blade.
+// Positions of particles for tests against a blade: an anchor of a mesh's skin that lies outside of the skin is moved
+// to just below it (src/sim/surface/skin_complex), with the deformation around it. During a stroke the offset stays
+// the same: cutting changes the gradient, and a link must not jump over the blade.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 #include "link_masks.glsl"
@@ -14,7 +14,7 @@ layout(std430, binding = 4) writeonly buffer PulledPlaces { vec4 pulledPlaces[];
 layout(std430, binding = 5) readonly buffer PlacesBefore { vec4 before[]; }; // w = 0: no blade yet
 layout(std430, binding = 6) buffer Work { CutWork work; };
 layout(std430, binding = 7) readonly buffer Blade { BladeHead blade; };
-layout(std430, binding = 8) buffer Pulls { vec4 pulls[]; }; // of the stroke; w = 0: none yet
+layout(std430, binding = 8) buffer Pulls { vec4 pulls[]; }; // of the stroke; w = 0: not yet set
 
 #define ALIVE(i) links[i]
 #define AT(i) places[i].xyz

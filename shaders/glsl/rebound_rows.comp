@@ -1,5 +1,6 @@
 #version 460
-// Restitution of contacts with faces and between edges, third pass: the impulse that lets two part at the speed that they must,
+// Restitution of contacts with faces and between edges, third pass: the impulse that makes the two sides separate at
+// the required speed,
 //
 //   l = (speed - n . v) / D >= 0,   D = sum_k |beta_k| S_k w_k over contacts that rebound (row_contacts.hpp).
 #extension GL_GOOGLE_include_directive : require

@@ -1,12 +1,12 @@
-// What contacts with faces and between edges remember beside how far they have slid, in one number: the side on which the
-// two are, and how much they still overlap of what they did when the scene was loaded (contacts: 3): side x (1 + overlap).
-// 0 = they do not touch.
+// The part of contact memory with faces and between edges that is one number: the side of the pair, and the overlap
+// that remains of the one it had when the scene was loaded: side x (1 + overlap). 0 = they do not touch.
 #include "rest_slack.h"
 
 float sideOf(float remembered) { return sign(remembered); }
 
-// As much as remains is taken for touching, so that the two part at the speed with which they recover, `part` a substep. In
-// the first step of a simulation what overlaps did so before; `approach` is what it has come nearer by in this substep.
+// Remaining overlap after a substep. The pair touches at the reach minus this, so it separates at the speed of
+// recovery, `part` a substep. In the first step of a simulation an overlap counts as one of the load; `approach` is
+// the relative approach in this substep.
 float overlapLeft(float remembered, float overlap, float approach, float part) {
     float left = 0.0;
     if (remembered != 0.0) left = abs(remembered) - 1.0;
@@ -14,8 +14,8 @@ float overlapLeft(float remembered, float overlap, float approach, float part) {
     return max(0.0, min(left - part, overlap));
 }
 
-// A pair that keeps its rest distance keeps all that it overlapped by when the first substep began, until it parts. `before`: by how much
-// it overlapped when the substep began.
+// Remaining overlap of a pair that keeps its rest distance: all of its overlap at the start of the first substep,
+// until it separates. `before`: overlap at the start of the substep.
 float overlapKept(float remembered, float overlap, float before, float reach) {
     const float slack = REST_SLACK * reach;
     float left = 0.0;
@@ -24,16 +24,16 @@ float overlapKept(float remembered, float overlap, float before, float reach) {
     return overlap > -slack ? left : 0.0;
 }
 
-// The overlap left of a pair that came out from behind a face: `kept` of it stays, all else parts.
+// Remaining overlap of a pair that came out from behind a face: `kept` of it stays, the rest recovers.
 float overlapLetOut(float remembered, float overlap, float kept, float part, float reach) {
     const float before = remembered != 0.0 ? abs(remembered) - 1.0 : overlap;
     return overlap > -REST_SLACK * reach ? max(min(before - part, overlap), kept) : 0.0;
 }
 
-// Distance at which a pair with that memory touches [m].
+// Distance at which a pair with this memory touches [m].
 float restOf(float reach, float remembered) { return reach - (abs(remembered) - 1.0); }
 
-// Memory of such a pair, rounded up: one that has not moved must not touch.
+// Memory of a pair that keeps its rest distance, rounded up: a pair that has not moved must not touch.
 float rememberedKept(float side, float depth, float left) {
     if (left <= 0.0) return depth > 0.0 ? side : 0.0;
     const float sum = 1.0 + left;

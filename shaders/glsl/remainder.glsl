@@ -1,15 +1,16 @@
-// Remainders of positions, which rounding would take. In float32 a way of less than half the distance between two numbers is lost, substep after
-// substep, so scenes in which that shows (sim/rounding.hpp) keep a remainder: a buffer of positions then has two halves, x of all
-// particles, and r of all particles [m]. The position is x + r. |r| is at most half the distance between two float32 numbers at x, so
-// who reads x alone is within a rounding.
+// Remainders of positions, which store what rounding loses. In float32 a displacement of less than half the distance
+// between two numbers is lost, substep after substep. Scenes in which that shows (sim/rounding.hpp) keep a remainder:
+// a buffer of positions then has two halves, x of all particles, and r of all particles [m]. The position is x + r.
+// |r| is at most half the distance between two float32 numbers at x, so a kernel that reads x alone is correct to
+// rounding.
 #include "math.glsl"
 
 layout(constant_id = 10) const bool hasRemainders = false;
 
-// The place of r of particle i in a buffer of so many elements.
+// Index of the remainder of particle i in a buffer with this number of elements.
 uint remainderOf(int elements, uint i) { return uint(elements) / 2u + i; }
 
-// A sum in float32, and what its rounding loses.
+// A sum in float32, and its rounding error.
 struct Sum {
     vec3 rounded;
     vec3 remainder; // exact where |x| >= |way|, else within a rounding of `way`

@@ -1,5 +1,6 @@
 #version 460
-// After pieces were found anew: particles of those that have too few are of none. What nobody has cut anything off stays, however small.
+// Removes fragments after pieces were found again: marks the particles of pieces with too few of them. An uncut body
+// stays, however small.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -22,6 +23,6 @@ void main() {
     atomicAdd(counts.crumbParticles, 1u);
     atomicAdd(counts.crumbMass, crumbs[particle].mass);
     if (piece != particle) return;
-    atomicAdd(counts.pieces, ~0u); // one less
+    atomicAdd(counts.pieces, ~0u); // minus one
     atomicAdd(counts.crumbs, 1u);
 }

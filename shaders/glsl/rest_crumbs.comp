@@ -1,5 +1,5 @@
 #version 460
-// What was removed rests, whatever it does: it falls asleep in the next step and costs nothing.
+// Forces fragments to rest: they fall asleep in the next step and cost nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

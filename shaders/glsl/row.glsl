@@ -1,9 +1,10 @@
-// A contact as its passes see it: a row of four particles, each with a weight beta. It stands once, in the list of its owner, with whom it met.
-// A point and a face: the point owns it. 1 for the point, -b for the corners. EDGES: one of the two owns it (near_edges.glsl). 1 - s and s for
-// the ends of that one, -(1 - t) and -t for those of the other. In the name `weights` of a kernel: b, or s and t; w: what is remembered.
-// SHAPES_BINDING: of the faces, or edges; only where a kernel needs the particles.
+// A row: a contact in the form that its passes use, four particles with a weight beta each. It is stored once, in the
+// list of its owner. A point and a face: the point is the owner; 1 for the point, -b for the corners. EDGES: one of
+// the two edges is the owner (near_edges.glsl); 1 - s and s for its ends, -(1 - t) and -t for those of the other.
+// Requires the name `weights` of a kernel: b, or s and t; w: side and overlap. SHAPES_BINDING: binding of the faces,
+// or edges; only for kernels that need the particles.
 #ifdef EDGES
-#define OTHER_PLACE 2u // of the first particle of the other
+#define OTHER_PLACE 2u // place of the first particle of the other edge
 float betaOf(uint element, uint place) {
     const float along = weights[element][place / 2u], beta = (place & 1u) != 0u ? along : 1.0 - along;
     return place < OTHER_PLACE ? beta : -beta;
@@ -33,17 +34,17 @@ Row rowOf(uint owner, uint other, vec4 weight) {
 }
 #endif
 
-// The weighted sum over a row: the place, or velocity, of the owner relative to the other.
+// The weighted sum over a row: position, or velocity, of the owner relative to the other.
 vec3 between(Row row, vec3 a, vec3 b, vec3 c, vec3 d) { return row.beta.x * a + (row.beta.y * b + row.beta.z * c + row.beta.w * d); }
 
 #define BETWEEN(row, of) \
     between(row, of[row.particles[0]].xyz, of[row.particles[1]].xyz, of[row.particles[2]].xyz, of[row.particles[3]].xyz)
 
-// D = sum_k |beta_k| S_k w_k, of what the particles give of themselves (share_rows).
+// D = sum_k |beta_k| S_k w_k, from the weight sums of the particles (share_rows).
 #define SHARED(row, shares) \
     (abs(row.beta.x) * shares[row.particles[0]] + abs(row.beta.y) * shares[row.particles[1]] + \
      abs(row.beta.z) * shares[row.particles[2]] + abs(row.beta.w) * shares[row.particles[3]])
 
-// Both bodies have the surface of their first particle.
+// The surfaces of both bodies are those of their first particles.
 #define SURFACES(row) pairs[surfaces[row.particles[0]] * push.surfaces + surfaces[row.particles[OTHER_PLACE]]]
 #endif

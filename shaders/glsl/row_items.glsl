@@ -1,4 +1,4 @@
-// Passes over the rows of a pool that are in use (bounds.entries), with one invocation a row, or some where there are more rows than
+// Loop over the used rows of a pool (bounds.entries): one row an invocation, or several if there are more rows than
 // invocations (ROWS_MOST_GROUPS).
 #define FOR_EACH_ROW(row) for (uint row = gl_GlobalInvocationID.x; row < bounds.entries; row += gl_NumWorkGroups.x * GROUP_SIZE)
 

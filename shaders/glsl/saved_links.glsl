@@ -1,4 +1,4 @@
-// The links of a body that may be cut as they are when a step begins, from binding 3.
+// The links of a body that may be cut at the start of a step, from binding 3.
 #ifdef TEXELS
 layout(binding = 3) uniform usamplerBuffer savedLinks;
 #define SAVED(i) texelFetch(savedLinks, int(i)).x

@@ -1,5 +1,6 @@
 #version 460
-// Exclusive prefix sum within blocks of VOXEL_SCAN_BLOCK cells, and the sum of each block: the next level scans those.
+// Exclusive prefix sum within blocks of VOXEL_SCAN_BLOCK cells, and the sum of each block: the next level scans the
+// block sums.
 #extension GL_GOOGLE_include_directive : require
 #include "voxel.glsl"
 
@@ -13,7 +14,7 @@ uvec2 load(uint cell) {
     return cell < push.cellCount ? uvec2(cells[cell].end, cells[cell].hull) : uvec2(0u);
 }
 
-// Lists too long for 32 bits stay so: the host refuses their sum.
+// Saturates at 2^32 - 1: the host rejects such a total.
 uvec2 plus(uvec2 a, uvec2 b) {
     const uvec2 sum = a + b;
     return uvec2(sum.x < a.x ? 0xffffffffu : sum.x, sum.y);

@@ -1,6 +1,6 @@
 #version 460
-// Where the triangles of every word of a mixed skin go, so that those that are drawn stand one behind the other in the order that they
-// had; and how many there are. A group for each skin.
+// Prefix sum over the words of a mixed skin: start of each word's triangles among the drawn ones, which keep their
+// order; and their number. A group for each skin.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,6 +1,7 @@
 #version 460
-// Pieces of the skin of a sheet, second pass: where those of every triangle begin, in the order of triangles, so that nothing depends on
-// timing; what is drawn; and what there is no room for: then no piece is, and the host is told. One group.
+// Pieces of the skin of a sheet, second pass: prefix sum over triangles, so that the order of pieces does not depend
+// on timing; the draw arguments; and the missing capacity: if the pieces do not fit, none is drawn, and the host is
+// told. One group.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -36,7 +37,7 @@ void main() {
     const bool fits = total.x <= push.room && total.y <= push.vertexRoom;
     const uint missing = fits ? 0u : max(total.x, total.y);
     if (!fits) total = uvec2(0u);
-    const bool isWritten = cut.linksOfStep > 0u || state.missing > 0u; // there may be room by now for what there was none
+    const bool isWritten = cut.linksOfStep > 0u || state.missing > 0u; // pieces that did not fit before may fit now
     state = SheetState(total.x, total.y, missing);
     cut.missing = max(push.isFirst != 0u ? 0u : cut.missing, missing);
     draws[push.skin] = DrawArguments(3u * total.x, 1u, push.firstPiece, 0, 0u);

@@ -1,5 +1,6 @@
 #version 460
-// Counting sort, third pass, one work group: sums of chunks become the sums of all chunks before; behind them the total.
+// Counting sort, third pass, one work group: replaces the sums of chunks by the sums of all chunks before; after them
+// the total.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

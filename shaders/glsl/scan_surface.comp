@@ -1,10 +1,11 @@
 #version 460
-// Where every chunk of slots begins in the lists of a cut surface, in the order of slots, so that the surface does not depend on timing;
-// what is drawn of it; and what there is no room for: then nothing is, and the host is told. One group.
+// Prefix sum over chunks of slots: their offsets in the lists of a cut surface, in the order of slots, so that the
+// surface does not depend on timing; the draw arguments; and the missing capacity: if the surface does not fit, it is
+// empty, and the host is told. One group.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) buffer Sums { uvec4 sums[]; }; // points, triangles inside, outside, slots; becomes where those begin
+layout(std430, binding = 0) buffer Sums { uvec4 sums[]; }; // points, inner triangles, outer triangles, slots; becomes their offsets
 layout(std430, binding = 1) writeonly buffer Arguments { DispatchArguments arguments[]; };
 layout(std430, binding = 2) writeonly buffer Draws { DrawArguments draws[]; };
 layout(std430, binding = 3) buffer State { SurfaceState state; };
@@ -38,9 +39,9 @@ void main() {
     if (lane > 0u) return;
     const uint needed = max(total.y + total.z, total.x + 3u * total.z);
     const uint fits = needed <= push.room ? 1u : 0u;
-    const uint isCut = min(total.x, 1u); // its skins are drawn without the surface, too
+    const uint isCut = min(total.x, 1u); // skins are drawn as cut even without the surface
     total *= fits;
-    // there may be room by now for what there was none; and rims move in other steps than links die in
+    // a surface that did not fit before may fit now; and rims also move in steps in which no link dies
     const bool isWritten = counts.linksOfStep > 0u || state.missing > 0u || blade.quads > 0u;
     state = SurfaceState(total.x, total.y, total.z, fits == 0u ? needed : 0u);
     counts.missing = fits == 0u ? needed : 0u;

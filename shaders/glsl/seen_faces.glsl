@@ -1,6 +1,6 @@
-// How a face between tetrahedra or prisms is split, as each of them sees it. Whoever includes this has complex[], partitions[], links[].
+// The split of a face as seen by each tetrahedron or prism at it. Requires complex[], partitions[], links[].
 
-// As a tetrahedron sees a face.
+// The split seen by a tetrahedron.
 uvec3 seenFrom(Side side) { return restricted(labelsOf(partitionOf(partitions[side.cell], side.p)), faceOf(side.m)); }
 
 bool areLinked(uint cell, uint low, uint high) {
@@ -8,7 +8,7 @@ bool areLinked(uint cell, uint low, uint high) {
     return isAlive(links[slotOf(cell, low)], d.x, d.y, d.z);
 }
 
-// As prisms see it that stand on it, by its own links.
+// The split seen by prisms that stand on the face, by its own links.
 uvec3 seenAlone(Side side) {
     const uvec4 all = cornersOf(side.p);
     const uvec3 face = faceOf(side.m), corners = uvec3(all[face.x], all[face.y], all[face.z]);

@@ -1,14 +1,14 @@
-// Two segments in space: how near they are, and where their lines are nearest.
+// Two segments in space: their distance, and the nearest points of their lines.
 
 // Lines x = a + s ab and c + t cd.
 struct Crossing {
     vec3 n;       // unit, across both
     float height; // of the first above the second along n [m]
-    float s, t;   // where they are nearest; inside both segments between 0 and 1
+    float s, t;   // parameters of the nearest points; inside both segments between 0 and 1
     bool exists;  // they are not parallel
 };
 
-// `least`: the square of the sine of their angle below which they are taken for parallel. ca = a - c.
+// `least`: square of the sine of the angle below which lines count as parallel. ca = a - c.
 Crossing crossingOf(vec3 ca, vec3 ab, vec3 cd, float least) {
     const vec3 across = cross(ab, cd);
     const float squared = dot(across, across), lengths = dot(ab, ab) * dot(cd, cd);
@@ -27,7 +27,7 @@ float squaredToSegment(vec3 ap, vec3 ab) {
     return dot(d, d);
 }
 
-// The distance, squared, of segments from a and from c [m^2].
+// Squared distance of the segments from a and from c [m^2].
 float squaredBetween(vec3 ca, vec3 ab, vec3 cd) {
     const vec3 bc = ca + ab; // b - c
     float least = min(min(squaredToSegment(ca, cd), squaredToSegment(bc, cd)),

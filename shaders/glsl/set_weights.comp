@@ -1,6 +1,6 @@
 #version 460
-// Gives positions the w that the scene asks for: `split` keeps a time there that follows from stiffness, masses and the length
-// of a substep, and that a state of another material, or of other substeps, has brought along.
+// Sets the w of positions to that of the scene: `split` keeps tau there, a time that follows from stiffness, masses
+// and substep length; a state taken over from a simulation with another material, or other substeps, has another w.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,6 +1,7 @@
 #version 460
-// Ends a substep of `split` for all particles as if they touched nothing, and watches them as watch_motion does. Groups in
-// which somebody may touch another are then solved by count_contacts and gather_contacts, which end the substep for them anew.
+// Ends a substep of `split` for all particles as if there were no contacts, and checks list validity as watch_motion
+// does. Groups with candidates are then solved by count_contacts and gather_contacts, which end the substep for them
+// again.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "hash_grid.glsl"
@@ -15,8 +16,8 @@ layout(binding = 2) uniform samplerBuffer velocities;
 #define VELOCITY(i) texelFetch(velocities, int(i))
 #else
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // where they were; w: body
-layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; // with which they came here; w = inverse mass
+layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // positions when lists were made; w: body
+layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; // that led to these positions; w = inverse mass
 #define POSITION(i) positions[i]
 #define DETECTED(i) detected[i]
 #define VELOCITY(i) velocities[i]
@@ -39,7 +40,7 @@ layout(std430, binding = 11) readonly buffer Before { vec4 before[]; }; // veloc
 #endif
 #include "finish_substep.glsl"
 layout(push_constant) uniform Push { GridPush push; };
-layout(constant_id = 3) const bool watches = true; // false: of particles that were slowed down since
+layout(constant_id = 3) const bool watches = true; // false: only particles that were slowed down since
 
 void main() {
     const uint i = itemIndex(push.count);

@@ -1,7 +1,7 @@
 #version 460
-// Rule K: makes the links of the solver agree with Kuhn's tetrahedra, which the surface of a cut is made of. A link that is no edge of
-// theirs, or has no stiffness, dies unless its ends hang together by stiff edges within its own square or cell. The rule clears
-// no bit that it asks for, so it may read while others clear.
+// Rule K: makes the links of the solver agree with Kuhn's tetrahedra, which surfaces of cuts are made of. A link that
+// is no edge of theirs, or has no stiffness, is cut unless its ends are connected by stiff edges within its own
+// square or cell. The rule clears no bit that it reads, so it may read while others clear.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -14,26 +14,26 @@ layout(std430, binding = 3) readonly buffer Listed { uint listed[]; };
 #include "dirty.glsl"
 #include "listed_slot.glsl"
 
-const int across[3] = int[3](14, 18, 20); // the links across squares that are no edges: (-1,1,0) (0,-1,1) (-1,0,1)
+const int across[3] = int[3](14, 18, 20); // links across squares that are no edges: (-1,1,0) (0,-1,1) (-1,0,1)
 
 uint stiffLinksOf(uint slot) { return links[slot] & push.stiffLinks; }
 
 bool has(uint word, ivec3 direction) { return isAlive(word, direction.x, direction.y, direction.z); }
 
-// The link between two corners a and b of a square, from whose lowest corner `first` and `second` lead to them: around the lowest
-// or the highest corner, or over the diagonal between those, which is an edge.
+// True if corners a and b of a square are connected; `first` and `second` lead from its lowest corner to them. The
+// path is around the lowest or the highest corner, or over the diagonal between those, which is an edge.
 bool areJoinedAcross(uint low, uint a, uint b, ivec3 first, ivec3 second) {
     const bool toA = has(low, first), toB = has(low, second), fromA = has(a, second), fromB = has(b, first);
     return toA && toB || fromA && fromB || has(low, first + second) && (toA && fromB || toB && fromA);
 }
 
-// Of the three links across squares of node i, whose links are `owned`: those whose ends have come apart.
+// Among the three links across squares of node i, whose links are `owned`: those whose ends are no longer connected.
 uint partedAcross(uint i, uint owned) {
     const uint own = stiffLinksOf(i);
     uint parted = 0u;
     [[unroll]] for (int k = 0; k < 3; ++k) {
         const ivec3 direction = directionOf(across[k]), back = max(-direction, ivec3(0)), ahead = max(direction, ivec3(0));
-        const bool isLink = (owned >> across[k] & 1u) != 0u; // else there may be no such square
+        const bool isLink = (owned >> across[k] & 1u) != 0u; // else the square may not exist
         const uint low = stiffLinksOf(i - uint(isLink ? offsetOf(back) : 0));
         const uint end = stiffLinksOf(uint(int(i) + (isLink ? offsetOf(direction) : 0)));
         if (isLink && !areJoinedAcross(low, own, end, back, ahead)) parted |= 1u << across[k];
@@ -41,7 +41,8 @@ uint partedAcross(uint i, uint owned) {
     return parted;
 }
 
-// Corner c of the box between the ends of a link: along axis k at the higher end where bit k is set. Flat boxes have no axis there.
+// True if the ends of a link are connected within the box between them. Corner c of the box is at the higher end of
+// axis k if bit k is set; flat boxes lack that axis.
 bool areJoined(uint i, int bit) {
     const ivec3 direction = directionOf(bit), lowest = min(direction, ivec3(0));
     const int axes = (direction.x != 0 ? 1 : 0) | (direction.y != 0 ? 2 : 0) | (direction.z != 0 ? 4 : 0);

@@ -1,6 +1,6 @@
 #version 460
-// Contacts with faces and between edges, second pass: how a particle is shared among them. It gives each the part |beta| / S of itself,
-// S = the sum of |beta| over all rows that it takes part in: parts sum to 1. Written here: S w.
+// Contacts with faces and between edges, second pass: sums the contact weights of a particle. Each row gets the share
+// |beta| / S of the particle's mass, S = the sum of |beta| over all of its rows: shares sum to 1. Written here: S w.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "rows_of.glsl"

@@ -1,6 +1,6 @@
-// Part of the kernels for pieces of the skin of a sheet: which edges of a triangle are cut, and where. Corners are nodes (x, z), from
-// the cell's; their owner is the lower end of an edge, along x, z or both. Behind an edge lies the other half of a cell, whose third
-// corner is this one's mirrored in the edge's middle.
+// Part of the kernels for pieces of a sheet's skin: the cut edges of a triangle, and the positions of the cuts.
+// Corners are nodes (x, z) relative to the cell; the owner of an edge is its lower end, along x, z or both. Across an
+// edge lies the other half of a cell, whose third corner is this one's mirrored at the edge's midpoint.
 #include "link_masks.glsl"
 
 ivec2 cornerAt(uint kind, int n) {
@@ -9,7 +9,7 @@ ivec2 cornerAt(uint kind, int n) {
 
 struct Edge {
     uint owner, other;   // slots
-    ivec2 from, way;     // of the owner; to the other end
+    ivec2 from, way;     // node of the owner; offset to the other end
     bool isAlive;
 };
 
@@ -19,11 +19,11 @@ Edge edgeBetween(uint slot, ivec2 p, ivec2 q) {
     const bool isUp = q.x - p.x + q.y - p.y > 0;
     const ivec2 from = isUp ? p : q, way = abs(q - p);
     Edge edge = Edge(slotAt(slot, from), slotAt(slot, from + way), from, way, false);
-    if (int(edge.owner) >= 0) edge.isAlive = (links[edge.owner] >> bitOf(way.x, 0, way.y) & 1u) != 0u; // else there is no such node
+    if (int(edge.owner) >= 0) edge.isAlive = (links[edge.owner] >> bitOf(way.x, 0, way.y) & 1u) != 0u; // else the node does not exist
     return edge;
 }
 
-// Of three corners joined by live edges: cut in two where two edges are dead, in three where all are.
+// The edges of a triangle: it is split in two if two edges are dead, in three if all are.
 struct Cuts {
     Edge edges[3]; // from corner n to the next
     uint dead;

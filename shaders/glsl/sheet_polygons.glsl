@@ -1,4 +1,5 @@
-// Part of write_sheet: the triangle at hand, and how a piece of it is written, which lies at one of its corners.
+// Part of write_sheet: the current triangle, and functions that write one of its pieces, each of which lies at a
+// corner.
 SheetTriangle triangle;
 Cuts cuts;
 SheetCounts next;
@@ -10,7 +11,7 @@ float hitOf(Edge edge) { return hitAt(edge.owner, bitOf(edge.way.x, 0, edge.way.
 bool isJoinedBeyond(int n) {
     const ivec2 p = cornerAt(triangle.kind, n), q = cornerAt(triangle.kind, (n + 1) % 3);
     const ivec2 beyond = p + q - cornerAt(triangle.kind, (n + 2) % 3);
-    if (int(slotAt(triangle.slot, beyond)) < int(push.firstSlot)) return false; // before the first row may lie another sheet
+    if (int(slotAt(triangle.slot, beyond)) < int(push.firstSlot)) return false; // before the first row there may be another sheet
     return edgeBetween(triangle.slot, p, beyond).isAlive && edgeBetween(triangle.slot, beyond, q).isAlive;
 }
 
@@ -31,7 +32,7 @@ uint addBetween(int n) {
     return add(SheetVertex(edge.owner, edge.other, hitOf(edge), 0.0, 0.0, turn()));
 }
 
-// The copy at a corner, which is an end of the edge.
+// The copy of an edge's point on the side of a corner, which is an end of the edge.
 uint addPoint(int n, int corner) {
     if (isJoinedBeyond(n)) return addBetween(n);
     const Edge edge = cuts.edges[n];

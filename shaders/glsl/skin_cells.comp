@@ -1,5 +1,5 @@
 #version 460
-// Skin vertices in lattice cells: trilinear over the cell's eight particles (methods: H, skin), exact for affine motion.
+// Skin vertices in lattice cells: trilinear over the cell's eight particles, exact for affine motion.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -18,7 +18,7 @@ layout(std430, binding = 1) readonly buffer Cells { CellVertex cells[]; };
 CellVertex cellAt(uint i) { return cells[i]; }
 #endif
 layout(std430, binding = 2) writeonly buffer Vertices { SkinVertex vertices[]; };
-#ifdef SHOWN // what drawing a mixed skin takes
+#ifdef SHOWN // only vertices that a mixed skin draws
 layout(std430, binding = 3) readonly buffer Shown { uint shown[]; };
 #endif
 layout(push_constant) uniform Push { SkinPush push; };

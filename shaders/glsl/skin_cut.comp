@@ -1,5 +1,6 @@
 #version 460
-// Where the points of a cut surface are, and their normals: moved with the material around the corners that each hangs on.
+// Positions and normals of the points of a cut surface: they move with the material around the corners to which each
+// is bound.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -19,7 +20,7 @@ layout(std430, binding = 7) readonly buffer CutVertices { CutVertex cutVertices[
 CutVertex vertexAt(uint i) { return cutVertices[i]; }
 #endif
 layout(std430, binding = 8) writeonly buffer Vertices { SkinVertex vertices[]; };
-layout(std430, binding = 9) writeonly buffer Turns { Gradient turns[]; }; // of each point: how normals turn there, for skin_pieces
+layout(std430, binding = 9) writeonly buffer Turns { Gradient turns[]; }; // of each point: rotation of normals, for skin_pieces
 #ifdef HUNG
 #ifdef TEXELS
 layout(binding = 10) uniform samplerBuffer skinVertices; // SkinVertex
@@ -41,7 +42,8 @@ layout(push_constant) uniform Push { CountPush push; };
 #include "skin_rest.glsl"
 #include "nearby.glsl"
 
-// Where a point on an edge of a skin is: towards the end of the edge that it goes with it goes over into where the skin has that.
+// Position of a point on an edge of a skin: towards the end that it belongs to it approaches the skin's position of
+// that end.
 vec3 rimPlace(vec3 point, Nearby nearby, uint end, uint other) {
     const vec3 from = restOf(end).xyz;
     const float part = min(1.0, length(point - from) / max(length(restOf(other).xyz - from), 1e-30));
@@ -49,8 +51,8 @@ vec3 rimPlace(vec3 point, Nearby nearby, uint end, uint other) {
 }
 #endif
 
-// Where what corner c has of a vertex is, and how it has turned. Inside of a skin that hangs it goes as rims do, so that neither pokes out of
-// the other.
+// Position of a vertex as seen by its corner c, and the gradient there. Inside of a bound skin it is computed as for
+// rims, so that neither penetrates the other.
 vec3 placeAt(CutVertex vertex, int c, out mat3 turn) {
     const vec3 point = vertex.rest.xyz;
 #ifdef HUNG
@@ -73,9 +75,10 @@ void main() {
     if (i >= count) return;
     const CutVertex vertex = vertexAt(i);
     vec3 x = vec3(0.0);
-    mat3 turn = mat3(0.0); // the cofactor of the motion
+    mat3 turn = mat3(0.0); // the cofactor of the gradient
     float moving = 0.0;
-    // Most have one corner: a loop for those that have a share, since a software device takes its time for the others, too.
+    // Most have one corner: the loop visits corners with a share only, since on a software device the others cost
+    // time too.
     const bvec4 isShare = notEqual(vertex.shares, vec4(0.0));
     uint left = uint(isShare.x) | uint(isShare.y) << 1 | uint(isShare.z) << 2 | uint(isShare.w) << 3;
     for (; left != 0u; left &= left - 1u) {

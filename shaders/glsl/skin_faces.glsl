@@ -1,4 +1,4 @@
-// Triangles of skins that pieces may stand for, from bindings 0 to 2: what they are, and whether pieces do.
+// Skin triangles that may be replaced by pieces, from bindings 0 to 2, and the test whether they are.
 #ifdef TEXELS
 layout(binding = 0) uniform usamplerBuffer counts; // SurfaceCounts
 layout(binding = 2) uniform usamplerBuffer faces;  // SkinFace

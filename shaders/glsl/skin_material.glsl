@@ -1,4 +1,5 @@
-// How the material around a slot has moved, for kernels of skins beside cuts: what nearby.glsl and skin_place.glsl ask for, from bindings 1 to 6.
+// Motion of the material around a slot, for kernels of skins beside cuts: defines the macros of nearby.glsl and
+// skin_place.glsl, from bindings 1 to 6.
 #ifdef TEXELS
 layout(binding = 1) uniform usamplerBuffer links;
 layout(binding = 2) uniform samplerBuffer rest;

@@ -1,9 +1,9 @@
 #version 460
-// Smooth vertex normals of the deformed skin: those of a vertex's triangles by their angles there (Thuermer and Wuethrich 1998),
-// so that they stay as they are where flat ones are split, gathered in fixed order.
+// Smooth vertex normals of the deformed skin: the normals of a vertex's triangles weighted by their angles there
+// (Thuermer and Wuethrich 1998), so that splitting flat triangles changes nothing; gathered in fixed order.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_spirv_intrinsics : require
-#define ALIASED spirv_decorate(20) // its buffer is bound once more, and written by one of both: Aliased
+#define ALIASED spirv_decorate(20) // the buffer is bound twice, and written through one binding: Aliased
 #include "kernel.glsl"
 
 #ifdef TEXELS
@@ -11,7 +11,7 @@ ALIASED layout(std430, binding = 0) writeonly buffer Vertices { SkinVertex verti
 layout(binding = 1) uniform usamplerBuffer indices;
 layout(binding = 2) uniform usamplerBuffer fans; // VertexTriangles
 layout(binding = 3) uniform usamplerBuffer trianglesOfVertex;
-ALIASED layout(binding = 4) uniform samplerBuffer places; // vertices, as they are
+ALIASED layout(binding = 4) uniform samplerBuffer places; // vertices, for reading
 #define INDEX(t) texelFetch(indices, int(t)).x
 #define FAN(i) texelFetch(fans, int(i)).xy
 #define TRIANGLE(k) texelFetch(trianglesOfVertex, int(k)).x
@@ -28,12 +28,12 @@ layout(std430, binding = 3) readonly buffer TrianglesOfVertex { uint trianglesOf
 #define VERTEX(i) vertices[i].position.xyz
 #define NEXT 4
 #endif
-#ifdef WHOLE // of mixed skins: where all triangles around a vertex are whole
+#ifdef WHOLE // for mixed skins: where all triangles around a vertex are whole
 layout(std430, binding = NEXT) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = NEXT + 1) readonly buffer Marks { uint marks[]; }; // of vertices that hang
+layout(std430, binding = NEXT + 1) readonly buffer Marks { uint marks[]; }; // of bound vertices
 layout(push_constant) uniform Push { WholePush push; };
 #else
-#ifdef SHOWN // what drawing a mixed skin takes
+#ifdef SHOWN // only vertices that a mixed skin draws
 layout(std430, binding = NEXT) readonly buffer Shown { uint shown[]; };
 #endif
 layout(push_constant) uniform Push { CountPush push; };
@@ -64,7 +64,7 @@ void main() {
         const uint next = a == i ? b : b == i ? c : a, last = a == i ? c : b == i ? a : b;
         const vec3 u = VERTEX(next) - here, v = VERTEX(last) - here;
         const vec3 across = cross(u, v);
-        const float twice = length(across); // the area
+        const float twice = length(across); // twice the area
         const float longest = max(max(dot(u, u), dot(v, v)), dot(v - u, v - u)), height = twice * twice / max(longest, 1e-37); // squared
         const float weight = atan(twice, dot(u, v)) * height / (height + blur);
         sum += twice > 0.0 ? weight / twice * across : vec3(0.0);

@@ -1,6 +1,6 @@
 #version 460
-// Where the corners of pieces of a skin are, and their normals, after skin_cut: most lie at points of the cut surface, whose place they
-// share with others but not the normal at rest.
+// Positions and normals of the corners of skin pieces. Runs after skin_cut: most corners coincide with points of the
+// cut surface, but have another normal at rest.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

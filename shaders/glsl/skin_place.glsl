@@ -1,12 +1,13 @@
-// Where a vertex of a skin is: trilinear over the corners of its cell, as skin_cells has it. Corners that do not hang together with the
-// particle that it goes with, by live links within the cell, are taken for where that particle's surroundings would have them,
-// so that a skin does not stretch over a cut. Whoever includes this says what are
+// Position of a skin vertex: trilinear over the corners of its cell, as in skin_cells. Corners that are not connected
+// to the vertex's anchor by live links within the cell are replaced by their extrapolation from the surroundings of
+// the anchor, so that a skin does not stretch over a cut. The including kernel defines
 //
 //   ALIVE(i), AT(i), REST(i)   as for gradient.glsl
 //   TURN(i)                    the gradient there
 
-// Corners of a cell that a corner is still linked with. What is only joined to it around the end of a cut, by others of the cell, lies
-// across: a vertex between the two would hang in the gap. Where a body has no such link, any that are linked with it stand in.
+// Corners of a cell that are still linked to a given corner. Corners connected only around the end of a cut, through
+// others of the cell, do not count: a vertex between the two would hang in the gap. If the body has no stiff link in
+// that direction, a link to any corner held directly counts.
 uint heldWith(uint cell, uint corner) {
     const uint word = ALIVE(slotOf(cell, corner));
     uint held = 1u << corner, unknown = 0u;

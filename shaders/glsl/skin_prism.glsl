@@ -1,4 +1,4 @@
-// The prisms that a skin stands on, from PRISM_BINDING.
+// The prisms of a skin, from PRISM_BINDING.
 #ifdef TEXELS
 layout(binding = PRISM_BINDING) uniform usamplerBuffer prisms;
 SkinPrism prismAt(uint i) {

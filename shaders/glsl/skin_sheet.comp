@@ -1,7 +1,7 @@
 #version 460
-// Where the vertices of pieces of the skin of a sheet are, and their normals: moved with the tangents of the sheet around the corner that
-// each hangs on, which are the best linear motion of what that is still linked with. Where those
-// links lie in a line it is a neighbour's, where there is none the sheet's own at rest.
+// Positions and normals of the vertices of sheet pieces: they move with the tangents of the sheet around the corner
+// to which each is bound, the best linear fit to the corner's live links. If those links lie in a line, the tangents
+// of a neighbour are used, and without links those of the sheet at rest.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "link_masks.glsl"
@@ -15,7 +15,7 @@ layout(std430, binding = 5) writeonly buffer Vertices { SkinVertex vertices[]; }
 layout(push_constant) uniform Push { SheetSkinPush push; };
 
 struct Tangents {
-    vec3 x, z; // [m] a cell
+    vec3 x, z; // [m] per cell
     bool areKnown;
 };
 
@@ -34,7 +34,7 @@ Tangents fit(uint i) {
         xz += float(way.x * way.z);
         zz += float(way.z * way.z);
     }
-    const float size = xx * zz - xz * xz; // whole numbers
+    const float size = xx * zz - xz * xz; // integers
     if (!(size > 0.5)) return Tangents(push.right.xyz, push.down.xyz, false);
     return Tangents((zz * x - xz * z) / size, (xx * z - xz * x) / size, true);
 }

@@ -1,4 +1,4 @@
-// Slots that skins go with, and what hangs there, from bindings 3 and 4.
+// The anchor slots of skins, and the prisms and vertices bound to each, from bindings 3 and 4.
 #ifdef TEXELS
 layout(binding = 3) uniform usamplerBuffer slots; // SkinSlot
 layout(binding = 4) uniform usamplerBuffer hanging;

@@ -1,5 +1,5 @@
 #version 460
-// Vertices of skins in cells that a cut has parted (list_split): over skin_cells, which goes before.
+// Repositions skin vertices in cells that a cut has split (list_split), after skin_cells.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -28,7 +28,7 @@ void main() {
     const uint v = listed[push.first + item];
     const HungVertex vertex = hungAt(v);
     const vec4 to = MOVED(v);
-    if (to.w == VERTEX_MOVED) { // onto a rim
+    if (to.w == VERTEX_MOVED) { // it moved onto a rim
         const SkinGrid grid = SkinGrid(push.rowStride, push.sliceStride, push.spacing, 0u);
         vertices[vertex.vertex].position.xyz = nearbyOf(vertex.anchor, to.xyz, to.xyz, grid).place;
         return;

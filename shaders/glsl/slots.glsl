@@ -1,4 +1,5 @@
-// Where particle i lives in the solver's state: in the scene's order; in equal full boxes, computed; else looked up.
+// The slot of particle i in the solver's state: in the order of the scene; computed in equal full boxes; else looked
+// up.
 #if defined(HAS_SLOTS)
 layout(std430, binding = SLOTS_BINDING) readonly buffer Slots { uint slots[]; };
 layout(push_constant) uniform Push { CountPush push; };

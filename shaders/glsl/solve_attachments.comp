@@ -1,14 +1,14 @@
 #version 460
-// Pulls attached particles to their moving points at the end of a substep, each by itself: XPBD [Macklin 2016], eq. 18,
-// for one particle, solved exactly, so that any stiffness is stable; the spring's force is limited.
-// One item an attachment, at most one attachment a particle. Serves every solver: thetaH is 0 but for `split`; the
-// substep of `gauss_seidel` is still open (OPEN), so that a particle is at its predicted position plus its correction.
+// Pulls attached particles to their moving points at the end of a substep, each by itself: XPBD [Macklin 2016], eq.
+// 18, for one particle, solved exactly, so that any stiffness is stable; the spring's force is limited. One item an
+// attachment, at most one attachment a particle. Serves every solver: thetaH is 0 except for `split`; the substep of
+// `gauss_seidel` is still open (OPEN), so that a particle is at its predicted position plus its correction.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "compliance.glsl"
 
 layout(std430, binding = 0) readonly buffer Attachments { AttachedParticle attachments[]; };
-layout(std430, binding = 1) readonly buffer Anchors { vec4 anchors[]; }; // of each attachment: where from, where to [m]
+layout(std430, binding = 1) readonly buffer Anchors { vec4 anchors[]; }; // of each attachment: start and end of the step [m]
 #ifdef OPEN
 layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; }; // predicted; w = inverse mass [1/kg]
 layout(std430, binding = 3) buffer Corrections { vec4 corrections[]; };      // ParticleCorrection

@@ -1,6 +1,6 @@
 #version 460
-// One color of the bends of `gauss_seidel`, in place, as solve_distance_color.comp does for links: no two of them touch the
-// same moving particle.
+// Solves one color of the bends of `gauss_seidel` in place, as solve_distance_color.comp does for links: no two bends
+// of a color touch the same moving particle.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "bend.glsl"

@@ -1,9 +1,10 @@
 #version 460
-// Keeps every particle out of the colliders at the end of a substep, one collider after another inside the particle: the
-// last pass of a substep, exact, so that a share of nothing else is softer for it. Serves every solver: thetaH is 0 but for
-// `split`; the substep of `gauss_seidel` is still open (solve_attachments.comp). HAS_REBOUND: something of the scene
-// rebounds, so that the way since the substep began is no longer h v, and impacts need the velocity from before. HAS_CONTACTS: particles touch;
-// one that is stopped on its way has a velocity that did not bring it where it is.
+// Keeps every particle out of the colliders at the end of a substep, one collider after another in the invocation of
+// the particle: the last pass of a substep, and exact, because no mass is divided among contacts. Serves every
+// solver: thetaH is 0 except for `split`; the substep of `gauss_seidel` is still open (solve_attachments.comp).
+// HAS_REBOUND: the scene has restitution, so that the displacement since the start of the substep is no longer h v,
+// and impacts need the velocity from before. HAS_CONTACTS: particles touch each other; one that was stopped on its
+// way has a velocity that differs from its displacement / h.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "colliders.glsl"
@@ -49,7 +50,7 @@ void main() {
     const vec3 velocityBefore = before[2u * i + 1u].xyz;
 #elif defined HAS_CONTACTS
     const vec3 way = x - (predicted[i].xyz - h * predictedVelocities[i].xyz);
-    if (largest(way - movement.way) > 1e-4 * largest(way) + 1e-5 * largest(x)) { // else h v is finer
+    if (largest(way - movement.way) > 1e-4 * largest(way) + 1e-5 * largest(x)) { // else h v is more exact
         movement.pushed = way - movement.way;
         movement.way = way;
     }
@@ -63,7 +64,7 @@ void main() {
         vec3 n, surfaceVelocity;
         const Collider collider = colliders[c];
         if (c < pokeCount && collider.isAbsent != 0u) continue;
-        const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // the same where nothing moves
+        const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // equal where nothing moves
 #ifdef FORCES
         const vec3 unforced = movement.v + rebound;
 #endif
@@ -78,7 +79,8 @@ void main() {
     }
     if (!isTouching) return;
 #ifdef OPEN
-    // Closing makes v of the corrections: what they must not give it is taken from v beforehand.
+    // Closing the substep adds the corrections / h to v: the part that must not add velocity is subtracted from v
+    // beforehand.
     corrections[i].xyz = movement.way - h * (velocity.xyz - late);
     velocities[i].xyz = velocity.xyz + rebound - movement.pushed / h;
 #else

@@ -1,6 +1,6 @@
-// The constraint pass of `jacobi` (the slides' method): each distance constraint writes the correction of either end to
-// its own two slots of the correction buffer; nobody else writes there, so there are no atomics.
-// Rigid constraints have alpha = 0 and keep no multiplier.
+// The constraint pass of `jacobi`: each distance constraint writes the correction of either end to its own two slots
+// of the correction buffer; no other invocation writes there, so there are no atomics. Rigid constraints have alpha =
+// 0 and keep no multiplier.
 #include "kernel.glsl"
 #include "distance.glsl"
 
@@ -15,7 +15,7 @@ layout(std430, binding = 4) buffer Multipliers { DistanceMultiplier multipliers[
 layout(std430, binding = 5) readonly buffer Velocities { vec4 velocities[]; };
 layout(push_constant) uniform Push { DampedIterationPush push; };
 
-// How far a particle has moved in this substep: v carries the whole of h g where the displacement has half of it.
+// Displacement of a particle in this substep: v includes the whole of h g, the displacement half of it.
 vec3 moved(uint i) {
     const vec4 v = velocities[i];
     return v.w > 0.0 ? step.h * (v.xyz - 0.5 * step.h * step.gravity.xyz) : vec3(0.0);
@@ -33,7 +33,7 @@ void main() {
     const float lambda = push.isFirst != 0u ? 0.0 : multipliers[c].lambda;
     const float alpha = scaledCompliance(edge.compliance, step.h);
 #ifdef HAS_DAMPING
-    // a damping coefficient dampingTime / compliance: gamma = dampingTime / h; rigid ones have none
+    // damping coefficient dampingTime / compliance: gamma = dampingTime / h; rigid constraints have none
     const float gamma = alpha > 0.0 ? push.dampingTime / step.h : 0.0;
     const DistanceChange change = solveDampedDistance(b.xyz - a.xyz, a.w + b.w, edge.restLength, alpha, lambda, gamma,
                                                       moved(edge.b) - moved(edge.a));

@@ -1,15 +1,17 @@
 #version 460
-// One color of `gauss_seidel`: solves its distance constraints in place. No two of them touch the same moving particle,
-// so nobody reads what another writes; a particle that never moves is shared and never written. The color is padded to
-// whole work groups with constraints of a padding particle, which never moves: no lane is masked off (lavapipe).
+// Solves the distance constraints of one color of `gauss_seidel` in place. No two of them touch the same moving
+// particle, so no invocation reads what another writes; static particles may be shared and are never written. The
+// color is padded to whole work groups with constraints of a static padding particle: no lane is masked off
+// (lavapipe).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_spirv_intrinsics : require
-#define ALIASED spirv_decorate(20) // its buffer is bound once more, and written by one of both: Aliased
+#define ALIASED spirv_decorate(20) // the buffer is bound twice, and written through one binding: Aliased
 #include "kernel.glsl"
 #include "distance.glsl"
 
-// DistanceEdge; predicted positions, w = inverse mass [1/kg]; ParticleCorrection; l n and l [N s^2]. What is fetched as
-// texels and also written is fetched by the invocation that writes it, for the value that it writes.
+// Buffers: DistanceEdge; predicted positions, w = inverse mass [1/kg]; ParticleCorrection; l n and l [N s^2]. An
+// element that is fetched as texels and also written is fetched by the invocation that writes it, to compute the
+// value that it writes.
 ALIASED layout(std430, binding = 0) writeonly buffer Corrections { vec4 corrections[]; };
 layout(std140, binding = 1) uniform Step { StepParams step; };
 #ifdef TEXELS
@@ -34,9 +36,10 @@ ALIASED layout(std430, binding = 6) readonly buffer MultipliersBefore { vec4 mul
 layout(push_constant) uniform Push { ColorPush push; };
 
 #ifdef HAS_MULTIPLIERS
-// The multiplier that the next substep starts with. Of a constraint too stiff for a substep the pull lags behind the motion:
-// a share above (1 + alpha / w) / 2 gains energy at any order of the colors, less at unlucky ones (docs/performance.md).
-// And what is kept may move the ends by a twentieth of their distance: heavy ends of light chains (methods: D).
+// The multiplier that starts the next substep. If a constraint is too stiff for a substep the pull lags behind the
+// motion: a share above (1 + alpha / w) / 2 gains energy at any order of the colors, and a smaller one at unlucky
+// orders (docs/performance.md). The kept multiplier may move the ends by a twentieth of their distance at most, for
+// heavy ends of light chains.
 float kept(float lambda, float w, float alpha, float restLength) {
     const float share = min(push.warmStart, 0.3 + 0.6 * alpha / w);
     const float most = 0.05 * restLength / w;

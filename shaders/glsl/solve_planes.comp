@@ -17,7 +17,7 @@ void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count || positions[i].w == 0.0) return;
     const vec3 v = velocities[i].xyz;
-    // v carries the whole of h g where the displacement has half of it (predict)
+    // v includes the whole of h g, the displacement half of it (predict)
     Motion motion = Motion(positions[i].xyz, v, step.h * (v - 0.5 * step.h * step.gravity.xyz));
     uint touched = 0u;
     for (uint p = 0u; p < planeCount; ++p) {

@@ -1,7 +1,8 @@
 #version 460
-// Long-range attachments (Kim 2012) at the end of a substep: a particle that is farther from a fixed one than the body
-// between them is long is put back onto that sphere. Tethers of a particle one after another; their anchors never move.
-// Serves every solver: thetaH is 0 but for `split`; the substep of `gauss_seidel` is still open (solve_attachments.comp).
+// Long-range attachments (Kim 2012) at the end of a substep: a particle whose distance from a fixed one exceeds the
+// length of the body between them is put back onto the sphere of that radius. The tethers of a particle are applied
+// one after another; anchors never move. Serves every solver: thetaH is 0 except for `split`; the substep of
+// `gauss_seidel` is still open (solve_attachments.comp).
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,7 +1,7 @@
 #version 460
-// Makes the list of every particle's others or, FACES, every point's faces or, EDGES, the edges of which an edge owns the rows, from the
-// pairs that were found: sorted by index, with the distance at which the two touch and, HAS_MEMORY, what is remembered of them.
-// LISTS_OWNERS: lists the groups in which one has a candidate; link_rows does for edges.
+// Makes the contact list of every particle or, FACES, of every point with faces or, EDGES, of every edge with the
+// edges in rows that it owns, from the pairs that were found: sorted by index, with the contact distance and,
+// HAS_MEMORY, the contact memory. LISTS_OWNERS: lists the groups with a candidate; for edges link_rows does so.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -21,7 +21,7 @@ layout(push_constant) uniform Push { FindPush push; };
 #define PAIRS_BINDING 0
 #include "listed_pairs.glsl"
 layout(std430, binding = 1) buffer Chains { uint chains[]; };
-layout(std430, binding = 2) readonly buffer Radii { float radii[]; }; // EDGES: how thick they are
+layout(std430, binding = 2) readonly buffer Radii { float radii[]; }; // EDGES: their thickness
 layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 4) buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) buffer Status { StatusWords status; };
@@ -41,7 +41,8 @@ layout(std430, binding = 10) readonly buffer KeptLists { uvec2 keptLists[]; };
 #ifdef FACES
 layout(std430, binding = PARTICLES_BINDING + 2) readonly buffer Faces { ContactFace faces[]; };
 #include "linked_reach.h"
-// Entries are 2 x face, + 1 where a link joins the two. Has the sign bit of the thickness, which may be that of a 0.
+// Entries are 2 x face, + 1 if a link joins the two. The result carries the sign bit of the thickness, which may be
+// that of a 0.
 uint otherOf(uint entry) { return entry / 2u; }
 float reachOf(float own, uint entry) {
     const float thickness = faces[otherOf(entry)].thickness, reach = own + abs(thickness);
@@ -71,7 +72,7 @@ void listGroups(uint i) {
 }
 
 uint owner;
-float own; // radius, or how thick it is [m]
+float own; // radius, or thickness [m]
 void put(uint element, uint entry) {
     contacts[element] = ContactCandidate(otherOf(entry), reachOf(own, entry));
 #ifdef OWNERS_BINDING
@@ -93,9 +94,9 @@ void returnMemory(uvec2 list, uint i) {
 #endif
 }
 
-// Says how many entries an owner would need room for on average, where that is more than there is, and whether a list is too long. Of the
-// first lists in a step that lack something: what is found after pairs were lost depends on which, as does how far counting goes on from
-// 4 times the room.
+// Reports the mean number of entries per owner that would be needed, if that exceeds the capacity, or a list that is
+// too long. Returns the length of the list. Only the first lists of a step that lack capacity report it: after pairs
+// were lost later results depend on which, and counting stops somewhere beyond 4 times the capacity.
 uint checked(uint i, uint n) {
     const uint room = push.room / ENTRIES_OF_PAIR, found = min(bounds.pairs, 4u * room + 1u);
     if (found <= room && n > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);

@@ -1,12 +1,13 @@
-// Makes a list of a chain of pairs: sorted by the other owner, so that sums over it do not depend on when and how pairs were found. In the
-// names listed_pairs.glsl, ENTRIES_OF_PAIR; a kernel writes an element by put().
+// Converts a chain of pairs to a list sorted by the other owner, so that sums over it do not depend on when and how
+// pairs were found. Requires the names of listed_pairs.glsl and ENTRIES_OF_PAIR; a kernel defines put(), which writes
+// an element.
 #define BLOCK 16
 #define SHORT_LIST 256u
 
 uint unsortedAt(uint k) { return pairs[push.room / ENTRIES_OF_PAIR + k / 4u][k % 4u]; }
 void setUnsorted(uint k, uint other) { pairs[push.room / ENTRIES_OF_PAIR + k / 4u][k % 4u] = other; }
 
-// A block is ranked at a time against the whole: registers instead of shifting.
+// Ranks a block of entries at a time against the whole list: registers instead of shifting.
 void sortShort(uint first, uint n) {
     for (uint start = 0u; start < n; start += BLOCK) {
         uint mine[BLOCK], rank[BLOCK];
@@ -34,7 +35,7 @@ void sink(uint first, uint place, uint n) {
     setUnsorted(first + place, other);
 }
 
-// A heap: the time of ranks is quadratic.
+// Heap sort, because the time of ranking is quadratic.
 void sortLong(uint first, uint n) {
     for (uint k = n / 2u; k > 0u; --k) sink(first, k - 1u, n);
     for (uint last = n - 1u; last > 0u; --last) {
@@ -46,7 +47,7 @@ void sortLong(uint first, uint n) {
     put(first, unsortedAt(first));
 }
 
-// The n of a chain, to elements from `first` on.
+// Sorts the n entries of a chain into elements from `first` on.
 void sortChain(uint chain, uint first, uint n) {
     for (uint k = first; k < first + n; ++k) {
         setUnsorted(k, otherIn(chain));

@@ -1,18 +1,18 @@
-// What every form of `split` shares: its buffers, the impulse of a link, and how a particle takes their sum: stiffness-
-// clamped, mass-split Jacobi as a gather (methods: D). A particle reads its neighbours' stored positions
-// y = x + theta h v, sums its links, kicks, drifts and writes itself: one pass and one barrier a substep. Both ends of a
-// link compute bit-equal, opposite impulses, so momentum is exact.
+// Shared by every form of `split`: its buffers, the impulse of a link, and the motion of a particle by the sum of
+// impulses. `split` is a stiffness-clamped, mass-split Jacobi method as a gather. A particle reads its neighbours'
+// stored positions y = x + theta h v, sums its links, kicks, drifts and writes itself: one pass and one barrier a
+// substep. Both ends of a link compute bit-equal, opposite impulses, so momentum is exact.
 //
 //   kick   v' = f (v + k (g + w / H^2 sum_c dl_c n_c)),  dl_c = -C_c(y) min(k_c H^2, k~_c min(tau_i, tau_j))
 //   drift  x' = x + h v',  y' = x' + theta h v'
 //
-// k is h, but (hPrevious + h) / 2 in a step's first substep: v lives half a substep behind x (leapfrog), which starts
-// the motion with a half-kick and follows a changing h. H is h, there the longer of both: it bounds what links can do
-// in the whole kick. tau_i = omega / (2 w_i sum_c k~_c) is stored in positions.w: a link's share of a particle is
-// k~_c / sum k~ (solvers/shares.hpp).
+// k is h, but (hPrevious + h) / 2 in a step's first substep: v is half a substep behind x (leapfrog), which starts
+// the motion with a half-kick and follows a changing h. H is h, in that substep the longer of both: it bounds the
+// effect of links in the whole kick. tau_i = omega / (2 w_i sum_c k~_c) is stored in positions.w: a link's share of a
+// particle is k~_c / sum k~ (solvers/shares.hpp).
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_spirv_intrinsics : require
-#define ALIASED spirv_decorate(20) // its buffer is bound once more, and written by one of both: Aliased
+#define ALIASED spirv_decorate(20) // the buffer is bound twice, and written through one binding: Aliased
 #include "kernel.glsl"
 #include "remainder.glsl"
 
@@ -20,8 +20,8 @@
 #ifdef RESIDENT
 layout(constant_id = 7) const uint residentSlots = 512; // of a body
 shared vec4 resident[2 * residentSlots];
-uint front = 0u, back = residentSlots; // where this substep reads and writes
-uint firstSlot, lastSlot;              // of the body, in the state; beyond lie links that no cell holds
+uint front = 0u, back = residentSlots; // halves that this substep reads and writes
+uint firstSlot, lastSlot;              // of the body, in the state; links beyond them have a stiffness of 0
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
 #define POSITION(i) resident[front + min(uint(i) - firstSlot, lastSlot - firstSlot)]
 #define STORE_POSITION(i, value) resident[back + (i) - firstSlot] = value
@@ -47,8 +47,8 @@ layout(std430, binding = VELOCITY_BINDING) buffer Velocities { vec4 velocities[]
 #define STORE_VELOCITY(i, value) velocities[i] = value
 #define STEP_BINDING (VELOCITY_BINDING + 1)
 #else
-// Two buffers where something reads what velocities were before (contacts, damped links); else the same buffer twice: a particle reads its own
-// and then writes it.
+// Two buffers if a pass needs the velocities before (contacts, damped links); else the same buffer twice: a particle
+// reads its own velocity and then writes it.
 ALIASED layout(std430, binding = VELOCITY_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // v [m/s], w [1/kg]
 ALIASED layout(std430, binding = VELOCITY_BINDING + 1) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 #define STORE_VELOCITY(i, value) nextVelocities[i] = value
@@ -70,10 +70,11 @@ layout(std430, binding = STEP_BINDING + 2) readonly buffer ContactOffsets { floa
 #define BEND_BINDING (LINK_BINDING + 1)
 #endif
 
-// Whether a particle that never moves stores the impulse of its links [N s] as its velocity: take_pulls takes it from there.
+// If true, a static particle stores the impulse of its links [N s] in place of its velocity, where take_pulls reads
+// it.
 layout(constant_id = 22) const bool keepsPulls = false;
 
-// What is the same for all particles of a substep.
+// Values that are equal for all particles of a substep.
 struct Substep {
     float hh;      // H^2 [s^2]
     float kick;    // k [s]
@@ -87,13 +88,14 @@ Substep substepOf(bool isFirst) {
     return Substep(longest * longest, kick, kick / (longest * longest), isFirst ? step.thetaHPrevious : step.thetaH);
 }
 
-// dl n of a link from a to b [kg m]; its stiffness [kg] is clamped already. Coincident ends give exactly 0.
+// dl n of a link from a to b [kg m]; its stiffness [kg] is clamped by the caller. Coincident ends give exactly 0.
 vec3 linkImpulse(vec3 a, vec3 b, float restLength, float stiffness) {
     const vec3 d = b - a;
     return stiffness * (1.0 - restLength * inversesqrt(dot3(d, d) + 1e-30)) * d;
 }
 
-// Writes y of particle i after a way [m] in this substep that has led from `y` to x, with velocity `before` when it began.
+// Writes y of particle i after a displacement `way` [m] in this substep from `y` to x; `before` is the velocity at
+// its start.
 void store(uint i, vec4 y, vec3 before, vec3 x, vec3 v, vec3 way, Substep substep) {
     if (hasRemainders) {
         const vec3 change = REMAINDER(i).xyz + way + (step.thetaHStored * v - substep.thetaH * before);
@@ -109,7 +111,7 @@ void store(uint i, vec4 y, vec3 before, vec3 x, vec3 v, vec3 way, Substep subste
 void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     const float w = velocity.w, h = step.h;
     vec3 v = velocity.xyz;
-    if (w > 0.0) { // 0 times a NaN next to it would stay for ever in a slot that holds no particle, which nobody restores
+    if (w > 0.0) { // else 0 times a neighbouring NaN would stay for ever in a slot without a particle, which is never restored
         v += substep.impulse * w * impulses;
         v += substep.kick * step.gravity.xyz;
     }

@@ -1,6 +1,6 @@
-// Part of mark_hull: a triangle against a square, seen along one axis, in whole numbers.
+// Part of mark_hull: integer tests of a triangle against a square, seen along one axis.
 
-// Whether some point of a square lies on the inner side of an edge, seen along one axis.
+// True if some point of a square lies on the inner side of an edge, seen along one axis.
 bool isBesideEdge(ivec2 from, ivec2 to, int side, ivec2 corner, int size) {
     const ivec2 normal = ivec2(from.y - to.y, to.x - from.x) * side;
     const ivec2 inmost = corner + size * ivec2(greaterThan(normal, ivec2(0))) - from;

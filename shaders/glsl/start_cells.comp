@@ -1,6 +1,7 @@
 #version 460
-// Counting sort, fourth pass: where the particles of each slot start; counts become 0 for the next time. The first three
-// starts stand behind the last once more, a whole round later: a range of three slots may run over the end of the table.
+// Counting sort, fourth pass: computes the start of each slot's particles; counts become 0 for the next build. The
+// first three starts are repeated after the last, increased by the total: a range of three slots may run over the end
+// of the table.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// Connected components, before the first round: every node hangs on the lowest that a link leads to, which is mostly a long chain along
-// the grid, and needs no atomics.
+// Connected components, before the first round: attaches every node to the lowest one that a link leads to, mostly in
+// long chains along the grid, which needs no atomics.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"

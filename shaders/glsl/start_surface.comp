@@ -1,14 +1,14 @@
 #version 460
-// Where every slot's part of a cut surface begins, and the list of slots that have any: the passes that write go through that, so
-// that all lanes have something to do.
+// Computes the start of every slot's part of a cut surface, and lists the slots that have any: the passes that write
+// run over that list, so that all lanes have work.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Counts { SurfaceCounts counts[]; };
-layout(std430, binding = 1) readonly buffer Sums { uvec4 sums[]; }; // points, triangles inside, outside, slots before the chunk
+layout(std430, binding = 1) readonly buffer Sums { uvec4 sums[]; }; // points, inner triangles, outer triangles, slots before the chunk
 layout(std430, binding = 2) buffer Owned { uvec4 owned[]; };        // w: the first point
-layout(std430, binding = 3) writeonly buffer Starts { uvec2 starts[]; }; // first triangle inside, outside
-layout(std430, binding = 4) writeonly buffer Listed { uint listed[]; };  // how many, and then the slots
+layout(std430, binding = 3) writeonly buffer Starts { uvec2 starts[]; }; // first inner and first outer triangle
+layout(std430, binding = 4) writeonly buffer Listed { uint listed[]; };  // the count, and then the slots
 layout(push_constant) uniform Push { CountPush push; };
 
 void main() {

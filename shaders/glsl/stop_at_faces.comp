@@ -1,16 +1,16 @@
 #version 460
-// Keeps particles in front of faces that never give way: those of meshes that stand still or go along a path. A pass of its own inside the
-// particle, after all contacts: they give each a part of a particle, and where bodies are pressed together in one substep a part is too
-// little to keep a side. Here the side on which a substep begins holds. A particle whose way leads through a face, or ends far too near, is put
-// back in front of it. It gets no more speed by that than takes away its approach to the face in this substep. All others stay as they are, to
-// the bit.
+// Keeps particles in front of static and driven faces, one after another in the invocation of the particle, after all
+// contacts: contacts divide the mass of a particle, and where bodies are pressed together in one substep a share is
+// too small to keep a side. This pass keeps the side on which a substep begins. A particle whose path crosses a face,
+// or ends far too near, is put back in front of it. This adds no more velocity than cancels its approach to the face
+// in this substep. All other particles stay unchanged to the bit.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "remainder.glsl"
 #include "triangle.glsl"
 
 layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
-layout(std430, binding = 1) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; }; // with which they came there [m/s]
+layout(std430, binding = 1) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; }; // that led to those positions [m/s]
 layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
@@ -31,8 +31,8 @@ uint stoppedBy; // the face of the last stop
 #include "excluded.glsl"
 #include "face_stop.glsl"
 
-// Lists hold what comes near the predicted way, so they hold all that is met on a way which ends within the radius of the predicted place. For
-// one that ends farther off all faces are looked at.
+// Lists hold all that is near the predicted path, so they hold all faces met by a path that ends within the radius of
+// the predicted position. For a path that ends farther away all faces are tested.
 struct Search {
     bool isListed;
     uint first, end; // elements of the list, or faces
@@ -48,17 +48,17 @@ Search searchFor(uint i, uint firstListed, uint endListed, vec3 x) {
     return Search(false, push.moving, push.faces);
 }
 
-// The rest of an overlap that is parting by itself.
+// The remaining part of an overlap in recovery.
 float leftOf(uint element) { return max(0.0, abs(memory[element].w) - 1.0); }
 
-// The most urgent stop of a way from x0 to x1.
+// The most urgent stop on the path from x0 to x1.
 Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
     Stop first = noStop;
     for (uint s = search.first; s < search.end; ++s) {
         const uint f = search.isListed ? contacts[s].other : s;
         const ContactFace face = faces[f];
         const float touching = radii[i] + abs(face.thickness), left = search.isListed ? min(leftOf(s), touching) : 0.0; // a rest distance is rounded
-        const vec3 seen = search.isListed ? predicted[i].xyz : x1; // what is farther from there may be in no list
+        const vec3 seen = search.isListed ? predicted[i].xyz : x1; // a face farther away may be in no list
         const Stop stop = stopAt(face, touching - left, x0, x1, seen);
         if (!(stop.urgency > first.urgency) || isExcluded(f, i)) continue;
         first = stop;
@@ -69,14 +69,15 @@ Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
     return first;
 }
 
-// In a corner of faces a particle that was put in front of one may be behind the next. One that finds no place goes with the last.
+// In a corner of faces a particle put in front of one may be behind the next. A particle without a place moves with
+// the last face.
 const uint mostStops = 4u;
 
 #ifdef FORCES
-// The impulse of one stop, kept until it is known that the particle takes it.
+// The impulse of one stop, stored until it is certain that the particle receives it.
 struct Given {
     uint face;
-    vec3 change, x; // of the velocity [m/s]; where [m]
+    vec3 change, x; // change of the velocity [m/s]; position [m]
 };
 #endif
 
@@ -99,7 +100,7 @@ void main() {
         const bool isLast = stops == mostStops;
         if (stop.urgency <= (isLast ? 1.0 : 0.0)) break;
         const vec3 n = stop.n, stopped = isLast ? stop.carried : end + stop.rise * n;
-        const vec3 meanwhile = (stopped - x0) / step.h; // the velocity that brings it there
+        const vec3 meanwhile = (stopped - x0) / step.h; // the velocity that leads there
 #ifdef FORCES
         const vec3 slower = v;
 #endif

@@ -1,12 +1,13 @@
 #version 460
-// Tearing, first pass: how far every cell of a sheet is stretched in the direction in which it is stretched most, by the best linear
-// motion of its live links. That is a property of the material and not of how the grid lies in it, as a link's own strain is.
+// Tearing, first pass: the largest stretch of every cell of a sheet and its direction, from the best linear fit to
+// its live links. Unlike the strain of a link it is a property of the material and does not depend on the orientation
+// of the grid.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer Cells { uint cells[]; };   // fill of the cells around each node
-layout(std430, binding = 2) readonly buffer Places { vec4 places[]; }; // when the step began [m]
+layout(std430, binding = 2) readonly buffer Places { vec4 places[]; }; // at the start of the step [m]
 layout(std430, binding = 3) writeonly buffer Strains { CellStrain strains[]; };
 layout(push_constant) uniform Push { TearPush push; };
 #include "sheet_cells.glsl"
@@ -26,10 +27,10 @@ CellStrain strainOf(uint cell) {
         xz += way.x * way.y;
         zz += way.y * way.y;
     }
-    const float size = (xx * zz - xz * xz) * push.spacing; // not 0: the links join four corners
+    const float size = (xx * zz - xz * xz) * push.spacing; // not 0: the links connect four corners
     const vec3 fx = (zz * x - xz * z) / size, fz = (xx * z - xz * x) / size;
     const float a = dot(fx, fx), b = dot(fx, fz), c = dot(fz, fz), half_ = 0.5 * (a - c), radius = sqrt(half_ * half_ + b * b);
-    const bool isAlike = radius < 1e-5 * (a + c); // in all directions: then none of the grid's is the one
+    const bool isAlike = radius < 1e-5 * (a + c); // equal in all directions: then a random one, instead of one along the grid
     const float angle = isAlike ? radians(180.0) * float(mixed(cell)) / 4294967296.0 : 0.5 * atan(b, half_);
     return CellStrain(sqrt(0.5 * (a + c) + radius) - 1.0, cos(angle), 0.0, sin(angle), 0u);
 }
@@ -38,6 +39,6 @@ void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const uint cell = push.first + item;
-    const bool isFilled = (cells[cell] >> 20 & 15u) != 0u; // towards x and z; those of sheets lie below their nodes in y
+    const bool isFilled = (cells[cell] >> 20 & 15u) != 0u; // fill of the cell towards x and z; cells of sheets lie below their nodes in y
     strains[cell] = isFilled && isWhole(cell) ? strainOf(cell) : CellStrain(-1.0, 1.0, 0.0, 0.0, 0u);
 }

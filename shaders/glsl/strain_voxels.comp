@@ -1,17 +1,17 @@
 #version 460
-// Tearing of bodies of voxels, first pass: likewise how far every cell is stretched in the direction in which it is stretched most.
+// Tearing of voxel bodies, first pass: the largest stretch of every cell and its direction.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer Cells { uint cells[]; };   // fill of the cells around each node
-layout(std430, binding = 2) readonly buffer Places { vec4 places[]; }; // when the step began [m]
+layout(std430, binding = 2) readonly buffer Places { vec4 places[]; }; // at the start of the step [m]
 layout(std430, binding = 3) writeonly buffer Strains { CellStrain strains[]; };
 layout(push_constant) uniform Push { TearPush push; };
 #include "voxel_cells.glsl"
 #include "mixed.glsl"
 
-// The best linear motion of the live links.
+// The best linear fit to the live links.
 mat3 motionOf(uint cell) {
     mat3 sum = mat3(0.0), ways = mat3(0.0);
     for (uint l = 0u; l < stiffLinks; ++l) {
@@ -21,10 +21,11 @@ mat3 motionOf(uint cell) {
         sum += outerProduct(places[slotOf(cell, ends.y)].xyz - places[slotOf(cell, ends.x)].xyz, way);
         ways += outerProduct(way, way);
     }
-    return sum * inverse(ways) / push.spacing; // not singular: the links join eight corners
+    return sum * inverse(ways) / push.spacing; // not singular: the links connect eight corners
 }
 
-// The direction of the greatest eigenvalue, by the 256th power. Of equal ones any direction between theirs, and none of the grid's.
+// The direction of the largest eigenvalue, by the 256th power. If several are equal, a random direction in their span
+// instead of one along the grid.
 vec3 directionOf(mat3 squares, uint cell) {
     mat3 power = squares;
     for (int n = 0; n < 8; ++n) {
@@ -55,6 +56,6 @@ void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const uint cell = push.first + item;
-    const bool isFilled = cells[cell] >> 28 != 0u; // towards x, y and z
+    const bool isFilled = cells[cell] >> 28 != 0u; // fill of the cell towards x, y and z
     strains[cell] = isFilled && isWhole(cell) ? strainOf(cell) : CellStrain(-1.0, 1.0, 0.0, 0.0, 0u);
 }

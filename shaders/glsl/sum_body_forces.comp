@@ -1,6 +1,6 @@
 #version 460
-// First pass of the forces on bodies: what a run of particles of one body has been given in the step, and its moment about the first particle of
-// the body, where particles are at the end of the step.
+// First pass of the forces on bodies: sums the impulses of the step on a run of particles of one body, and their
+// moments about the first particle of the body, with positions at the end of the step.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -37,7 +37,7 @@ void main() {
         const vec3 x = position.xyz - origin;
         add(FORCE_CONTACTS, slot, 1.0, x);
         add(FORCE_HOLDS, forceSlots + slot, 1.0, x);
-        if (position.w == 0.0) add(FORCE_HOLDS, slot, -1.0, x); // what touches it, too, has its hold against it
+        if (position.w == 0.0) add(FORCE_HOLDS, slot, -1.0, x); // the hold of a static particle also balances its contacts
         addRows(FORCE_GRABS, 0u, push.grabs, slot, x);
         addRows(FORCE_PLANES, push.grabs, push.planes, slot, x);
         addRows(FORCE_COLLIDERS, push.grabs + push.planes, push.colliders, slot, x);

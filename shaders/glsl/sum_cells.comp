@@ -1,5 +1,5 @@
 #version 460
-// Counting sort, second pass: how many particles each chunk of the table has.
+// Counting sort, second pass: number of particles in each chunk of the table.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

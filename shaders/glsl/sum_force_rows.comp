@@ -1,5 +1,5 @@
 #version 460
-// First pass of the forces of planes, colliders, hands and holds: what a run of their elements has given in the step.
+// First pass of the forces of planes, colliders, grabs and holds: sums a run of their elements for the step.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,18 +1,18 @@
 #version 460
-// Frames of bodies, first pass: sums over a share of a body's particles (FRAME_SUMS in layout.h).
+// Frames of bodies, first pass: sums over a chunk of a body's particles (FRAME_SUMS in layout.h).
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 2) readonly buffer Detected { vec4 detected[]; }; // where they were when lists were made
+layout(std430, binding = 2) readonly buffer Detected { vec4 detected[]; }; // positions when lists were made
 layout(std430, binding = 3) readonly buffer Chunks { FrameChunk chunks[]; };
 layout(std430, binding = 4) readonly buffer Members { uint members[]; };
-layout(std430, binding = 5) readonly buffer Radii { float radii[]; }; // below 0 = touches nothing any more
+layout(std430, binding = 5) readonly buffer Radii { float radii[]; }; // below 0 = removed from contacts
 layout(std430, binding = 6) writeonly buffer Partial { vec4 partial[]; };
 layout(push_constant) uniform Push { FramePush push; };
 
-// Lists that do not stand: as if they had just been made.
+// Position when lists were made; without valid lists, the present position.
 vec3 referenceOf(uint i) {
     const vec3 r = detected[i].xyz;
     return abs(r.x) < 1e17 ? r : positions[i].xyz;

@@ -1,10 +1,10 @@
 #version 460
-// Adds up what a chunk of slots has of a cut surface.
+// Sums the counts of a cut surface over a chunk of slots.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Counts { SurfaceCounts counts[]; };
-layout(std430, binding = 1) writeonly buffer Sums { uvec4 sums[]; }; // points, triangles inside, outside, slots that have any
+layout(std430, binding = 1) writeonly buffer Sums { uvec4 sums[]; }; // points, inner triangles, outer triangles, slots with any part
 layout(push_constant) uniform Push { CountPush push; };
 
 void main() {

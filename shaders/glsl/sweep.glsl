@@ -1,8 +1,9 @@
-// How find_contacts regards the ways of particles in a substep: not at all but for SWEPT. In the names of that kernel.
+// Part of find_contacts: paths of particles during a substep, which count in the SWEPT form only. Requires the names
+// of that kernel.
 #ifdef SWEPT
 vec3 wayOf(uint i) { return step.h * velocities[i].xyz; }
 bool isFast(uint i) { return isHurrying(RADIUS(i), wayOf(step.h, velocities[i].xyz), push.quiet, push.most); }
-// How far from its end a particle may have touched: counts like a larger radius.
+// A radius enlarged by the path of a particle, on all of which it may have touched others.
 float wideOf(uint i, float radius) {
     const float way = wayOf(step.h, velocities[i].xyz);
     return way > push.quiet ? radius + way : radius;

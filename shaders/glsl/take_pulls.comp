@@ -1,6 +1,7 @@
 #version 460
-// Moves the impulses of links on particles that never move out of their velocities, where the gathers of `split` have stored them (split.glsl).
-// The velocities become 0 again; drive_particles sets those of driven particles. The hold gives the opposite impulse to what hangs on it.
+// Moves the impulses of links on static particles out of their velocities, where the gathers of `split` have stored
+// them (split.glsl). The velocities become 0 again; drive_particles sets those of driven particles. The hold balances
+// these impulses.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,11 +1,12 @@
 #version 460
-// Makes the state of a solver out of the public one, which another solver has left: what slept there is awake here.
+// Initialises the state of a solver from the public state that another solver has left: particles that slept are
+// awake.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "remainder.glsl"
 
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg], as the scene has it
+layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg] of the scene
 layout(std430, binding = 2) buffer PublicPositions { vec4 publicPositions[]; };
 layout(std430, binding = 3) buffer PublicVelocities { vec4 publicVelocities[]; };
 #define SLOTS_BINDING 4

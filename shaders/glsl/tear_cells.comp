@@ -1,7 +1,7 @@
 #version 460
-// Tearing, last pass: through each of the most stretched cells goes a straight cut across the direction in which it is stretched most,
-// from where one has already reached the cell's rim, else through its middle. Links that the cut crosses die, as
-// under a blade. VOXELS: of bodies of voxels; else of sheets.
+// Tearing, last pass: cuts each of the most stretched cells along a plane, or line, across the direction of its
+// largest stretch, starting where a cut has reached the cell's rim, else through its centre. Links that it crosses
+// are cut as by a blade. VOXELS: for voxel bodies; else for sheets.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -26,7 +26,7 @@ layout(push_constant) uniform Push { TearPush push; };
 #define MARKS_DIRTY
 #include "dirty.glsl"
 
-// Whether two cells have a node in common.
+// True if two cells have a node in common.
 bool areNeighbors(uint one, uint other) {
     const int way = int(other) - int(one);
     bool are = false;
@@ -35,7 +35,8 @@ bool areNeighbors(uint one, uint other) {
     return are;
 }
 
-// Whether fewer than may tear in a step come before it, and none of its neighbors does: those would write what it reads.
+// True if fewer cells precede it than may tear in a step, and none of its neighbors does: those would write links
+// that it reads.
 bool isFirst(uint cell) {
     uint before = 0u;
     for (uint other = 0u; other < tears.count && before < push.most; ++other)
@@ -43,7 +44,7 @@ bool isFirst(uint cell) {
     return before < push.most;
 }
 
-// Of a corner, along the direction of the greatest stretch from the cut through `at` [cells].
+// Height of a corner above the cut through `at`, along the direction of the largest stretch [cells].
 float heightOf(int corner, Way at, Way along) { return dot(along, Way(nodeOf(corner)) - at) + 1e-4; }
 
 bool isOnOneSide(Way at, Way along) {
@@ -52,7 +53,8 @@ bool isOnOneSide(Way at, Way along) {
     return above == 0 || above == CORNERS;
 }
 
-// Where cuts have reached the rim; the middle where none has, or where the cut would miss the cell.
+// The mean of the points where cuts have reached the rim; the centre if there are none, or if the cut would miss the
+// cell.
 Way startOf(uint cell, Way along) {
     Way sum = Way(0.0);
     float cuts = 0.0;

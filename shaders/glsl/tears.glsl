@@ -1,6 +1,6 @@
-// Part of the kernels that tear: which of two cells is to tear first. One that a cut has reached, or tears would begin anew beside
-// their own ends, in the layer of cells that they lie in, and grow along the grid. Where they are stretched alike a number decides that no
-// direction of the grid has a part in.
+// Order of tearing of two cells: cells reached by a cut first, or new tears would begin beside the ends of earlier
+// ones, in the same layer of cells, and grow along the grid. Between equal stretches a hash decides that does not
+// depend on the grid's directions.
 #include "mixed.glsl"
 
 bool isBefore(uint one, uint other) {

@@ -1,8 +1,8 @@
 #version 460
-// Contacts between edges, first pass: where the insides of two edges are nearer than their faces are thick, looking at the
-// whole way of the substep; what else of two faces may meet, a corner meets (touch_faces). Two lines that cross have two
-// sides of each other, and the two stay on those on which they met, as a point does of a face. Nearly parallel edges and
-// those that have gone around each other forget that.
+// Contacts between edges, first pass: finds pairs whose interiors are nearer than the thickness of their faces, over
+// the whole path of the substep; all other contacts of two faces involve a corner (touch_faces). Two lines that cross
+// have two sides of each other, and the two stay on those on which they met, like a point and a face. Nearly parallel
+// edges and those that have moved around each other lose this memory.
 //
 //   C = n . (x_1(s) - x_2(t)) - reach,   beta = 1 - s, s, -(1 - t), -t for the four ends.
 #extension GL_GOOGLE_include_directive : require
@@ -13,10 +13,10 @@ layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
 layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; };     // ContactCandidate, in one load
-layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };           // of each edge: the first element that it owns, how many
-layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };          // w: side and overlap, 0 = has not touched
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };           // of each edge: first element that it owns, count
+layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };          // w: side and overlap, 0 = no contact so far
 layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n from the other to the owner, depth [m]; 0 = none
-layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; remembered
+layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; w: new memory
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
 #include "row_items.glsl"
@@ -26,7 +26,7 @@ layout(push_constant) uniform Push { FacePush push; };
 #include "recovery.glsl"
 layout(std430, binding = 10) readonly buffer Owners { uint owners[]; };        // of each element
 layout(std430, binding = 11) readonly buffer Links { uint links[]; };          // elements that others own
-layout(std430, binding = 12) readonly buffer LinkLists { uvec2 linkLists[]; }; // of each edge, in links
+layout(std430, binding = 12) readonly buffer LinkLists { uvec2 linkLists[]; }; // ranges in links, by edge
 #include "edge_touch.glsl"
 
 void main() {

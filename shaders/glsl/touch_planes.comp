@@ -1,6 +1,6 @@
 #version 460
-// Projects the particles of `gauss_seidel` onto the boundary planes they are behind, between two sweeps of a substep;
-// after the last one the pass that closes the substep does it, or, where colliders have the last word, this one before them.
+// Projects the particles of `gauss_seidel` onto the boundary planes they are behind, between two sweeps of a substep.
+// After the last sweep the pass that closes the substep does so, or, if colliders come last, this one before them.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "planes.glsl"

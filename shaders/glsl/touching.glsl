@@ -1,4 +1,5 @@
-// The four particles of a contact with a face, in the list of its point, or, EDGES, between two edges, in the list of one.
+// The four particles of a contact: with a face, in the list of its point, or, EDGES, between two edges, in the list
+// of its owner.
 #ifdef EDGES
 layout(std430, binding = TOUCHING_BINDING) readonly buffer Edges { ContactEdge edges[]; };
 layout(std430, binding = TOUCHING_BINDING + 1) readonly buffer Corners { uint corners[]; }; // first of each particle; then 4 x edge + end

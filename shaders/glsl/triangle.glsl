@@ -1,5 +1,5 @@
-// The point of a triangle nearest to another one, without branches: inside by the signs of three areas, else on one of the
-// edges. Coordinates are relative to corner a, so that large ones do not cancel.
+// The point of a triangle nearest to another point, without branches: inside by the signs of three areas, else on one
+// of the edges. Coordinates are relative to corner a, so that large ones do not cancel.
 struct Triangle {
     vec3 ab, ac; // [m]
     vec3 normal; // of length twice the area [m^2]
@@ -7,7 +7,8 @@ struct Triangle {
 
 Triangle triangleOf(vec3 ab, vec3 ac) { return Triangle(ab, ac, cross(ab, ac)); }
 
-// So thin (height below a thousandth of its length) that float32 knows no normal of it. Its neighbours cover the place.
+// True if a triangle is so thin (height below a thousandth of its length) that float32 gives no normal. Its
+// neighbours cover the place.
 bool isSliver(Triangle triangle) {
     const vec3 bc = triangle.ac - triangle.ab;
     const float longest = max(max(dot(triangle.ab, triangle.ab), dot(triangle.ac, triangle.ac)), dot(bc, bc));
@@ -24,8 +25,8 @@ vec3 weightsOf(vec3 ap, Triangle triangle) {
 
 struct Nearest {
     vec3 weights;  // of the corners, none below 0
-    vec3 d;        // to the point from there [m]
-    bool isInside; // straight above the triangle
+    vec3 d;        // from there to the point [m]
+    bool isInside; // the point projects onto the inside of the triangle
 };
 
 float along(vec3 p, vec3 edge) { return clamp(dot(p, edge) / max(dot(edge, edge), 1e-37), 0.0, 1.0); }

@@ -1,13 +1,14 @@
 #version 460
-// Turns the outward normals of interlocked lattices with their bodies: as those of a surface, by the cofactor of the deformation
-// gradient that a node's neighbours along the three axes say, n = +-(N_x b x c + N_y c x a + N_z a x b).
+// Rotates the outward normals of interlocked lattices with their bodies: like normals of a surface, by the cofactor
+// of the deformation gradient from a node's neighbours along the three axes, n = +-(N_x b x c + N_y c x a + N_z a x
+// b).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 1) readonly buffer Nodes { InterlockNode nodes[]; };
-layout(std430, binding = 2) readonly buffer Depths { vec4 depths[]; };           // along the axes of the grid; depth [m]
+layout(std430, binding = 2) readonly buffer Depths { vec4 depths[]; };           // along the axes of the grid; w: depth [m]
 layout(std430, binding = 3) writeonly buffer Normals { vec4 normals[]; };
 layout(push_constant) uniform Push { InterlockPush push; };
 
@@ -20,7 +21,7 @@ void main() {
         axes[axis] = (predicted[after].xyz - predicted[before].xyz) * (before != i && after != i ? 0.5 : 1.0);
     }
     const vec3 yz = cross(axes[1], axes[2]), zx = cross(axes[2], axes[0]), xy = cross(axes[0], axes[1]);
-    const vec3 n = sign(dot(axes[0], yz)) * (rest.x * yz + rest.y * zx + rest.z * xy); // mirrored: the other way
+    const vec3 n = sign(dot(axes[0], yz)) * (rest.x * yz + rest.y * zx + rest.z * xy); // opposite if mirrored
     const float squared = dot(n, n);
     normals[i] = vec4(squared > 1e-30 ? n * inversesqrt(squared) : vec3(0.0), rest.w);
 }

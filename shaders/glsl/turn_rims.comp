@@ -1,6 +1,7 @@
 #version 460
-// Normals of skins beside a cut. In mixed skins also of corners of whole triangles that their parts stand for, as far as it is known how
-// the material has turned: corners beyond that have the normal of their triangles, none of which a rim draws together.
+// Normals of skins beside a cut. In mixed skins also those at corners of whole triangles replaced by their parts,
+// where the gradient is known: corners farther away have the normal of their triangles, none of which is distorted by
+// a rim.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,12 +1,12 @@
-// The normal of a vertex beside a cut: triangles around it are in pieces or drawn together, so it has that at rest, turned with the
-// material around it as points of the cut are (skin_cut).
+// The normal of a vertex beside a cut: triangles around it are in pieces or collapsed, so it is the normal at rest,
+// rotated with the material like points of the cut (skin_cut).
 //
 //   NEAR(i), LINKS(i), HOME(i), TURN(i), AT(i)   as for nearby.glsl
 //   grids                                        of each skin
 #include "link_masks.glsl"
 #include "nearby.glsl"
 
-SkinGrid grid; // of the vertex at hand
+SkinGrid grid; // of the current vertex
 int offsetOf(ivec3 d) { return d.x + d.y * int(grid.rowStride) + d.z * int(grid.sliceStride); }
 #define ALIVE(i) LINKS(i)
 #define REST(i) HOME(i)
@@ -16,7 +16,7 @@ vec3 turnedNormal(HungVertex vertex) {
     const uint i = vertex.anchor;
     grid = grids[uint(vertex.rest.w)];
     const vec3 place = vertex.rest.xyz;
-    // A large triangle that is cut reaches farther than what is known of the material beside the cut.
+    // A large triangle with a cut reaches beyond the slots beside the cut whose gradients are stored.
     const mat3 turn = NEAR(i) != 0u ? nearbyOf(i, place, place, grid).turn : gradientAt(i);
     return cofactor(turn) * vertex.normal.xyz;
 }

@@ -19,7 +19,7 @@ void main() {
     if (i >= push.count) return;
     const vec4 velocity = velocities[i];
     if (velocity.w == 0.0) return;
-    // Even at rest v holds the half-kick h g / 2. Damping it as if it were motion would take weight off the body.
+    // Even at rest v holds the half-kick h g / 2. Damping it like motion would reduce the weight of the body.
     vec3 v = mix(0.5 * step.h * step.gravity.xyz, velocity.xyz, step.velocityFactor);
 #ifdef HAS_PLANES
     const PlaneContact contact = contacts[i];

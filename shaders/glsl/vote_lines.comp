@@ -1,9 +1,9 @@
 #version 460
-// Follows one line of sample points along an axis through the grid and notes, at every sample, how often the surface has
-// wound around it so far. Lines meet triangles in the cells that list them; a crossing belongs to the cell that it lies in.
-// Nothing is rounded, so a closed surface gets the same answer along every axis. CENTERS: one line a column of cells, one
-// sample a cell; links the hull cells of the column on its way. Else 16 lines a column and 4 samples a cell, from hull cell
-// to hull cell.
+// Follows one line of sample points along an axis through the grid and stores the winding number so far at every
+// sample. Lines meet triangles in the cells that list them; a crossing belongs to the cell that contains it. Nothing
+// is rounded, so a closed surface gets the same answer along every axis. CENTERS: one line per column of cells, one
+// sample per cell; also links the hull cells of the column. Else 16 lines per column and 4 samples per cell, from
+// hull cell to hull cell.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "voxel.glsl"
@@ -14,7 +14,7 @@ layout(std430, binding = 2) readonly buffer Cells { VoxelCell cells[]; };
 layout(std430, binding = 3) readonly buffer Touching { uint touching[]; };
 layout(std430, binding = 4) buffer Votes { uint votes[]; };          // by cell, or by hull cell and line
 layout(std430, binding = 5) writeonly buffer Totals { uint totals[]; }; // of a line: 0 closed, 1 even, 2 odd
-// The first hull cell of every column along the axis, then the one that follows each hull cell.
+// The first hull cell of every column along the axis, then the next one after each hull cell.
 #ifdef CENTERS
 layout(std430, binding = 6) writeonly buffer Links { uint links[]; };
 #else

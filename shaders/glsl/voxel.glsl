@@ -1,5 +1,5 @@
-// What the kernels of the voxelisation share. Coordinates are whole numbers, 2^fractionBits a cell, so that no test of a
-// triangle against a cell or a line is ever rounded. Buffers are named by the kernels that bind them.
+// Shared by the kernels of the voxelisation. Coordinates are integers, 2^fractionBits a cell, so that no test of a
+// triangle against a cell or a line is ever rounded. The kernels define the buffers.
 #include "kernel.glsl"
 #include "voxel_layout.h"
 #include "wide.glsl"
@@ -10,12 +10,12 @@ ivec3 gridSize() {
     return ivec3(push.cellsX, push.cellsY, push.cellsZ);
 }
 
-// [units] of a cell
+// Size of a cell [units].
 int cellSize() {
     return 1 << push.fractionBits;
 }
 
-// How far apart two cells are in memory that are neighbours along x, y, z.
+// Distance in memory between neighbouring cells along x, y, z.
 uvec3 cellStrides() {
     return uvec3(1u, push.cellsX, push.cellsX * push.cellsY);
 }
@@ -24,7 +24,7 @@ uvec3 cellAt(uint index) {
     return uvec3(index % push.cellsX, index / push.cellsX % push.cellsY, index / (push.cellsX * push.cellsY));
 }
 
-// Seen along `axis`: the other two in the order x, y, z, then the axis itself.
+// Components in axis order: the other two in the order x, y, z, then the one along `axis`.
 ivec3 seenAlong(uint axis, ivec3 p) {
     return axis == 0u ? p.yzx : axis == 1u ? p.xzy : p;
 }
@@ -33,7 +33,7 @@ uvec3 seenAlong(uint axis, uvec3 p) {
     return axis == 0u ? p.yzx : axis == 1u ? p.xzy : p;
 }
 
-// Lines along an axis stand behind those along the axes before it.
+// Index of the first line along an axis; lines are stored axis by axis.
 uint firstColumn(uint axis) {
     return axis == 0u ? 0u
            : axis == 1u ? push.cellsY * push.cellsZ

@@ -1,11 +1,12 @@
-// Part of the kernels that tear bodies of voxels: the links of the cell above a slot. Corner k of a cell: bit 0 in x, 1 in y, 2 in z.
+// Part of the kernels that tear voxel bodies: the links of the cell above a slot. Corner k of a cell: bit 0 in x, 1
+// in y, 2 in z.
 #include "link_masks.glsl"
 
 #define CORNERS 8
 #define Way vec3
-const uint cellLinks = 28u, edgeLinks = 12u, stiffLinks = 24u; // edges first; those that every body has
+const uint cellLinks = 28u, edgeLinks = 12u, stiffLinks = 24u; // edges first; stiffLinks: those that every body has, all but body diagonals
 
-// Between which corners, 8 x the first + the second: edges along x, y, z; across squares; across the cell.
+// End corners of a link, 8 x the first + the second: edges along x, y, z; across squares; across the cell.
 const int cornersOfLink[28] = int[28](1, 19, 37, 55, 2, 11, 38, 47, 4, 13, 22, 31,
                                       3, 10, 39, 46, 5, 12, 23, 30, 6, 20, 15, 29, 7, 14, 21, 28);
 
@@ -17,7 +18,7 @@ uint slotOf(uint cell, int corner) {
     return cell + uint(node.x) + uint(node.y) * push.rowStride + uint(node.z) * push.sliceStride;
 }
 
-// Of the end that owns it, the first: corners ascend in z, then in y, then in x.
+// Bit of a link at the end that owns it, the first: corners ascend in z, then in y, then in x.
 int bitOfLink(uint l) {
     const ivec2 ends = endsOf(l);
     const ivec3 way = nodeOf(ends.y) - nodeOf(ends.x);
@@ -26,7 +27,7 @@ int bitOfLink(uint l) {
 
 bool isAliveIn(uint cell, uint l) { return (links[slotOf(cell, endsOf(l).x)] >> bitOfLink(l) & 1u) != 0u; }
 
-// Whether live links still join all corners.
+// True if live links connect all corners.
 bool isWhole(uint cell) {
     uint joined = 1u;
     for (uint before = 0u; before != joined;) {

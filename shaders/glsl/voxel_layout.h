@@ -1,4 +1,4 @@
-// Structs and push constants that C++ and the kernels of the voxelisation (src/mesh/gpu) share; rules as in layout.h.
+// Structs and push constants shared by C++ and the kernels of the voxelisation (src/mesh/gpu); rules as in layout.h.
 #ifndef SINEW_VOXEL_LAYOUT_H
 #define SINEW_VOXEL_LAYOUT_H
 #include "layout.h"
@@ -9,17 +9,17 @@ using sim::layout::uint;
 using sim::layout::vec4;
 #endif
 
-// A cell of the grid. While triangles are counted and listed, `end` counts those of a cell, then it is where
-// its list starts, and at last where that ends; `hull` says whether it has any, then how many cells before it have.
+// A cell of the grid. While triangles are counted, `end` is the number in the cell, then the start of its list, at
+// last the end of its list; `hull` is 1 for hull cells, then the number of hull cells before this one.
 struct VoxelCell {
     uint end, hull;
 };
-#define VOXEL_SCAN_BLOCK 2048 // cells that one work group sums up
+#define VOXEL_SCAN_BLOCK 2048 // cells that one work group adds up
 
-// What every kernel gets; most use a part.
+// Push constants of every kernel; most use only a part.
 struct VoxelPush {
     uint first, count;                        // items of this dispatch
-    uint cellsX, cellsY, cellsZ, fractionBits; // coordinates are whole numbers, 2^fractionBits a cell
+    uint cellsX, cellsY, cellsZ, fractionBits; // coordinates are integers, 2^fractionBits a cell
     uint cellCount;                           // in `Cells`: of the grid, or blocks of a higher level of the prefix sum
     uint axis;                                // of the lines
     uint triangle, triangleCount;             // a batch
@@ -28,9 +28,9 @@ struct VoxelPush {
 
 // A box of triangles, depth first. A leaf has count > 0.
 struct WindingNode {
-    vec4 center; // [cells]; w = square of the distance from where on the node counts as a dipole
+    vec4 center; // [cells]; w = square of the distance beyond which the node counts as a dipole
     vec4 dipole; // sum of area x normal / (4 pi) [cells^2]
-    uint next;   // the node after all that this one holds
+    uint next;   // the next node after this subtree
     uint first, count, unused;
 };
 

@@ -1,11 +1,11 @@
 #version 460
-// Marks the islands of particles and faces that touch in this substep, where one of the four particles of a contact is awake
-// and another is not. EDGES: likewise of edges.
+// Marks the islands of particles and faces that touch in this substep, if one of the four particles of a contact is
+// awake and another is not. EDGES: those of edges that touch.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "sleep.glsl"
 
-layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of what is awake [1/kg]
+layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of awake particles [1/kg]
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Islands { uint islands[]; };
 layout(std430, binding = 3) buffer Marks { uint marks[]; };

@@ -1,14 +1,15 @@
 #version 460
-// Gives the particles of marked islands their masses back, and runs what is driven again. How long they rest is counted anew when the step ends.
+// Wakes the particles of marked islands: restores their inverse masses, and makes their groups run, also for driven
+// particles. Their resting time starts again at the end of the step.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "sleep.glsl"
 
-layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of what is awake [1/kg]
+layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of awake particles [1/kg]
 layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Islands { uint islands[]; };
 layout(std430, binding = 3) readonly buffer Marks { uint marks[]; };
-layout(std430, binding = 4) buffer Groups { uint groups[]; }; // of particles: bit 0 = somebody in it is awake
+layout(std430, binding = 4) buffer Groups { uint groups[]; }; // of particles: bit 0 = any awake
 layout(push_constant) uniform Push { SleepPush push; };
 
 void main() {

@@ -1,12 +1,12 @@
 #version 460
-// Marks the islands that somebody awake has come to touch in this substep, before contacts are counted: so that none is hit
-// as if it never moved.
+// Marks the islands that awake particles have touched in this substep, before contacts are counted, so that no impact
+// treats them as static.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"
 #include "sleep.glsl"
 
-layout(std430, binding = 0) readonly buffer Weights { float weights[]; };      // inverse mass of what is awake [1/kg]
+layout(std430, binding = 0) readonly buffer Weights { float weights[]; };      // inverse mass of awake particles [1/kg]
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Predicted { vec4 predicted[]; };   // [m]
 layout(std430, binding = 3) readonly buffer Islands { uint islands[]; };
@@ -18,7 +18,7 @@ layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
 layout(std140, binding = 9) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { SleepPush push; };
 
-// At the end of the substep, or on the way where contacts may lie there.
+// True if two particles touch at the end of the substep, or on their paths if contacts may lie there.
 bool meets(vec3 d, vec3 v, float reach) {
     return touches(d, reach) || bounds.isSwept != 0u && nearestSquared(d, step.h * v) < reach * reach;
 }

@@ -1,6 +1,6 @@
-// Part of advance_substep: what a substep starts with, of what the one before ended with (methods: D).
+// Part of advance_substep: the warm start of a substep from the multipliers of the one before.
 
-// The sum of l n over a particle's links [kg m]. An end a is moved against n, an end b along it: both by the same bits.
+// The sum of l n over a particle's links [kg m]. An end a moves against n, an end b along it: both by the same bits.
 // Slots without a link point to padding of the constraint list, whose multipliers stay 0.
 vec3 warmImpulses(uint i) {
     vec3 sum = vec3(0.0);

@@ -1,5 +1,6 @@
-// Watches a particle: whether lists are still complete for it, and whether contacts may lie on its way. Most particles never
-// touch the shared words. In the names VELOCITY, DETECTED, bounds, radii, fast, step of a kernel, and FRAMES_BINDING.
+// Checks for a particle whether lists are still complete, and whether contacts may lie on its path. Most particles
+// never access the shared words. Requires VELOCITY, DETECTED, bounds, radii, fast, step of a kernel, and
+// FRAMES_BINDING.
 #include "strays.glsl"
 
 void watchFast(uint i, float way, float quiet, float most) {
@@ -14,6 +15,6 @@ void watchFast(uint i, float way, float quiet, float most) {
 void watch(uint i, vec3 x, vec3 v, float quiet, float most) {
     float farthest;
     if (hasStrayed(i, x, v, farthest)) atomicMax(bounds.moved, floatBitsToUint(clamp(farthest, 1e-30, 1e30)));
-    const float far = wayOf(step.h, v); // as find_contacts and cap_speeds have it
+    const float far = wayOf(step.h, v); // as in find_contacts and cap_speeds
     if (far > quiet) watchFast(i, far, quiet, most);
 }

@@ -1,7 +1,6 @@
 #version 460
-// Finds out whether a particle is, or was on its way in this substep, farther from where its body's frame expects it than lists
-// bear, and whether some are so fast that contacts may lie on their way. Where that is so, all that remains is decided
-// by plan_grid.
+// Checks list validity: whether a particle is, or was during this substep, farther from its expected position than
+// the slack, and whether contacts may lie on paths of fast particles. plan_grid decides what follows.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "hash_grid.glsl"
@@ -15,8 +14,8 @@ layout(binding = 2) uniform samplerBuffer velocities;
 #define VELOCITY(i) texelFetch(velocities, int(i))
 #else
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // where they were; w: body
-layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; // with which they came here [m/s]
+layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // positions when lists were made; w: body
+layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; // that led to these positions [m/s]
 #define POSITION(i) positions[i]
 #define DETECTED(i) detected[i]
 #define VELOCITY(i) velocities[i]

@@ -1,6 +1,7 @@
 #version 460
-// Finds out whether a particle is, or was when the substep began, farther from where its body's frame expects it than lists
-// bear: contacts with faces and between edges look at the whole way of a substep. plan_grid decides what follows.
+// Checks list validity for faces and edges: whether a particle is, or was at the start of the substep, farther from
+// its expected position than the slack; these contacts cover the whole path of a substep. plan_grid decides what
+// follows.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "math.glsl"

@@ -1,18 +1,18 @@
 #version 460
-// How long every particle has been at rest: slow, and not far from where it was when it came to rest. Begins the search for
-// islands with what is linked.
+// Updates the resting time of every particle: it rests while it is slow, and near the place where it came to rest.
+// Starts the search for islands with linked components.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Weights { float weights[]; };      // inverse mass of what is awake [1/kg]
-layout(std430, binding = 1) readonly buffer Limits { float limits[]; };        // how far what rests may drift [m]; below 0 = it was removed and rests
+layout(std430, binding = 0) readonly buffer Weights { float weights[]; };      // inverse mass of awake particles [1/kg]
+layout(std430, binding = 1) readonly buffer Limits { float limits[]; };        // largest drift at rest [m]; below 0 = removed, rests always
 layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; };   // x + thetaH v
 layout(std430, binding = 3) readonly buffer Velocities { vec4 velocities[]; };
 layout(std140, binding = 4) uniform Step { StepParams step; };
-layout(std430, binding = 5) buffer Rests { vec4 rests[]; };                    // where [m], how long [s]; below 0 = asleep
-layout(std430, binding = 6) readonly buffer Components { uint components[]; }; // first slot of what is linked
+layout(std430, binding = 5) buffer Rests { vec4 rests[]; };                    // place of rest [m]; w: resting time [s], below 0 = asleep
+layout(std430, binding = 6) readonly buffer Components { uint components[]; }; // first slot of its linked component
 layout(std430, binding = 7) writeonly buffer Islands { uint islands[]; };
-layout(std430, binding = 8) writeonly buffer Least { uint least[]; };          // of an island, at its first slot
+layout(std430, binding = 8) writeonly buffer Least { uint least[]; };          // by island, at its first slot
 layout(push_constant) uniform Push { SleepPush push; };
 
 void main() {
@@ -20,7 +20,7 @@ void main() {
     least[i] = 0x7f800000u;
     const vec4 velocity = velocities[i];
     if (weights[i] > 0.0 && velocity.w == 0.0) return; // asleep: its island stays
-    islands[i] = components[i]; // of what never moves too: a piece may be named after that (part_islands)
+    islands[i] = components[i]; // of static particles too: a piece may be named after one (part_islands)
     if (weights[i] == 0.0) return;
     const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz;
     if (limits[i] < 0.0) {
@@ -28,8 +28,8 @@ void main() {
         return;
     }
     const vec4 rest = rests[i];
-    // Contacts move a particle that lies on others up and down by its fall in some substeps, and it does not leave its place. A vibration
-    // by more than the limit that steps see at one phase only is faster than that.
+    // In some substeps contacts move a particle that lies on others up and down by its fall, while it stays in place.
+    // A vibration beyond the limit that all steps sample at one phase is faster than that.
     const float dt = float(push.substeps) * step.h, most = clamp(6.2832 * limits[i] / dt, SLEEP_SPEED, SLEEP_MOST_SPEED);
     const bool isSlow = dot(velocity.xyz, velocity.xyz) <= most * most;
     const bool rests_ = rest.w >= 0.0 && isSlow && distance(x, rest.xyz) <= limits[i]; // below 0: it woke in this step

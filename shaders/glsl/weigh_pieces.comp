@@ -1,13 +1,13 @@
 #version 460
-// After pieces were found anew: what each one weighs, for the hands that hold it, as a part of the uncut body in whole numbers, so that
-// the order does not matter.
+// Sums the mass of each piece for grabs after pieces were found again, as a part of the uncut body in integers, so
+// that the order does not matter.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 
 layout(std430, binding = 0) readonly buffer Particles { uint particles[]; }; // of each slot
 layout(std430, binding = 1) readonly buffer Pieces { uint pieces[]; };
 layout(std430, binding = 2) readonly buffer UncutBodies { GrabBody uncutBodies[]; };
-layout(std430, binding = 3) buffer Weights { uint weights[]; }; // of the piece that is named after a particle
+layout(std430, binding = 3) buffer Weights { uint weights[]; }; // at the particle that a piece is named after
 
 void main() {
     const uint item = itemIndex(push.count);

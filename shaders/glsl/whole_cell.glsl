@@ -1,5 +1,5 @@
-// Whether all edges of the six tetrahedra of a cell are alive. Its lowest corner names it. The longest edge of an empty cell is not
-// alive. Needs links[] and a push constant with the strides.
+// True if all edges of the six tetrahedra of a cell are alive. `lowest` is its lowest corner. The longest edge of an
+// empty cell is not alive. Requires links[] and push constants with the strides.
 bool isWholeCell(uint lowest) {
     for (int c = 0; c < 7; ++c) {
         const ivec3 corner = cornerOf(c);

@@ -1,5 +1,5 @@
-// Whole numbers of 64 and 96 bits in two's complement, low word first. Kernels that must not be wrong about a sign compute with
-// them: 64-bit integers are an optional feature of a device, these are not.
+// Integers of 64 and 96 bits in two's complement, low word first, for kernels that need exact signs: 64-bit integers
+// are an optional feature of a device, these are not.
 struct Int64 {
     uint low;
     int high;

@@ -1,21 +1,21 @@
 #version 460
-// The generalised winding number [Jacobson 2013] of every doubtful sample, inside where |w| > 1/2. Walks the tree of boxes over
-// the triangles without a stack: nodes stand depth first and know where to go on when they are done with. A far cluster counts
-// as one dipole [Barill et al. 2018]; solid angles after van Oosterom and Strackee (1983).
+// The generalised winding number [Jacobson 2013] of every doubtful sample; inside if |w| > 1/2. Traverses the tree of
+// boxes over the triangles without a stack: nodes are stored depth first and store the next node after their subtree.
+// A far cluster counts as one dipole [Barill et al. 2018]; solid angles after van Oosterom and Strackee (1983).
 #extension GL_GOOGLE_include_directive : require
 #include "voxel.glsl"
 
 layout(std430, binding = 0) readonly buffer Vertices { ivec4 vertices[]; };
 layout(std430, binding = 1) readonly buffer Triangles { uvec4 triangles[]; };
 layout(std430, binding = 2) readonly buffer Nodes { WindingNode nodes[]; };
-layout(std430, binding = 3) readonly buffer Order { uint order[]; }; // the triangles of the leaves
+layout(std430, binding = 3) readonly buffer Order { uint order[]; }; // triangles of the leaves, in order
 layout(std430, binding = 4) readonly buffer HullCells { uint hullCells[]; };
 layout(std430, binding = 5) readonly buffer Samples { uint doubtfulSamples[]; };
 layout(std430, binding = 6) buffer Inside { uint insideWords[]; };
 
 const float pi = 3.14159265358979;
 
-// [cells] The place of a sample in whole units, exact; coordinates become floats only after it is subtracted.
+// Position of a sample in integer units, exact; coordinates become floats only after it is subtracted.
 ivec3 placeOf(uint index) {
 #ifdef CENTERS
     return ivec3(cellAt(index) << push.fractionBits) + (cellSize() >> 1);
@@ -55,7 +55,7 @@ void main() {
             winding += windingOf(vec3(vertices[corners.x].xyz - place) * unit, vec3(vertices[corners.y].xyz - place) * unit,
                                  vec3(vertices[corners.z].xyz - place) * unit);
         }
-        ++n; // the first child, or what follows a leaf
+        ++n; // the first child, or the next node after a leaf
     }
     if (abs(winding) > 0.5) atomicOr(insideWords[index / 32u], 1u << (index % 32u));
 }

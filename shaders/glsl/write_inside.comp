@@ -1,6 +1,6 @@
 #version 460
-// The surface of a cut, fifth pass: triangles inside. Their normals at rest add up at the points in whole numbers, so that the
-// order does not matter.
+// The surface of a cut, fifth pass: inner triangles. Their normals at rest are added up at the points as integers, so
+// that the order does not matter.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -11,20 +11,20 @@
 layout(std430, binding = 0) readonly buffer Complex { uint complex[]; };
 layout(std430, binding = 1) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 2) readonly buffer Owned { uvec4 owned[]; };
-layout(std430, binding = 3) readonly buffer Listed { uint listed[]; }; // how many, and then the slots
+layout(std430, binding = 3) readonly buffer Listed { uint listed[]; }; // the count, and then the slots
 layout(std430, binding = 4) readonly buffer Starts { uvec2 starts[]; };
 layout(std430, binding = 5) buffer Vertices { CutVertex vertices[]; };
 layout(std430, binding = 6) writeonly buffer Indices { uint indices[]; };
 layout(std430, binding = 7) readonly buffer Links { uint links[]; };
 
-uint next; // triangle
+uint next; // index of the next triangle
 
 uint indexOf(uvec2 point) {
     const uvec4 own = owned[point.x];
     return placeOf(own, copyOf(own, point.y));
 }
 
-// Corners. Triangles are written in one place: a software device compiles what a call does for every call.
+// Corners of triangles to write. There is one place that writes them, because a software device inlines every call.
 uvec2 noted[18];
 uint count = 0u;
 void triangle(uvec2 a, uvec2 b, uvec2 c) {
@@ -56,7 +56,7 @@ void main() {
     const uint item = itemIndex(listed[0]);
     if (item >= listed[0]) return;
     const uint i = listed[1u + item];
-    if (i - push.first >= push.count) return; // of another run
+    if (i - push.first >= push.count) return; // belongs to another run
     next = starts[i].x;
     addInside(i);
 }

@@ -1,5 +1,6 @@
 #version 460
-// The surface of a cut, sixth pass: pieces of outer faces. Each triangle has vertices of its own: a body's faces meet in edges.
+// The surface of a cut, sixth pass: pieces of outer faces. Each triangle has its own vertices, because a body's faces
+// meet at sharp edges.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -10,7 +11,7 @@
 layout(std430, binding = 0) readonly buffer Complex { uint complex[]; };
 layout(std430, binding = 1) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 2) readonly buffer Owned { uvec4 owned[]; };
-layout(std430, binding = 3) readonly buffer Listed { uint listed[]; }; // how many, and then the slots
+layout(std430, binding = 3) readonly buffer Listed { uint listed[]; }; // the count, and then the slots
 layout(std430, binding = 4) readonly buffer Starts { uvec2 starts[]; };
 layout(std430, binding = 5) readonly buffer State { SurfaceState state; };
 layout(std430, binding = 6) readonly buffer Rest { vec4 rest[]; }; // w = index of the body's skin
@@ -18,7 +19,7 @@ layout(std430, binding = 7) buffer Vertices { CutVertex vertices[]; };
 layout(std430, binding = 8) writeonly buffer Indices { uint indices[]; };
 layout(std430, binding = 9) readonly buffer Particles { uint particles[]; }; // of each slot
 
-uint next; // triangle, of those outside
+uint next; // index of the next outer triangle
 int normal[3];
 
 void setNormal(uint axis, bool isHigh) {
@@ -39,7 +40,7 @@ CutVertex vertexAt(uvec2 point) {
     return vertex;
 }
 
-// Corners of the triangles of a face. They are written in one place: a software device compiles what a call does for every call.
+// Corners of triangles to write. There is one place that writes them, because a software device inlines every call.
 uvec2 noted[18];
 uint count = 0u;
 void triangle(uvec2 a, uvec2 b, uvec2 c) {
@@ -64,7 +65,7 @@ void main() {
     const uint item = itemIndex(listed[0]);
     if (item >= listed[0]) return;
     const uint i = listed[1u + item];
-    if (i - push.first >= push.count) return; // of another run
+    if (i - push.first >= push.count) return; // belongs to another run
     next = starts[i].y;
     addOutside(i);
 }

@@ -1,12 +1,12 @@
 #version 460
-// The surface of a cut, sixth pass for skins of meshes: what is left of the triangles of a skin, as write_outside has it for faces of
-// cells. Corners of the skin are where the skin has them; points on its edges have its normal at rest there.
+// The surface of a cut, sixth pass for skins of meshes: pieces of skin triangles, as write_outside does for faces of
+// cells. Corners coincide with the vertices of the skin; points on its edges have the skin's normal at rest there.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
 #include "link_masks.glsl"
 
-layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // how many, and then the items
+layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // the count, and then the items
 layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 2) readonly buffer Links { uint links[]; };
 layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
@@ -24,13 +24,14 @@ layout(push_constant) uniform Push { PrismPush push; };
 #include "skin_points.glsl"
 #include "skin_rest.glsl"
 
-uint next; // triangle, of those outside: the first
+uint next; // index of the first outer triangle
 SkinPrism prism;
 uint self;
 
 #include "piece_vertices.glsl"
 
-// Their corners, 4 bits each. They are written in one place: a software device compiles what a call does for every call.
+// Corners of triangles to write, 4 bits each. There is one place that writes them, because a software device inlines
+// every call.
 uint noted[6], count = 0u;
 void triangle(uint a, uint b, uint c) { noted[count++] = a | b << 4 | c << 8; }
 
@@ -49,7 +50,7 @@ void main() {
     prism = prisms[self];
     next = starts[push.first + self].y;
     const uvec3 pattern = patternOf(prism);
-    if (pattern.y + pattern.z == 0u) { // whole, but the next one is not: its point is put in
+    if (pattern.y + pattern.z == 0u) { // whole, but its neighbour is not: the point on their edge is inserted
         [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
             const SkinEdge edge = edgeOf(prism, self, n);
             if ((owned[push.first + edge.prism].x >> 2u * edge.edge & 1u) == 0u) continue;

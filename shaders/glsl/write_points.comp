@@ -1,6 +1,6 @@
 #version 460
-// The surface of a cut, fourth pass: the points that a slot owns, with what they hang on: a point on one side of a cut on that side's
-// corners alone, one that holds both sides together on both.
+// The surface of a cut, fourth pass: the points that a slot owns, with the corners that each is bound to: a point on
+// one side of a cut to the corners of that side alone, a point that joins both sides to both.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -8,14 +8,14 @@
 #include "kuhn.glsl"
 #include "cut_points.glsl"
 
-layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // how many, and then the slots
+layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // the count, and then the slots
 layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 2) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 3) readonly buffer Hits { LinkHits hits[]; };
-layout(std430, binding = 4) readonly buffer Rest { vec4 rest[]; }; // where a blade has particles; w = index of the body's skin
+layout(std430, binding = 4) readonly buffer Rest { vec4 rest[]; }; // as blades see particles (pull_places); w = index of the body's skin
 layout(std430, binding = 5) writeonly buffer Vertices { CutVertex vertices[]; };
 
-// Where a link was cut. One that died by rule K alone has no place: its middle.
+// Position of the cut on a link; the midpoint for a link cut by rule K alone, which has no position.
 float shareOf(uint slot, uint d) {
     const uint k = d - 1u, value = bitfieldExtract(k < 4u ? hits[slot].low : hits[slot].high, int(8u * (k & 3u)), 8);
     return value == 0u ? 0.5 : float(value) / 255.0;
@@ -49,7 +49,7 @@ void main() {
     const uint item = itemIndex(listed[0]);
     if (item >= listed[0]) return;
     const uint i = listed[1u + item];
-    if (i - push.first >= push.count) return; // of another run
+    if (i - push.first >= push.count) return; // belongs to another run
     [[dont_unroll]] for (uint d = 1u; d < 8u; ++d)
         if (hasBit(owned[i], edgeBit(d, 0u))) writeEdge(i, d);
     [[dont_unroll]] for (uint q = 0u; q < 12u; ++q)

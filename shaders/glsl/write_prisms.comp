@@ -1,13 +1,13 @@
 #version 460
-// The surface of a cut, fifth pass for skins of meshes: the triangles inside of prisms, between the points on the skin and those on the
-// links below, twice, once a side, as write_inside has it for tetrahedra.
+// The surface of a cut, fifth pass for skins of meshes: the inner triangles of prisms, between the points on the skin
+// and those on the links below, each twice, once a side, as write_inside does for tetrahedra.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
 #include "link_masks.glsl"
 #include "surface_points.glsl"
 
-layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // how many, and then the items
+layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // the count, and then the items
 layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 2) readonly buffer Links { uint links[]; };
 layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
@@ -20,8 +20,8 @@ layout(push_constant) uniform Push { PrismPush push; };
 #include "skin_prisms.glsl"
 #include "skin_points.glsl"
 
-uint next;        // triangle
-float areaToUnit; // of a normal
+uint next;        // index of the next triangle
+float areaToUnit; // scale from area to the unit of a normal
 
 void triangle(uint a, uint b, uint c) {
     const uint corners[3] = uint[3](a, b, c);
@@ -35,13 +35,13 @@ void triangle(uint a, uint b, uint c) {
     ++next;
 }
 
-// Where the link below edge n is cut, on the side of its start or of its end.
+// The point of the cut on the link below edge n, on the side of its start or of its end.
 uint linkPoint(SkinPrism prism, uint n, bool isStart) {
     const uint link = linkOf(prism, n), slot = lowEnd(prism, n);
     return placeOf(owned[slot], copyOf(owned[slot], edgeBit(link & 7u, isStart == (link < 8u) ? 0u : 1u)));
 }
 
-// The middle of the face below, on the side of a corner.
+// The point at the centre of the face below, on the side of a corner.
 uint facePoint(SkinPrism prism, uint corner) {
     const uint place = prism.places >> 4u + 2u * corner & 3u;
     return placeOf(owned[prism.face], copyOf(owned[prism.face], faceBit(prism.places & 15u, place)));

@@ -1,12 +1,12 @@
 #version 460
-// The surface of a cut, fourth pass for skins of meshes: the points on the edges of a skin and in the middle of its triangles, with what
-// they hang on, as write_points has it.
+// The surface of a cut, fourth pass for skins of meshes: the points on the edges of a skin and at the centres of its
+// triangles, with the anchors that each is bound to, as write_points does for slots.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
 #include "link_masks.glsl"
 
-layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // how many, and then the items
+layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // the count, and then the items
 layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 2) readonly buffer Links { uint links[]; };
 layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
@@ -22,8 +22,8 @@ layout(push_constant) uniform Push { PrismPush push; };
 #include "skin_points.glsl"
 #include "skin_rest.glsl"
 
-// How far along edge n the cut is. Where the blade has not met it, it passed between an end of the edge and the particle that it goes with:
-// that end is on the blade.
+// Position of the cut along edge n. If the blade has not met the edge, it passed between an end of the edge and the
+// anchor of that end: that end is on the blade.
 float shareOf(SkinPrism prism, uint self, uint n) {
     const SkinEdge edge = edgeOf(prism, self, n);
     const uint value = bitfieldExtract(skinHits[edge.prism], int(8u * edge.edge), 8);

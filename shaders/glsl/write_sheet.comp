@@ -1,8 +1,8 @@
 #version 460
-// Pieces of the skin of a sheet, last pass: triangles that a cut has reached shrink to a point in the skin's own indices, and what they
-// fall into is written behind. A point on a dead edge has a copy at either end, which hangs on that end alone, unless the triangle beyond
-// still joins the two: then it lies between them, which closes the end of a cut. Both triangles
-// compute the same bits, from the edge's owner.
+// Pieces of the skin of a sheet, last pass: collapses triangles reached by a cut to a point in the skin's own
+// indices, and writes their pieces after these. A point on a dead edge has a copy at either end, bound to that end
+// alone, unless the triangle on the other side still connects the two: then it lies between them, which closes the
+// end of a cut. Both triangles compute the same bits, from the edge's owner.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -29,7 +29,7 @@ void splitInThree() {
     }
 }
 
-// The corner between two dead edges comes off.
+// Splits off the corner between two dead edges.
 void splitInTwo() {
     int off = 0;
     for (int n = 0; n < 3; ++n)

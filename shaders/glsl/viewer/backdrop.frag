@@ -1,5 +1,5 @@
 #version 460
-// What was drawn where no body stands, kept from an earlier picture.
+// Draws the stored backdrop of an earlier picture where there is no body.
 layout(set = 0, binding = 6) uniform sampler2D kept;
 layout(location = 0) in vec2 clip;
 layout(location = 0) out vec4 shown;

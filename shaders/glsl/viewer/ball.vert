@@ -1,12 +1,12 @@
 #version 460
-// Particles of bodies without a skin: one unit ball, placed and scaled an instance.
+// Particles of bodies without a skin: one unit ball, placed and scaled per instance.
 #extension GL_GOOGLE_include_directive : require
 #include "pieces.h"
 #include "viewer/frame.glsl"
 
 layout(push_constant) uniform Push { SkinPush push; };
 layout(location = 0) in vec4 corner; // on the unit ball
-layout(location = 1) in vec4 center; // public position of a particle; w = 0: does not move
+layout(location = 1) in vec4 center; // public position of a particle; w = 0: static
 layout(location = 2) in float radius;
 layout(location = 4) in uint piece;
 layout(location = 0) out vec3 worldPosition;

@@ -1,5 +1,5 @@
 #version 460
-// Balls into the two maps, as depth.vert does with skins.
+// Draws balls into the two maps, as depth.vert does skins.
 #extension GL_GOOGLE_include_directive : require
 #include "pieces.h"
 #include "viewer/frame.glsl"

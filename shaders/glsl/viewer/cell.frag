@@ -1,5 +1,5 @@
 #version 460
-// Edges of cells, flat.
+// Edges of cells, unlit.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/light.glsl"
 #include "viewer/section.glsl"

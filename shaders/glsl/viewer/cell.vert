@@ -1,11 +1,11 @@
 #version 460
-// A cell of a hash grid as the edges of a cube, a little inside of it: neighbours stay apart.
+// A cell of a hash grid as the edges of a cube, slightly smaller than the cell, so that neighbours stay apart.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 
-layout(push_constant) uniform Push { SkinPush push; }; // color.x: how many have the last color of the map
+layout(push_constant) uniform Push { SkinPush push; }; // color.x: the count that has the last color of the map
 layout(location = 0) in vec4 low;                      // corner and edge [m]
-layout(location = 1) in vec4 held;                     // of the cell; of others in its slot
+layout(location = 1) in vec4 held;                     // number of particles in the cell; of other cells in its slot
 layout(location = 0) out vec3 worldPosition;
 layout(location = 1) flat out vec3 color;
 

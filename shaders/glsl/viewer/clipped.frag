@@ -1,5 +1,5 @@
 #version 460
-// The pieces of skins beside a cut: as skins look.
+// The pieces of skins beside a cut; they look like the skins.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/tissue.glsl"
 #include "viewer/section.glsl"

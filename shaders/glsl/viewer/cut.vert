@@ -1,12 +1,12 @@
 #version 460
-// The surface of cuts as the simulation leaves it: the inside, and pieces of skins beside it.
+// The surface of cuts as stored by the simulation: the inside, and pieces of skins beside it.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 
 layout(location = 0) in vec4 position;
 layout(location = 1) in vec4 normal;
 #ifndef VALUES
-layout(location = 2) in vec4 rest; // where the point is in the body as it was loaded [m]; w = index of its skin
+layout(location = 2) in vec4 rest; // position of the point in the body as loaded [m]; w = index of its skin
 #endif
 layout(location = 0) out vec3 worldPosition;
 layout(location = 1) out vec3 worldNormal;

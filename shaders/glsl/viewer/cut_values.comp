@@ -1,5 +1,6 @@
 #version 460
-// From particles to the vertices of the surface of cuts: those that are where a vertex of a skin is have its value.
+// Interpolates values of particles to the vertices of the surface of cuts; vertices that coincide with a skin vertex
+// take its value.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "viewer/values.h"

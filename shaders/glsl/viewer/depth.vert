@@ -1,5 +1,5 @@
 #version 460
-// Skins and colliders into the two maps: what the key light sees, or what the floor sees looking up.
+// Draws skins and colliders into one of the two maps: the view of the key light, or the view from the floor upwards.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 
@@ -16,5 +16,5 @@ void main() {
 #endif
     worldPosition = rotated(push.rotation, push.scale.x * position.xyz) + push.position.xyz;
     gl_Position = (isPlan ? frame.planFromWorld : frame.shadowFromWorld) * vec4(worldPosition, 1.0);
-    gl_Position.z = max(gl_Position.z, 0.0); // what was lifted out of the volume throws a shadow, what is below the floor touches it
+    gl_Position.z = max(gl_Position.z, 0.0); // geometry lifted out of the volume still casts a shadow; below the floor it counts as touching it
 }

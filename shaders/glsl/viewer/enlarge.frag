@@ -1,6 +1,6 @@
 #version 460
-// A picture that was drawn smaller than it is shown, or PANELS that were drawn into an image of their own, their colors times their
-// alpha. Nothing but a filtered read: software devices copy that as a whole.
+// Enlarges a picture drawn smaller than it is shown; PANELS: an image of the panels, with premultiplied alpha. Does
+// nothing but a filtered read, which software devices execute as a copy of the whole image.
 #ifdef PANELS
 #define BINDING 2
 #else

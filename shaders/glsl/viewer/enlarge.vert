@@ -1,5 +1,5 @@
 #version 460
-// One triangle that covers the target, and the places of a texture that covers it, too.
+// One triangle that covers the target, with texture coordinates that cover a texture.
 layout(location = 0) out vec2 place;
 
 void main() {

@@ -1,8 +1,8 @@
 #version 460
-// The light on the floor as a map: share of the key light and share of the sky that each place still sees.
-// The sky is hidden by what the plan map holds, the height of the lowest surface above the floor: a level
-// patch of area A at height h and offset r hides A h^2 / (pi (r^2 + h^2)^2) of the cosine-weighted sky;
-// `a2` = A / pi keeps that bounded where a patch touches the floor. Rings grow outwards: contact stays crisp.
+// The light on the floor as a map: visible share of the key light and of the sky at each place. The plan map, the
+// height of the lowest surface above the floor, hides the sky: a level patch of area A at height h and offset r hides
+// A h^2 / (pi (r^2 + h^2)^2) of the cosine-weighted sky; `a2` = A / pi keeps that bounded where a patch touches the
+// floor. Rings grow outwards: contact stays crisp.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/light.glsl"
 

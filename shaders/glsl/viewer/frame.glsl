@@ -1,4 +1,4 @@
-// The resources of every picture shader, and the sample pattern they share.
+// The resources of every picture shader, and their sample pattern.
 #include "viewer/frame.h"
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameParams frame; };
@@ -24,9 +24,9 @@ float pixelNoise(vec2 pixel) {
     return fract(52.9829189 * fract(dot(floor(pixel), vec2(0.06711056, 0.00583715))));
 }
 
-const vec3 unknownValue = vec3(0.32); // grey: nothing is known
+const vec3 unknownValue = vec3(0.32); // grey: the value is unknown
 
-// Of a value of a map whose last color is that of `range`.
+// Color of a value in a map whose last color is that of `range`.
 vec3 mapColor(float value, float range) {
     const float place = clamp(value / max(range, 1e-30), 0.0, 1.0) * float(MAP_COLORS - 1);
     const int low = min(int(place), MAP_COLORS - 2);

@@ -1,5 +1,5 @@
-// What the picture's shaders read, defined once for C++ (sinew::viewer::layout) and GLSL. Written once per
-// picture.
+// Uniforms and push constants of the picture's shaders, defined once for C++ (sinew::viewer::layout) and GLSL.
+// Written once per picture.
 #ifndef SINEW_VIEWER_FRAME_H
 #define SINEW_VIEWER_FRAME_H
 
@@ -25,20 +25,20 @@ struct FrameParams {
     vec4 rayUp;
     vec4 rayForward;
     vec4 toLight; // unit direction to the key light
-    vec4 stage;   // centre and radius of what is lit and shadowed [m]
-    vec4 ground; // height [m], grid spacing [m], distance from the stage where it ends in haze [m], 1 = drawn
+    vec4 stage;   // centre and radius of the lit and shadowed region [m]
+    vec4 ground; // height [m], grid spacing [m], distance from the stage at which it fades into haze [m], 1 = drawn
     vec4 shadow; // width and depth of the shadow map's volume [m]
     vec4 skins[SKIN_COLORS]; // linear RGB and gloss of the first skins, for the surface of cuts
-    vec4 floor;  // x and z of the floor map's middle, its width, the plan map's height [m]
+    vec4 floor;  // x and z of the floor map's centre, its width, the plan map's height [m]
     vec4 mapColors[MAP_COLORS]; // linear RGB of values, from the lowest to the highest
-    vec4 section; // unit normal and offset [m]: what lies before the plane is cut away, in the forms of shaders that do so
+    vec4 section; // unit normal and offset [m]; SECTION forms of shaders cut away everything in front of the plane
 };
 
 struct SkinPush {
-    vec4 color; // linear RGB, of a map x: the value that has its last color; w: gloss, 1 = moist tissue
-    vec4 position; // where the vertices' frame is: 0 for skins [m]; w: 1 = what sleeps is paler
+    vec4 color; // linear RGB; for a color map x: the value that has its last color; w: gloss, 1 = moist tissue
+    vec4 position; // origin of the vertices' frame, 0 for skins [m]; w: 1 = sleeping bodies are paler
     vec4 rotation; // unit quaternion x, y, z, w
-    vec4 scale;    // x: of the vertices in their frame
+    vec4 scale;    // x: scale of the vertices in their frame
 };
 
 #ifdef __cplusplus

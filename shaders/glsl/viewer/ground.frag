@@ -1,13 +1,14 @@
 #version 460
-// A quiet floor: matt, with a grid that fades, the body's shadow and contact, and haze up to the horizon.
+// A plain floor: matt, with a grid that fades, the shadow and contact darkening of bodies, and haze up to the
+// horizon.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/light.glsl"
 
 layout(location = 0) in vec3 worldPosition;
 layout(location = 0) out vec4 shown;
 
-// Coverage of lines `width` pixels wide at whole multiples of `spacing`; fades where they come too close to
-// tell apart.
+// Coverage of lines `width` pixels wide at integer multiples of `spacing`; fades where they are too close to tell
+// apart.
 float gridLines(vec2 place, float spacing, float width) {
     const vec2 at = place / spacing;
     const vec2 perPixel = max(fwidth(at), vec2(1e-6));
@@ -25,8 +26,8 @@ void main() {
     const vec3 albedo = floorAlbedo * (1.0 - 0.20 * min(lines, 1.0) * lineFade);
 
     const vec2 light = floorLight(worldPosition);
-    const float pool = mix(1.0, 0.78, smoothstep(0.3, 6.0, distance)); // the lamp stands near
-    const float open = mix(0.22, 1.0, light.y); // what touches the floor is not black and lights it, too
+    const float pool = mix(1.0, 0.78, smoothstep(0.3, 6.0, distance)); // the lamp is near
+    const float open = mix(0.22, 1.0, light.y); // a body that touches the floor is not black and lights it too
     const vec3 floorColor = albedo * pool / pi * (keyLight * frame.toLight.y * light.x + skyLight * open);
 
     const vec3 ray = worldPosition - frame.eye.xyz;

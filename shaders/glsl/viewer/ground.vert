@@ -1,10 +1,10 @@
 #version 460
-// A square at the height of the scene's floor: wide enough to end in haze, or what the floor's light is known of. It is pushed away from the eye by
-// a thousandth, so that cloth lying on the floor does not flicker.
+// A square at the height of the scene's floor: wide enough to end in haze, or as wide as the floor map. It is pushed
+// away from the eye by a thousandth, so that cloth on the floor does not flicker.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 
-layout(push_constant) uniform Push { SkinPush push; }; // color.xyz: x and z of the middle, half the width [m]
+layout(push_constant) uniform Push { SkinPush push; }; // color.xyz: x and z of the centre, half the width [m]
 layout(location = 0) out vec3 worldPosition;
 
 void main() {

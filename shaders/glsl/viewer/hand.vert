@@ -1,11 +1,11 @@
 #version 460
-// A hand and its rope (hand_mesh.cpp): the ball stands where the hand is, the rope goes from there to a point that moves with
-// the particle of the instance, if that is still there.
+// The handle of a grab and its rope (hand_mesh.cpp): a ball at the target of the grab, and a rope from there to a
+// point that moves with the particle of the instance, if that was not removed.
 #extension GL_GOOGLE_include_directive : require
 #include "pieces.h"
 #include "viewer/frame.glsl"
 
-layout(push_constant) uniform Push { SkinPush push; }; // position: of the hand, w: its size; rotation.xyz: of the held point, w: radius of the ball over the size, below 0 for a pin
+layout(push_constant) uniform Push { SkinPush push; }; // position: of the ball, w: size; rotation.xyz: of the held point, w: radius of the ball over the size, below 0 for a pin
 layout(location = 0) in vec4 corner;
 layout(location = 1) in vec4 particle;
 layout(location = 4) in uint piece;
@@ -14,7 +14,7 @@ layout(location = 1) out vec3 worldNormal;
 layout(location = 2) out float asleep;
 
 void main() {
-    const bool isPin = push.rotation.w < 0.0, hasRope = !isPin && piece != REMOVED_PIECE; // a pin is where it holds
+    const bool isPin = push.rotation.w < 0.0, hasRope = !isPin && piece != REMOVED_PIECE; // a pin is at the held point
     const vec3 hand = push.position.xyz, held = !hasRope ? hand : particle.xyz + push.rotation.xyz;
     const vec3 way = hand - held;
     const vec3 along = !hasRope ? vec3(0.0, 1.0, 0.0) : way / max(length(way), 1e-20);

@@ -1,5 +1,6 @@
 #version 460
-// The inside of bodies that a cut laid open. Its texture stands in the body as it was loaded, so that it sticks to the tissue.
+// The inside of bodies opened by a cut. Its texture uses the coordinates of the body as loaded, so that it moves with
+// the tissue.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/tissue.glsl"
 #include "viewer/inside.glsl"

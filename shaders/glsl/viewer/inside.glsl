@@ -1,7 +1,7 @@
-// What bodies are made of: another material than their skin, wet and darker, with a solid texture of strands.
+// The material inside of bodies: wet and darker than their skin, with a solid texture of strands.
 const float insideMoist = 1.3;
 
-// A hash of whole numbers in [0, 1).
+// A hash of integers in [0, 1).
 float hashed(ivec3 cell) {
     uvec3 v = uvec3(cell) * uvec3(1664525u, 22695477u, 1103515245u);
     uint h = v.x ^ v.y ^ v.z;
@@ -22,7 +22,7 @@ float noise(vec3 x) {
     return sum;
 }
 
-// At a place in the body, under a skin of this color.
+// Albedo at a place in the body, under a skin of this color.
 vec3 insideAlbedo(vec3 inBody, vec3 skin) {
     const vec3 x = inBody * (16.0 / frame.stage.w); // the stage is 32 wide
     const float warp = noise(x) + 0.5 * noise(2.3 * x);

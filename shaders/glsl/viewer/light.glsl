@@ -1,11 +1,11 @@
-// The light of the studio: a warm key with a soft shadow, a cool sky, the floor, the way to the screen.
+// Studio lighting: a warm key light with a soft shadow, a cool sky, the floor, and the encoding for the screen.
 #include "viewer/frame.glsl"
 
-layout(constant_id = 0) const bool encodesSrgb = false; // where the target does not do it itself
+layout(constant_id = 0) const bool encodesSrgb = false; // if the target does not encode itself
 layout(constant_id = 1) const uint shadowTaps = 32u;
 
 layout(set = 0, binding = 1) uniform sampler2DShadow shadowMap;
-layout(set = 0, binding = 2) uniform sampler2D shadowDepth; // the same map, uncompared
+layout(set = 0, binding = 2) uniform sampler2D shadowDepth; // the same map, without comparison
 layout(set = 0, binding = 4) uniform sampler2D floorMap;    // of floor.frag
 
 const vec3 keyLight = vec3(2.75, 2.58, 2.34); // irradiance of a facing surface
@@ -13,9 +13,9 @@ const vec3 skyLight = vec3(0.82, 0.85, 0.90); // irradiance of an upward surface
 const vec3 skyZenith = vec3(0.16, 0.27, 0.42);
 const vec3 skyHorizon = vec3(0.90, 0.965, 1.01);
 const vec3 floorAlbedo = vec3(0.73, 0.745, 0.77);
-const float lightRadius = 0.085; // tangent of the key light's angular radius: how fast a penumbra widens
+const float lightRadius = 0.085; // tangent of the key light's angular radius, which determines how fast a penumbra widens
 
-// Towards the lamp, level or nearly so.
+// Glow of the sky around the lamp's direction, near the horizon.
 vec3 glowAround(vec3 direction) {
     const float glow = max(dot(direction, normalize(vec3(frame.toLight.x, 0.25, frame.toLight.z))), 0.0);
     return vec3(0.10, 0.085, 0.06) * (glow * glow) * (glow * glow);
@@ -28,13 +28,13 @@ vec3 skyColor(vec3 direction) {
     return mix(away, skyHorizon, near) + glowAround(direction) * exp(-6.0 * abs(up));
 }
 
-// Shares of the key light and of the sky at the floor below a place, see floor.frag.
+// Visible shares of the key light and of the sky at the floor below a place, see floor.frag.
 vec2 floorLight(vec3 position) {
     const vec2 uv = (position.xz - frame.floor.xy) / frame.floor.z + 0.5;
     return frame.ground.w > 0.0 ? textureLod(floorMap, uv, 0.0).rg : vec2(1.0);
 }
 
-// A surface as the shadow map sees it. `slope` is the depth its plane gains per offset [m/m]; taps beside the
+// A surface point in the shadow map. `slope` is the depth that its plane gains per offset [m/m]; taps beside the
 // point are compared with that plane, not with the point.
 struct MapPoint {
     vec2 uv;
@@ -52,14 +52,14 @@ MapPoint mapPoint(vec3 position, vec3 normal) {
     return MapPoint(clip.xy * 0.5 + 0.5, clip.z - texel / frame.shadow.y, texel, slope);
 }
 
-// Depth to compare at an offset [m]. What lies behind the map's volume is compared with its end.
+// Depth to compare at an offset [m]. Points behind the map's volume are compared with its end.
 float depthAt(MapPoint point, vec2 offset) {
     return min(point.depth + dot(point.slope, offset) / frame.shadow.y, 1.0);
 }
 
-// Mean depth of what stands between the light and a disc around the point; 1 where nothing does.
+// Mean depth of the blockers between the light and a disc around the point; 1 if there are none.
 float blockerDepth(MapPoint point, float radius, uint taps, vec2 turn) {
-    const float margin = 0.15 / frame.shadow.y; // per offset, against the surface's own curvature
+    const float margin = 0.15 / frame.shadow.y; // per offset, because of the surface's own curvature
     float blockers = 0.0, depth = 0.0;
     for (uint i = 0u; i < taps; ++i, turn = nextTurn(turn)) {
         const vec2 offset = radius * discRadius(i, taps) * turn;
@@ -71,8 +71,8 @@ float blockerDepth(MapPoint point, float radius, uint taps, vec2 turn) {
     return blockers > 0.0 ? depth / blockers : 1.0;
 }
 
-// Share of the key light that reaches a surface: percentage-closer soft shadows [Fernando 2005]. Blockers
-// near the surface give a sharp edge, far ones a soft one. `phase` turns the taps [rad].
+// Share of the key light that reaches a surface: percentage-closer soft shadows [Fernando 2005]. Blockers near the
+// surface give a sharp edge, far ones a soft one. `phase` rotates the taps [rad].
 float keyShadow(vec3 position, vec3 normal, uint taps, float phase) {
     const MapPoint point = mapPoint(position, normal);
     if (any(notEqual(point.uv, clamp(point.uv, 0.0, 1.0)))) return 1.0;
@@ -91,10 +91,10 @@ float keyShadow(vec3 position, vec3 normal, uint taps, float phase) {
     return lit / float(taps);
 }
 
-// The target's encoding, noise of half a step against bands in the sky.
+// The target's encoding, with noise of half a step against banding in the sky.
 vec4 encoded(vec3 shown, vec2 pixel) {
     const float dither = (pixelNoise(pixel) - 0.5) / 255.0;
-    if (!encodesSrgb) return vec4(shown + dither * 2.0 * sqrt(shown), 1.0); // nearly a root encodes
+    if (!encodesSrgb) return vec4(shown + dither * 2.0 * sqrt(shown), 1.0); // the encoding is nearly a square root
     const vec3 curved = 1.055 * pow(shown, vec3(1.0 / 2.4)) - 0.055;
     return vec4(mix(12.92 * shown, curved, step(0.0031308, shown)) + dither, 1.0);
 }

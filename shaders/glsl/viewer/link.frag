@@ -1,5 +1,5 @@
 #version 460
-// Links, flat in the color of their class.
+// Links, unlit in the color of their class.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/light.glsl"
 #include "viewer/section.glsl"

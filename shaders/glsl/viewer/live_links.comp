@@ -1,5 +1,5 @@
 #version 460
-// The ends of links, two indices each; of one that a blade has cut, or that was removed, twice the same, which draws nothing.
+// Writes the ends of links, two indices each; for dead or removed links the same index twice, which draws nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "viewer/values.h"

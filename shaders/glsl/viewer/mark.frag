@@ -1,5 +1,5 @@
 #version 460
-// Contacts in the color of what touches (Okabe and Ito 2008): walls, particles, faces.
+// Contact marks in the color of their kind (Okabe and Ito 2008): walls, particles, faces.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/light.glsl"
 #include "viewer/section.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// A contact: a ball where it is, and a needle along its normal.
+// A contact mark: a ball at the contact point, and a needle along its normal.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// The cells of a hash grid that hold something, as the grid was built last: each is told by the first that lies in it, with how
-// many do and how many of other cells share its slot of the table.
+// Marks the occupied cells of a hash grid, as built last: the first particle of a cell writes its mark, with the
+// number of its particles and of those of other cells that share its slot of the table.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "hash_grid.glsl"
@@ -8,14 +8,14 @@
 
 layout(std430, binding = 0) readonly buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 1) readonly buffer Starts { uint starts[]; };
-layout(std430, binding = 2) readonly buffer Sorted { uvec4 sorted[]; }; // bits of the place; index
+layout(std430, binding = 2) readonly buffer Sorted { uvec4 sorted[]; }; // bits of the position; index
 layout(std430, binding = 3) writeonly buffer Marks { CellMark marks[]; };
 layout(std430, binding = 4) buffer Draws { CellDraw draws[]; };
 layout(push_constant) uniform Push { CellPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
-    if (i >= starts[push.cells]) return; // how many there are
+    if (i >= starts[push.cells]) return; // number of particles in the grid
     const Frame grid = frameOf(bounds, push.cells, push.edge);
     const ivec3 cell = cellOf(uintBitsToFloat(sorted[i].xyz), grid);
     const uint slot = slotOf(cell, grid);

@@ -1,6 +1,6 @@
 #version 460
-// Marks what touches in the state that is shown: particles and planes or colliders, and of the solver's lists of what may touch the
-// particles that do, and particles on faces. Marks come in any order.
+// Marks contacts in the shown state: particles on planes and colliders, and of the pairs in the solver's contact
+// lists those that touch: particles with particles, and particles on faces. Marks are in any order.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "triangle.glsl"
@@ -41,7 +41,7 @@ void markPairs(uint i, uint slot, vec3 x) {
         const vec3 d = x - placeOf(candidate.x);
         const float distance = length(d);
         if (isGone(candidate.x)) continue;
-        if ((bySlot[candidate.x] <= i && push.only == NO_PARTICLE) || distance > 1.02 * uintBitsToFloat(candidate.y)) continue; // one of the two says it
+        if ((bySlot[candidate.x] <= i && push.only == NO_PARTICLE) || distance > 1.02 * uintBitsToFloat(candidate.y)) continue; // marked once per pair
         mark(x - 0.5 * d, d / max(distance, 1e-20), 1.0);
     }
 }

@@ -1,6 +1,6 @@
 #version 460
-// Marks where edges of faces touch each other in the state that is shown: of the solver's lists of what may touch, the pairs whose
-// insides are that near.
+// Marks contacts between edges of faces in the shown state: of the pairs in the solver's contact lists those whose
+// interiors are within reach.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "segments.glsl"
@@ -17,7 +17,7 @@ layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; }; // of par
 layout(push_constant) uniform Push { MarkPush push; };
 #include "viewer/marks.glsl"
 
-const float leastSine = 1e-3; // squared, as touch_edges.comp has it
+const float leastSine = 1e-3; // squared, as in touch_edges.comp
 
 bool isWanted(ContactEdge edge) {
     return push.only == NO_PARTICLE || bySlot[edge.a] == push.only || bySlot[edge.b] == push.only;

@@ -1,4 +1,4 @@
-// What kernels of contact marks share; whoever includes this says `positions`, `bySlot`, `pieces`, `marks`, `draw` and `push`.
+// Shared by the kernels of contact marks. Requires `positions`, `bySlot`, `pieces`, `marks`, `draw` and `push`.
 
 void mark(vec3 point, vec3 normal, float kind) {
     const uint place = atomicAdd(draw.found, 1u);
@@ -10,5 +10,5 @@ void mark(vec3 point, vec3 normal, float kind) {
 uint particleOf(uint slot) { return min(bySlot[slot], push.count - 1u); }
 vec3 placeOf(uint slot) { return positions[particleOf(slot)].xyz; }
 
-// Lists are as the step began: what it has removed is still in them.
+// Lists are as at the start of the step: particles removed during the step are still in them.
 bool isGone(uint slot) { return pieces[particleOf(slot)] == REMOVED_PIECE; }

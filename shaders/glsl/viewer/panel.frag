@@ -1,6 +1,6 @@
 #version 460
-// Panels: the color, as far as the atlas covers this pixel. Glyphs are drawn pixel on pixel, so nothing is filtered; areas,
-// which are most pixels, read nothing.
+// Panels: the color times the atlas's coverage of this pixel. Glyphs are drawn pixel on pixel, so nothing is
+// filtered; solid areas, which are most pixels, read nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/panel.h"
 

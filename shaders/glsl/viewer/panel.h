@@ -1,4 +1,4 @@
-// What the shaders of panels are told, defined once for C++ (sinew::viewer::layout) and GLSL.
+// Push constants of the panel shaders, defined once for C++ (sinew::viewer::layout) and GLSL.
 #ifndef SINEW_VIEWER_PANEL_H
 #define SINEW_VIEWER_PANEL_H
 
@@ -12,8 +12,8 @@ struct alignas(8) vec2 {
 struct PanelPush {
     vec2 scale; // 2 / size of the picture [1/pixel]
     vec2 atlas; // size of the atlas, or of the sheet of pictures [texels]
-    vec2 full; // place in the atlas that is covered whole: what is no glyph is drawn with that [texels]
-    float pictureHeight; // of each in the sheet [texels]
+    vec2 full; // texel of the atlas with full coverage, used for everything but glyphs [texels]
+    float pictureHeight; // of each picture in the sheet [texels]
 };
 
 #ifdef __cplusplus

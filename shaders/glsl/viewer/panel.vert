@@ -1,9 +1,9 @@
 #version 460
-// Panels: from pixels of the picture to clip space, and colors as they are meant to look to what the target takes.
+// Panels: transforms pixels of the picture to clip space, and sRGB colors to those that the target expects.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/panel.h"
 
-layout(constant_id = 0) const uint isLinear = 1; // the target encodes what it is given
+layout(constant_id = 0) const uint isLinear = 1; // the target encodes linear colors
 layout(push_constant) uniform Push { PanelPush push; };
 layout(location = 0) in vec2 place;
 layout(location = 1) in vec2 atlasPlace;

@@ -1,6 +1,6 @@
 #version 460
-// Panels: areas that hide what is behind them.
-layout(location = 0) in vec2 texel; // read by none, but panel.vert writes it
+// Panels: opaque areas.
+layout(location = 0) in vec2 texel; // unused, but panel.vert writes it
 layout(location = 1) in vec4 color;
 layout(location = 0) out vec4 shown;
 

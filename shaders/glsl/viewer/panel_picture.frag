@@ -1,12 +1,12 @@
 #version 460
-// Panels: a small picture out of the sheet, between four of its texels.
+// Panels: a small picture from the sheet, filtered between four texels.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/panel.h"
 
-layout(constant_id = 0) const uint isLinear = 1; // the target encodes what it is given
+layout(constant_id = 0) const uint isLinear = 1; // the target encodes linear colors
 layout(std430, binding = 1) readonly buffer Sheet { uint sheet[]; }; // sRGB, rows from the top
 layout(push_constant) uniform Push { PanelPush push; };
-layout(location = 0) in vec2 texel; // of the sheet, as push.atlas counts them
+layout(location = 0) in vec2 texel; // of the sheet, in the units of push.atlas
 layout(location = 1) in vec4 color;
 layout(location = 0) out vec4 shown;
 

@@ -1,12 +1,12 @@
-// The plane that opens bodies: in the SECTION form of a shader what lies before it is not drawn, sample by sample.
-// Without that form there is nothing of it in a shader.
+// The section plane that opens bodies: the SECTION form of a shader draws nothing in front of it, sample by sample.
+// Other forms contain none of this.
 #ifdef SECTION
-layout(constant_id = 4) const bool hasOneSample = false; // a pixel, else 4
+layout(constant_id = 4) const bool hasOneSample = false; // 1 sample per pixel, else 4
 
-// Where they are, of a pixel's side, as Vulkan's standard has them.
+// Sample positions in a pixel, by Vulkan's standard.
 const vec2 sampleAt[4] = vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
 
-// A bit for each sample of the triangle around `position` that lies behind the plane.
+// A bit for each sample behind the plane, of the triangle around `position`.
 int samplesBehind(vec3 position) {
     const float before = dot(frame.section.xyz, position) - frame.section.w;
     const vec2 slope = vec2(dFdx(before), dFdy(before));
@@ -17,7 +17,7 @@ int samplesBehind(vec3 position) {
 #endif
 
 void keepBehindSection(vec3 position) {
-#if defined(SECTION) && defined(LINES) // beside them there is no slope to be trusted
+#if defined(SECTION) && defined(LINES) // lines have no reliable slope
     if (dot(frame.section.xyz, position) > frame.section.w) discard;
 #elif defined(SECTION)
     const int mask = samplesBehind(position);

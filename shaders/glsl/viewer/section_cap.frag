@@ -1,10 +1,10 @@
 #version 460
-// The section plane where it passes through bodies: their inside, laid open. Of balls their color.
+// The section plane where it passes through bodies: their opened inside; for balls their color.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/tissue.glsl"
 #include "viewer/inside.glsl"
 
-layout(push_constant) uniform Push { SkinPush push; }; // color.x: 1 = the colors of a map; color.w: gloss of balls
+layout(push_constant) uniform Push { SkinPush push; }; // color.x: 1 = a color map; color.w: gloss of balls
 #ifdef ONE_SAMPLE
 const int samples = 1;
 layout(set = 0, binding = 5) uniform sampler2D counts;
@@ -15,7 +15,7 @@ layout(set = 0, binding = 5) uniform sampler2DMS counts;
 layout(location = 0) in vec2 clip;
 layout(location = 0) out vec4 shown;
 
-// Of a surface that is wound inside out, as of others.
+// The count of a sample; an inverted surface counts like others.
 vec4 countAt(int i) {
 #ifdef ONE_SAMPLE
     const vec4 sum = texelFetch(counts, ivec2(gl_FragCoord.xy), 0);
@@ -37,7 +37,7 @@ void main() {
         mask |= 1 << i;
         sum = count;
     }
-    if (mask == 0 || height <= 0.0 || approach <= 0.0) discard; // seen from behind there is the skin
+    if (mask == 0 || height <= 0.0 || approach <= 0.0) discard; // seen from behind, the skin is visible
     gl_SampleMask[0] = mask;
     const vec3 position = frame.eye.xyz + height / approach * ray;
     const vec4 place = frame.clipFromWorld * vec4(position, 1.0);

@@ -1,6 +1,7 @@
 #version 460
-// How often closed surfaces wind around the place where a pixel's ray meets the section plane: of what the ray passes behind
-// it, each back adds one and each front takes one away. Sums of that with the surface's color, and of that alone: 1 a skin, a 64th a ball.
+// Winding number of closed surfaces around the point where a pixel's ray meets the section plane: of all surfaces
+// that the ray passes behind it, each back face adds one and each front face subtracts one. Sums with the surface's
+// color, and a sum of counts alone: 1 per skin, 1/64 per ball.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 #include "viewer/section.glsl"

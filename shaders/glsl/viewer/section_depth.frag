@@ -1,5 +1,5 @@
 #version 460
-// Nothing but depth, of what the section plane leaves.
+// Writes only depth, of the part behind the section plane.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 

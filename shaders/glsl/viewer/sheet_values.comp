@@ -1,5 +1,5 @@
 #version 460
-// From particles to the vertices that the skin of a sheet has along cuts.
+// Interpolates values of particles to the skin vertices of a sheet along cuts.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "viewer/values.h"

@@ -1,5 +1,5 @@
 #version 460
-// Skin vertices as the simulation leaves them (SkinVertex of layout.h), and those of colliders, which have a pose.
+// Skin vertices as stored by the simulation (SkinVertex of layout.h), and vertices of colliders, which have a pose.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 

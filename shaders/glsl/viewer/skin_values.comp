@@ -1,5 +1,5 @@
 #version 460
-// From particles to the vertices of skins, which they hold in shares.
+// Interpolates values of particles to the vertices of skins, by their shares.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "viewer/values.h"

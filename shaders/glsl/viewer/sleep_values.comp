@@ -1,5 +1,6 @@
 #version 460
-// Who sleeps: 1 = awake, 0 = asleep, none = never moves. Public positions have no inverse mass while a particle sleeps.
+// Sleep state of each particle: 1 = awake, 0 = asleep, none = static. The public inverse mass of a sleeping particle
+// is 0.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "viewer/values.h"

@@ -1,5 +1,5 @@
 #version 460
-// How fast each particle is.
+// Speed of each particle.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "viewer/values.h"

@@ -1,6 +1,5 @@
 #version 460
-// How far the links of each particle are from their lengths at rest: root of the mean square of (length - rest) / rest. What a blade
-// has cut is no link any more.
+// Strain of each particle: root mean square of (length - rest) / rest over its live links.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "viewer/values.h"

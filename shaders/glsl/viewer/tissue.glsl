@@ -1,4 +1,5 @@
-// Soft tissue and cloth: wrapped diffuse light that reddens at the terminator, two highlights, a rim of sky.
+// Shading of soft tissue and cloth: wrapped diffuse light that reddens at the terminator, two highlights, a rim of
+// sky light.
 #include "viewer/light.glsl"
 
 const float reflectance = 0.042; // at normal incidence: moist tissue
@@ -12,7 +13,7 @@ float highlight(float roughness, float nl, float nv, float nh) {
     return a2 / (pi * d * d) / (4.0 * (nl * (1.0 - k) + k) * (nv * (1.0 - k) + k));
 }
 
-// The light of the floor that a place faces: the higher, the wider the piece of floor it sees.
+// Light of the floor below a surface: the higher the surface, the larger the part of the floor that lights it.
 vec2 floorBelow(vec3 position, vec3 n, float phase) {
     const float height = max(position.y - frame.ground.x, 0.0);
     const vec3 center = position + vec3(n.x, 0.0, n.z) * (height + 0.03 * frame.stage.w);
@@ -26,10 +27,10 @@ vec2 floorBelow(vec3 position, vec3 n, float phase) {
     return mix(sum / float(floorTaps), vec2(1.0), smoothstep(0.2, 1.5, height / frame.stage.w));
 }
 
-// The color of the pixel that sees a place. `moist`: 1 = wet tissue.
+// The color of a pixel that shows a surface point. `moist`: 1 = wet tissue.
 vec4 shade(vec3 worldPosition, vec3 worldNormal, vec3 albedo, float moist) {
     const vec3 v = normalize(frame.eye.xyz - worldPosition);
-    // a triangle that lies turned over in a smooth surface, as slivers beside a cut may, is lit like what is around it
+    // an inverted triangle in a smooth surface, such as a sliver beside a cut, is lit like its surroundings
     const vec3 n = normalize(worldNormal) * (gl_FrontFacing || dot(worldNormal, v) > 0.0 ? 1.0 : -1.0);
     const vec3 l = frame.toLight.xyz;
     const vec3 halfway = normalize(l + v);
@@ -37,8 +38,8 @@ vec4 shade(vec3 worldPosition, vec3 worldNormal, vec3 albedo, float moist) {
     const float phase = 2.0 * pi * pixelNoise(gl_FragCoord.xy);
     const float lit = nl > 0.0 ? keyShadow(worldPosition, n, shadowTaps, phase) : 0.0;
 
-    // Light that enters beside the point and leaves here wraps around the terminator, further where the
-    // material is brighter. There the map is of no use: it sees the surface itself.
+    // Light that enters beside the point and leaves here wraps around the terminator, further where the material is
+    // brighter. The shadow map is of no use there, because the surface shadows itself.
     const vec3 wrap = 0.10 + 0.30 * albedo;
     const vec3 wrapped = max((facing + wrap) / (1.0 + wrap), 0.0) / (1.0 + wrap);
     const float litAround = mix(0.45, lit, smoothstep(0.0, 0.4, facing));
@@ -61,13 +62,13 @@ vec4 shade(vec3 worldPosition, vec3 worldNormal, vec3 albedo, float moist) {
     return finish(diffuse + moist * keyLight * nl * lit * fresnel * gloss + rim, gl_FragCoord.xy);
 }
 
-// How much of a translucent skin's own color is seen: more where it is seen from the side.
+// Opacity of a translucent skin: larger at grazing angles.
 float glassAlpha(vec3 worldPosition, vec3 worldNormal) {
     const float facing = abs(dot(normalize(frame.eye.xyz - worldPosition), normalize(worldNormal)));
     return 0.14 + 0.5 * pow(1.0 - facing, 3.0);
 }
 
-// A matt surface in just this color where the light is full, so that it can be read off a legend.
+// A matt surface in exactly this color under full light, so that the color can be compared with a legend.
 vec4 matt(vec3 worldPosition, vec3 worldNormal, vec3 color) {
     const vec3 n = normalize(worldNormal) * (gl_FrontFacing ? 1.0 : -1.0);
     const float facing = dot(n, frame.toLight.xyz);

@@ -1,5 +1,5 @@
 #version 460
-// Surfaces in the color of a map: of what their particles have of strain or speed. Grey: nothing is known.
+// Surfaces in the color of a map, by the strain or speed of their particles. Grey: unknown.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/tissue.glsl"
 #include "viewer/section.glsl"
@@ -7,7 +7,7 @@
 layout(push_constant) uniform Push { SkinPush push; };
 layout(location = 0) in vec3 worldPosition;
 layout(location = 1) in vec3 worldNormal;
-layout(location = 2) in float value; // below 0: there is none
+layout(location = 2) in float value; // below 0: unknown
 layout(location = 0) out vec4 shown;
 
 void main() {

@@ -1,5 +1,4 @@
-// What the kernels of color maps and contact marks read and write, defined once for C++ (sinew::viewer::layout)
-// and GLSL.
+// Data of the kernels of color maps and contact marks, defined once for C++ (sinew::viewer::layout) and GLSL.
 #ifndef SINEW_VIEWER_VALUES_H
 #define SINEW_VIEWER_VALUES_H
 
@@ -14,7 +13,7 @@ using uint = std::uint32_t;
 // A particle's links: entries first .. first + count - 1 of the list of ValueLink.
 struct ValueLinks {
     uint first, count;
-    uint slot; // of its word of live links; 0 where none of them can be cut
+    uint slot; // of its word of live links; 0 if none of them can be cut
 };
 
 struct ValueLink {
@@ -28,10 +27,10 @@ struct LineLink {
     uint a, b; // particles
     uint slot; // of the word of live links of a
     uint bit;  // of that word; 0 = cannot be cut
-    uint overSlot, overBit; // likewise of the particle between, of a link that leads over one
+    uint overSlot, overBit; // the same for the particle in the middle, if the link spans one
 };
 
-// Of which particles a vertex of a skin has its value; shares sum up to 1.
+// Particles that determine the value of a skin vertex; shares sum up to 1.
 struct ValueHolders {
     vec4 low, high; // shares
     uint particles[8];
@@ -39,7 +38,7 @@ struct ValueHolders {
 
 #define NO_VALUE (-1.0)
 
-// How values are spread: bin b counts those up to {1, 2, 5}[b % 3] x 10^(b / 3 - 7), and more than bin b - 1.
+// Histogram of values: bin b counts those up to {1, 2, 5}[b % 3] x 10^(b / 3 - 7), and more than bin b - 1.
 #define VALUE_BINS 32
 struct ValueSpread {
     uint counts[VALUE_BINS];
@@ -52,27 +51,27 @@ struct ValuesPush {
     uint first; // of the vertices of all skins
 };
 
-// Where something touches something: a mark.
+// A contact mark.
 struct ContactMark {
     vec4 point;  // [m]
-    vec4 normal; // towards the particle that is pushed; w: of a wall 0, of two particles 1, of a face 2
+    vec4 normal; // towards the particle that is pushed; w: 0 for a wall, 1 for two particles, 2 for a face
 };
 
-// What marks need to know of a particle.
+// The values of a particle that marks use.
 struct MarkParticle {
     uint slot;           // in the solver's state
     float contactOffset; // [m]
-    float nearness;      // up to which it is taken for touching what it rests on [m]
+    float nearness;      // distance up to which it counts as touching what it rests on [m]
 };
 
-// A plane, or a collider where it is: a box grown by a radius.
+// A plane, or a collider at its pose: a box grown by a radius.
 struct MarkWall {
     vec4 core;     // half extents, radius [m]; of a plane its normal and offset
     vec4 position; // w = 1: a plane
     vec4 rotation; // unit quaternion
 };
 
-// VkDrawIndexedIndirectCommand, and how many marks there would be if there were room.
+// VkDrawIndexedIndirectCommand, and the number of marks found, including those that did not fit.
 struct MarkDraw {
     uint indexCount, instanceCount, firstIndex;
     int vertexOffset;
@@ -85,23 +84,23 @@ struct MarkPush {
     uint walls;
     uint firstWall;
     uint hasPairs, hasFaces; // 1 = there are lists of particles, of faces
-    uint room;  // marks
-    uint edges; // of faces, that may touch each other; 0 = there are none
+    uint room;  // capacity in marks
+    uint edges; // number of edges of faces that may touch each other; 0 = there are none
     uint only;  // the particle whose contacts are wanted; NO_PARTICLE = all
 };
 
-// A cell of a hash grid that holds something.
+// An occupied cell of a hash grid.
 struct CellMark {
-    vec4 low;  // corner; w: edge [m]
-    vec4 held; // x: how many are in it, y: how many of other cells are in the same slot of the table
+    vec4 low;  // lowest corner; w: edge length [m]
+    vec4 held; // x: number of particles in it, y: number in other cells with the same slot of the table
 };
 
-// VkDrawIndirectCommand of a grid's cells, and what there is to be said of them.
+// VkDrawIndirectCommand of a grid's cells, and statistics of them.
 struct CellDraw {
     uint vertexCount, instanceCount, firstVertex, firstInstance;
-    uint sharing; // cells whose slot others are in, too
-    uint most;   // in a cell
-    uint held;   // in all
+    uint sharing; // cells whose slot is shared with others
+    uint most;   // most particles in one cell
+    uint held;   // particles in all cells
     float edge;  // of a cell [m]
 };
 
@@ -109,8 +108,8 @@ struct CellPush {
     uint count; // elements that may be sorted
     uint cells; // slots of the table
     float edge; // GridPush::edge [m]
-    uint grid;  // among all
-    uint first; // mark
+    uint grid;  // index among all grids
+    uint first; // index of the first mark
 };
 
 #ifdef __cplusplus

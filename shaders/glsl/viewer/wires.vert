@@ -1,5 +1,5 @@
 #version 460
-// Vertices of skins and of cuts, or particles, a little nearer than what they are edges of.
+// Vertices of skins and of cuts, or particles, slightly nearer to the eye than the surfaces below.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 
