@@ -13,12 +13,12 @@
 namespace sinew::mesh {
 namespace {
 
-constexpr std::size_t mostMeasured = 16;      ///< components of one connected set of voxels
-constexpr std::size_t coarseTriangles = 1000; ///< up to so many, edges are cut in pieces
+constexpr std::size_t mostMeasured = 16;      ///< components per connected set of voxels
+constexpr std::size_t coarseTriangles = 1000; ///< largest mesh whose edges are cut in pieces
 constexpr std::size_t manyQueries = 100'000;  ///< from one component to another
-constexpr std::size_t allQueries = 400'000;   ///< among those of one connected set
+constexpr std::size_t allQueries = 400'000;   ///< among the components of one connected set
 
-/// Numbers connected cells that are not empty, from 1.
+/// Labels of connected sets of non-empty cells, from 1.
 class Labels {
 public:
     explicit Labels(const VoxelGrid& grid) : grid_(grid), labels_(grid.voxels.size()) {
@@ -27,7 +27,7 @@ public:
             if (grid.voxels[cell] != Voxel::empty && labels_[cell] == 0) fill(cell, ++last);
     }
 
-    /// `point` in cell units.
+    /// Label of the cell at `point`, in cell units.
     std::uint32_t at(const Vector3& point) const {
         std::size_t index = 0;
         for (const Eigen::Index axis : {2, 1, 0}) {
@@ -69,13 +69,13 @@ private:
     std::vector<std::uint32_t> labels_;
 };
 
-/// A component to measure distances from and to.
+/// A component between which and others distances are measured.
 struct Measured {
     /// A piece of an edge.
     struct Step {
         Vector3 from, to;
     };
-    std::vector<Step> steps; ///< the edges; those of a coarse mesh in pieces of about a voxel
+    std::vector<Step> steps; ///< edges; those of a coarse mesh in pieces of about a voxel
     TriangleTree tree;
     Eigen::AlignedBox3d box;
 
@@ -97,7 +97,7 @@ struct Measured {
     }
 
 private:
-    /// Three of each triangle in a row.
+    /// Vertices triangle by triangle, three each.
     static std::vector<Vector3> positionsOf(const TriangleMesh& mesh, const Component& component) {
         std::vector<Vector3> vertices;
         for (const std::uint32_t triangle : component.triangles)
@@ -123,8 +123,8 @@ bool reachesInto(const Measured::Step& step, const Measured& to) {
     return length > 0 && to.tree.firstHit(step.from, (step.to - step.from) / length, none).distance <= length;
 }
 
-/// Least distance from at most `most` points on the edges of one to the other; 0 where an edge of it meets or
-/// lies inside of the other, infinite where it is more than `limit`.
+/// Least distance from at most `most` points on the edges of one component to the other; 0 if an edge of the
+/// first meets or lies inside of the other, infinite if the distance exceeds `limit`.
 double distance(const Measured& from, const Measured& to, std::size_t most, double limit) {
     const std::size_t stride = from.steps.size() / most + 1;
     double least = std::numeric_limits<double>::infinity();
@@ -136,7 +136,7 @@ double distance(const Measured& from, const Measured& to, std::size_t most, doub
     return least <= limit ? least : std::numeric_limits<double>::infinity();
 }
 
-/// Adds what is between the components of one connected set of voxels.
+/// Adds the bridges and overlaps between the components of one connected set of voxels.
 void compare(const TriangleMesh& mesh, const std::vector<const Component*>& set, double voxel,
              Bridges& bridges) {
     const double limit = 2 * std::sqrt(3.0) * voxel; // two diagonals: one voxel of each side
@@ -173,7 +173,7 @@ Bridges findBridges(const TriangleMesh& mesh, const std::vector<Component>& comp
         for (const std::uint32_t triangle : component.triangles)
             for (const std::uint32_t vertex : mesh.triangles[triangle])
                 if (const std::uint32_t label = labels.at(positions[vertex]); label != 0) return label;
-        return std::uint32_t{0}; // it has no voxels
+        return std::uint32_t{0}; // the component has no voxels
     };
     std::map<std::uint32_t, std::vector<const Component*>> sets;
     for (const Component& component : components)

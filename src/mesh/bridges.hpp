@@ -1,4 +1,4 @@
-// Components of a mesh that its voxels join into one body.
+// Bridges: components of a mesh that its voxels join into one body.
 #pragma once
 
 #include "mesh/components.hpp"
@@ -11,16 +11,16 @@
 namespace sinew::mesh {
 
 struct Bridges {
-    std::size_t components = 0;         ///< that share connected voxels with another one; 0 = none is joined
-    double gap = 0;                     ///< the least distance of two of them that do not touch [m]
-    std::array<std::string, 2> nearest; ///< the names of these two
-    std::vector<std::array<std::string, 2>> overlaps; ///< names of pairs that meet or lie in each other
+    std::size_t components = 0;         ///< number that share connected voxels with another one; 0 = none
+    double gap = 0;                     ///< least distance between two of them that do not touch [m]
+    std::array<std::string, 2> nearest; ///< names of the two with that distance
+    std::vector<std::array<std::string, 2>> overlaps; ///< names of pairs that intersect or contain each other
 };
 
-/// Tells which components of a mesh share connected voxels of `grid`, which was filled from it, though their
-/// surfaces neither touch nor reach into each other, and which do. Voxels that share a corner are connected,
-/// since they share a particle; what is farther than two diagonals of a voxel apart is not joined by them.
-/// Looks at the 16 largest components that are connected; distances are from points on the edges.
+/// Finds components of a mesh whose surfaces neither touch nor reach into each other, but that share
+/// connected voxels of `grid`, which was filled from the mesh; and pairs that do overlap. Voxels that share a
+/// corner are connected, since they share a particle; components farther apart than two diagonals of a voxel
+/// are never joined. Compares the 16 largest connected components; distances are from points on the edges.
 Bridges findBridges(const TriangleMesh& mesh, const std::vector<Component>& components,
                     const VoxelGrid& grid);
 

@@ -1,5 +1,6 @@
-// glTF and GLB: the chunks must add up, and the JSON is streamed through a handler that builds nothing: sizes
-// within the file, nesting within reason (assimp's parser recurses), version 2, buffers embedded.
+// Checks of glTF and GLB files: the chunks must add up, and the JSON is streamed through a handler that
+// builds nothing: sizes within the file, nesting within 64 levels (assimp's parser recurses), version 2,
+// buffers embedded.
 #include "mesh/import_checks.hpp"
 
 #include <nlohmann/json.hpp>
@@ -15,7 +16,8 @@ class GltfHandler : public nlohmann::json_sax<nlohmann::json> {
 public:
     explicit GltfHandler(std::uint64_t fileBytes) : fileBytes_(fileBytes) {}
 
-    /// Throws what is wrong with the whole. Sizes come last: those of an outside buffer fit no file of ours.
+    /// Throws Refusal for faults of the whole document. Sizes come last: those of an external buffer never
+    /// fit in the file.
     void finish() const {
         if (!isVersion2_) throw Refusal("", "it is not glTF version 2: export the mesh again as glTF 2");
         if (wrongSize_) throw Refusal(*wrongSize_);
@@ -73,7 +75,7 @@ private:
         keys_.pop_back();
         return true;
     }
-    /// Counts of elements and bytes: an element takes at least a byte of the file.
+    /// True for counts of elements and bytes, which the file size bounds: an element takes at least a byte.
     bool isSize() const {
         if (keys_.empty() || (keys_[0] != "accessors" && keys_[0] != "bufferViews" && keys_[0] != "buffers"))
             return false;
@@ -90,14 +92,14 @@ private:
     }
 
     std::uint64_t fileBytes_;
-    std::vector<std::string> keys_;    ///< of the open objects; empty for an array
-    std::optional<Refusal> wrongSize_; ///< the first one
+    std::vector<std::string> keys_;    ///< keys of the open objects; empty for an array
+    std::optional<Refusal> wrongSize_; ///< the first wrong size
     bool isVersion2_ = false;
 };
 
 using Json = nlohmann::json;
 
-/// The member `key` of item `index` of the top-level list `name` as a count; 0 where there is none.
+/// The member `key` of item `index` of the top-level list `name` as a count; 0 if missing.
 std::uint64_t countAt(const Json& document, const char* name, const Json& index, const char* key) {
     if (!index.is_number_unsigned() || !document.contains(name) || !document[name].is_array()) return 0;
     const auto place = index.get<std::uint64_t>();
@@ -119,7 +121,8 @@ std::uint64_t countTriangles(const Json& document, const Json& primitive) {
     return (mode == strip || mode == fan) && count > 2 ? count - 2 : 0;
 }
 
-/// Of all meshes, whether a node shows them or not. The document has passed the handler above.
+/// Triangles of all meshes, including those that no node shows. The document must have passed the handler
+/// above.
 std::uint64_t countTriangles(std::string_view json) {
     const Json document = Json::parse(json.begin(), json.end(), nullptr, false);
     std::uint64_t count = 0;

@@ -1,12 +1,13 @@
-// OBJ: every vertex and face is checked and written anew, so that assimp reads `v x y z` and `f i j k` alone.
-// Material libraries are never even named to it: setting a texture before any material crashes assimp 5.2.5.
+// Checks and rewrites OBJ files: every vertex and face is checked and written again, so that assimp reads
+// only `v x y z` and `f i j k`. Material libraries are dropped: setting a texture before any material crashes
+// assimp 5.2.5.
 #include "mesh/import_checks.hpp"
 #include "mesh/text_scanner.hpp"
 
 namespace sinew::mesh {
 namespace {
 
-/// Joins lines that end in a backslash with the next one; keeps the count of lines.
+/// Line scanner that joins lines ending in a backslash with the next one, and keeps the count of lines.
 class JoinedLines {
 public:
     explicit JoinedLines(std::string_view text) : lines_(text) {}
@@ -63,8 +64,8 @@ private:
 
     static std::string_view wordOfObjects(std::string_view bytes) { return hasObjects(bytes) ? "o" : "g"; }
 
-    /// Begins a run where the object is another than that of the face before. Assimp is slow with many
-    /// objects: beyond the limit one run takes the rest, and has no name.
+    /// Begins a run if the object differs from that of the face before. Assimp is slow with many objects:
+    /// beyond the limit one run without a name takes the rest.
     void beginRun() {
         std::vector<std::uint32_t>& runs = reduced_.objects;
         if (runs.size() > mostObjects || object_ == (runs.empty() ? noObject : runs.back())) return;
@@ -111,7 +112,7 @@ private:
     const ImportLimits& limits_;
     Reduced reduced_;
     std::string& result_ = reduced_.text;
-    std::uint32_t object_ = noObject; ///< of the faces to come
+    std::uint32_t object_ = noObject; ///< object of the faces to come
     std::uint64_t vertices_ = 0, triangles_ = 0, highest_ = 0;
     std::size_t highestLine_ = 0;
 };

@@ -1,6 +1,6 @@
-// PLY: the header is parsed, every count held against the file size, then the body is walked value by value:
-// no list longer than the file, no index beyond the vertices, no line too short. What assimp 5.2.5 hangs or
-// crashes on ends here.
+// Checks of PLY files: the header is parsed, every count is compared with the file size, then the body is
+// read value by value: no list longer than the file, no index beyond the vertices, no line too short. Input
+// on which assimp 5.2.5 hangs or crashes is rejected here.
 #include "mesh/import_checks.hpp"
 #include "mesh/text_scanner.hpp"
 
@@ -25,7 +25,7 @@ struct Type {
 
 struct Property {
     std::string_view name;
-    Type type;      ///< of the value, or of a list's items
+    Type type;      ///< of the value, or of the items of a list
     Type countType; ///< bytes 0 = not a list
     bool isList() const { return countType.bytes != 0; }
 };
@@ -164,13 +164,13 @@ void checkHeader(const Header& header, const ImportLimits& limits) {
     if (faces->isFace() && faces->count > limits.triangles) checkTriangleCount(faces->count, limits);
 }
 
-/// Where values come from, in order: a body of either kind. Errors name the line or the element.
+/// The values of a body in order, in text or binary. Errors name the line or the element.
 class Values {
 public:
     Values(const Header& header)
         : encoding_(header.encoding), lines_(header.body), firstLine_(header.lines) {}
 
-    /// Called before each item of an element: text has one a line.
+    /// Begins an item of an element; text has one item a line.
     void beginItem(const Element& element, std::uint64_t item) {
         element_ = &element;
         item_ = item;
@@ -191,7 +191,7 @@ public:
         throw Refusal(where(), "the file or line ends too early: export the mesh again");
     }
 
-    /// Bytes not read yet, of the line or of the body: no list can be longer.
+    /// Unread bytes of the line or of the body: no list can be longer.
     std::size_t left() const { return encoding_ == Encoding::ascii ? line_.size() : binary().size(); }
 
 private:
@@ -222,14 +222,14 @@ private:
     }
 
     Encoding encoding_;
-    LineScanner lines_; ///< of text; a binary body is its unread rest
+    LineScanner lines_; ///< lines of text; a binary body is the unread rest
     std::size_t firstLine_, offset_ = 0;
     std::string_view line_;
     const Element* element_ = nullptr;
     std::uint64_t item_ = 0;
 };
 
-/// Gets all vertices and faces in order; those of strips as triangles.
+/// Receives all vertices and faces in order; strips arrive as triangles.
 class Reader {
 public:
     explicit Reader(const ImportLimits& limits) : limits_(limits) {}
@@ -249,7 +249,7 @@ private:
     std::uint64_t triangles_ = 0;
 };
 
-/// Writes them as an OBJ.
+/// Writes the mesh as OBJ.
 class ObjWriter : public Reader {
 public:
     using Reader::Reader;
@@ -272,7 +272,7 @@ private:
 
 constexpr double stripEnd = -1; // an index that ends a strip within its list
 
-/// Reads one list; one of indices into `indices`, its strips ended by nullopt.
+/// Reads one list; a list of indices goes to `indices`, with nullopt at the end of each strip.
 void walkList(Values& values, const Property& property, bool isStrips, std::uint64_t vertices,
               std::vector<std::optional<std::uint64_t>>& indices) {
     const double length = values.next(property.countType);
@@ -301,7 +301,8 @@ void readFace(std::span<const std::optional<std::uint64_t>> indices, Reader& rea
     reader.face(corners);
 }
 
-/// Every second triangle of a strip is turned the other way round; those without area are its bridges.
+/// Converts strips to triangles: every second one is reversed; those without area join two strips and are
+/// dropped.
 void readStrips(std::span<const std::optional<std::uint64_t>> indices, Reader& reader) {
     std::size_t start = 0;
     for (std::size_t i = 0; i < indices.size(); ++i) {

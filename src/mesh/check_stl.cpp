@@ -1,5 +1,5 @@
-// STL: binary files say how many triangles they hold; text files are read word by word and written anew as
-// one solid (assimp refuses a file with an empty one).
+// Checks of STL files: binary files state their number of triangles; text files are read word by word and
+// rewritten as one solid (assimp refuses a file with an empty one).
 #include "mesh/import_checks.hpp"
 #include "mesh/text_scanner.hpp"
 

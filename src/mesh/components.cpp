@@ -20,13 +20,13 @@
 namespace sinew::mesh {
 namespace {
 
-constexpr std::size_t mostHosts = 1000; ///< cavities are looked for in so many of the largest components
+constexpr std::size_t mostHosts = 1000; ///< number of largest components searched for cavities
 
-/// Connected triangles, before cavities are joined with what is around them.
+/// Connected triangles, before cavities are joined with their hosts.
 struct Surface {
     std::vector<std::uint32_t> triangles;
     Eigen::AlignedBox3d box;
-    double volume = 0; ///< negative where it faces inward
+    double volume = 0; ///< negative if it faces inward
     double area = 0;
     bool isClosed = true;
     std::size_t cavities = 0;
@@ -36,7 +36,7 @@ void measure(const TriangleMesh& mesh, Surface& surface) {
     for (const std::uint32_t triangle : surface.triangles)
         for (const std::uint32_t vertex : mesh.triangles[triangle])
             surface.box.extend(toVector(mesh.positions[vertex]));
-    const Vector3 middle = surface.box.center(); // of an open one it keeps the guess small
+    const Vector3 middle = surface.box.center(); // keeps the estimate for an open surface small
     for (const std::uint32_t triangle : surface.triangles) {
         const auto [a, b, c] = mesh.triangles[triangle];
         const Vector3 x = toVector(mesh.positions[a]) - middle, y = toVector(mesh.positions[b]) - middle,
@@ -69,7 +69,8 @@ std::vector<Surface> surfacesOf(const TriangleMesh& mesh) {
     return surfaces;
 }
 
-/// Whether its triangles face inward, by more than rounding, or than an open sheet that is hardly bent.
+/// True if the triangles face inward, by more than rounding, or, for an open sheet, by more than slight
+/// bending.
 bool isInward(const Surface& surface) {
     const double ofSphere = std::pow(surface.area, 1.5) / (6 * std::sqrt(std::numbers::pi));
     return surface.volume < -(surface.isClosed ? 1e-6 : 0.1) * ofSphere;
@@ -92,7 +93,7 @@ TriangleTree treeOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& 
     return {positions, triangles};
 }
 
-/// Adds every cavity to the smallest surface around it. Expects them sorted.
+/// Adds every cavity to the smallest surface around it. Surfaces must be sorted by volume.
 void joinCavities(const TriangleMesh& mesh, std::vector<Surface>& surfaces) {
     const auto isHost = [](const Surface& surface) { return surface.isClosed && surface.volume > 0; };
     std::vector<std::size_t> hosts;
@@ -101,7 +102,7 @@ void joinCavities(const TriangleMesh& mesh, std::vector<Surface>& surfaces) {
     std::ranges::reverse(hosts);
     std::vector<std::unique_ptr<TriangleTree>> trees(surfaces.size());
     for (Surface& cavity : surfaces) {
-        if (!cavity.isClosed || !isInward(cavity)) continue; // nothing is no cavity, whatever its sign
+        if (!cavity.isClosed || !isInward(cavity)) continue; // without volume it is no cavity
         const Vector3 point = toVector(mesh.positions[mesh.triangles[cavity.triangles.front()][0]]);
         const auto around = std::ranges::find_if(hosts, [&](std::size_t host) {
             if (!surfaces[host].box.contains(cavity.box)) return false;
@@ -124,13 +125,13 @@ std::string partName(std::size_t number) {
     return "part " + std::to_string(number);
 }
 
-/// The numbers of components: of a choice those that they had before it.
+/// Names of components by number; components of a choice keep their earlier numbers.
 class PartNames {
 public:
     explicit PartNames(const TriangleMesh& mesh) : parts_(mesh.parts) {}
 
-    /// The next one, whose first triangle is `triangle`. A part of which a choice left several components has
-    /// its pieces counted.
+    /// Name of the next component, whose first triangle is `triangle`. If a choice split a part into several
+    /// components, its pieces are numbered.
     std::string next(std::uint32_t triangle) {
         ++count_;
         if (parts_.empty()) return partName(count_);
@@ -142,10 +143,10 @@ public:
 private:
     const std::vector<std::uint32_t>& parts_;
     std::size_t count_ = 0;
-    std::unordered_map<std::uint32_t, std::size_t> pieces_; ///< of each part so far
+    std::unordered_map<std::uint32_t, std::size_t> pieces_; ///< number of pieces of each part so far
 };
 
-/// Numbers of triangles.
+/// Number of triangles of each object.
 std::vector<std::size_t> sizesOfObjects(const TriangleMesh& mesh) {
     std::vector<std::size_t> sizes(mesh.objectNames.size());
     for (const std::uint32_t object : mesh.objects)
@@ -153,7 +154,7 @@ std::vector<std::size_t> sizesOfObjects(const TriangleMesh& mesh) {
     return sizes;
 }
 
-/// The object that all the triangles belong to, and no others do; else noObject.
+/// The object that contains exactly these triangles; else noObject.
 std::uint32_t objectOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles,
                        const std::vector<std::size_t>& sizes) {
     if (mesh.objects.empty()) return noObject;
@@ -247,7 +248,7 @@ std::optional<TriangleMesh> choose(const TriangleMesh& mesh, const std::vector<s
     const std::vector<std::size_t> whole = sizesOfObjects(numbered);
     TriangleMesh chosen = keep(numbered, isKept);
     const std::vector<std::size_t> left = sizesOfObjects(chosen);
-    for (std::uint32_t& object : chosen.objects) // what is left of an object is not it
+    for (std::uint32_t& object : chosen.objects) // the rest of an object is no longer that object
         if (object != noObject && left[object] < whole[object]) object = noObject;
     return chosen;
 }

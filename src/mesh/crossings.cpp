@@ -1,4 +1,5 @@
-// Two walks over the triangles: the first counts crossings per line, the second stores them.
+// Crossings are made in two passes over the triangles: the first counts crossings per line, the second stores
+// them.
 #include "mesh/crossings.hpp"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace sinew::mesh {
 namespace {
 
-/// +1 or -1 where the ray from (u, v) towards +u crosses the edge from a to b, by the direction the edge runs
+/// +1 or -1 if the ray from (u, v) towards +u crosses the edge from a to b, by the direction the edge runs
 /// in; else 0. Half-open in v and evaluated from the lower end, so that both triangles beside an edge get
 /// opposite answers.
 int crossedEdge(const Vector3& a, const Vector3& b, std::size_t uAxis, std::size_t vAxis, double u,
@@ -22,10 +23,10 @@ int crossedEdge(const Vector3& a, const Vector3& b, std::size_t uAxis, std::size
     return isAboveB ? 1 : -1;
 }
 
-/// Samples with low <= coordinate <= high, clipped to [0, count): a first and a count.
+/// Samples with low <= coordinate <= high, clipped to [0, count): the first one and their number.
 std::array<std::uint32_t, 2> samplesBetween(double low, double high, std::uint32_t perCell,
                                             std::uint32_t count) {
-    const double first = std::max(0.0, std::ceil(low * perCell - 0.5) - 1); // one more either way: rounding
+    const double first = std::max(0.0, std::ceil(low * perCell - 0.5) - 1); // rounding: one more
     const double last = std::min(count - 1.0, std::floor(high * perCell - 0.5) + 1);
     if (last < first) return {0, 0};
     return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first) + 1};
@@ -41,7 +42,7 @@ void Crossings::cross(const std::array<Vector3, 3>& corners, const Visit& visit)
     const Vector3 normal = (b - a).cross(c - a);
     const double slopeU = normal[axis_] != 0 ? -normal[u_] / normal[axis_] : 0;
     const double slopeV = normal[axis_] != 0 ? -normal[v_] / normal[axis_] : 0;
-    // The moved sample's offsets shrink from x to y to z; the first axis along which the depth differs
+    // The moved sample's offsets decrease from x to y to z; the first axis along which the depth differs
     // decides.
     bool isBelowTie = true;
     for (std::size_t axis = axis_; axis-- > 0;)

@@ -1,10 +1,11 @@
-// Where a surface crosses a bundle of parallel lines: each line lies along one axis of a cell grid and runs
-// through the sample points of a row of cells. One line answers "inside or outside?" for all samples on it.
+// Crossings of a surface with a bundle of parallel lines: each line lies along one axis of a cell grid and
+// runs through the sample points of a row of cells. One line answers "inside or outside?" for all samples on
+// it.
 //
-// Exact where it must be: every triangle edge is classified once per line with one expression, so the two
-// triangles beside it always agree and a closed surface crosses every line an even number of times, up and
-// down in equal number, whatever the rounding. Ties are broken as if every sample were moved by (e1, e2, e3),
-// e1 >> e2 >> e3 > 0.
+// Signs are exact: every triangle edge is classified once per line with one expression, so the two triangles
+// beside it always agree and a closed surface crosses every line an even number of times, up and down in
+// equal number, whatever the rounding. Ties are broken as if every sample were moved by (e1, e2, e3), e1 >>
+// e2 >> e3 > 0.
 #pragma once
 
 #include "mesh/vector3.hpp"
@@ -27,7 +28,7 @@ public:
     Crossings(const std::vector<Vector3>& positions, const Triangles& triangles,
               std::array<std::uint32_t, 3> cells, std::uint32_t perCell, std::size_t axis);
 
-    /// What this axis says about a sample. A line that the surface enters as often as it leaves it counts
+    /// The vote of this axis on a sample. A line that the surface enters as often as it leaves it counts
     /// windings, so overlapping parts are inside; one with an even number of crossings counts parity, so
     /// flipped triangles do no harm; any other line has met a hole: invalid.
     Vote vote(const std::array<std::uint32_t, 3>& sample) const;
@@ -39,7 +40,7 @@ public:
 private:
     struct Crossing {
         double depth = 0;        ///< along the axis, in cell units
-        std::int8_t turn = 0;    ///< +1 or -1: which side of the surface the axis points to
+        std::int8_t turn = 0;    ///< +1 or -1: the side of the surface that the axis points to
         bool isBelowTie = false; ///< at equal depth the moved sample lies beyond the crossing
     };
 

@@ -1,4 +1,4 @@
-// Items that are joined step by step into sets, such as vertices or triangles into connected parts.
+// Union-find: items joined step by step into sets, such as vertices or triangles into connected parts.
 #pragma once
 
 #include <algorithm>

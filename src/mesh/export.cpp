@@ -1,5 +1,5 @@
-// OBJ and PLY writers, and the one PLY layout that states are saved in. Numbers in OBJ are the shortest that
-// read back to the same float; PLY is written little endian on any machine.
+// Writers of OBJ and PLY, and the PLY layout of saved states. Numbers in OBJ are the shortest that read back
+// to the same float; PLY is written little endian on any machine.
 #include "mesh/export.hpp"
 
 #include "mesh/import.hpp"
@@ -35,7 +35,7 @@ float readLittleEndian(const char* bytes) {
     return std::bit_cast<float>(value);
 }
 
-/// Names travel into text formats: no line breaks.
+/// Replaces line breaks and control characters of a name, for text formats.
 std::string oneLine(std::string text) {
     for (char& character : text)
         if (static_cast<unsigned char>(character) < ' ') character = ' ';
@@ -58,7 +58,7 @@ constexpr std::size_t particleBytes = 28;
 void exportObj(const std::filesystem::path& file, std::span<const TriangleMesh> meshes) {
     writeWhole(file, [&](std::ostream& out) {
         std::string line;
-        std::size_t first = 1; // vertex of the mesh
+        std::size_t first = 1; // first vertex of the mesh
         for (const TriangleMesh& mesh : meshes) {
             if (!mesh.name.empty()) out << "o " << oneLine(mesh.name) << '\n';
             for (const Vec3& position : mesh.positions) {

@@ -1,5 +1,5 @@
-// Writes OBJ and PLY files (export_gltf: GLB) whole: to a temporary name in the same folder, flushed, then
-// renamed.
+// Writers of OBJ and PLY files (export_gltf: GLB). Each writes a temporary file in the same folder, flushes
+// it, then renames it.
 #pragma once
 
 #include "mesh/triangle_mesh.hpp"
@@ -12,26 +12,26 @@
 
 namespace sinew::mesh {
 
-/// "cannot write <file>: <why>: <what to do>". Exit code 6.
+/// Text: "cannot write <file>: <why>: <what to do>". Exit code 6.
 class ExportError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
 /// Calls `write` with a stream on a temporary file, then flushes, syncs and renames it to `file`. On any
-/// failure the temporary is removed, the old file stays, and ExportError is thrown. Everything this project
-/// writes goes through it.
+/// failure the temporary file is removed, the old file stays, and ExportError is thrown. All files of this
+/// project are written by this function.
 void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
-/// One object a mesh.
+/// Writes one object a mesh. Throws ExportError.
 void exportObj(const std::filesystem::path& file, std::span<const TriangleMesh> meshes);
-/// Binary little endian. Where there are several meshes, each face says which it is of: property `piece`,
-/// from 0 on.
+/// Writes binary little endian. For several meshes, each face has a property `piece`, the index of its mesh
+/// from 0 on. Throws ExportError.
 void exportPly(const std::filesystem::path& file, std::span<const TriangleMesh> meshes);
 void exportObj(const std::filesystem::path& file, const TriangleMesh& mesh);
 void exportPly(const std::filesystem::path& file, const TriangleMesh& mesh);
 
-/// Particles as PLY points: x y z, vx vy vz, inverse_mass (float each).
+/// A particle in a saved state, a PLY point: x y z, vx vy vz, inverse_mass (float each).
 struct ParticleState {
     Vec3 position, velocity;
     float inverseMass = 0;

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Numbers that the format gives to things.
+// Constants of the format.
 constexpr int floats = 5126, wholeNumbers = 5125, vertexData = 34962, indexData = 34963;
 constexpr std::uint32_t magic = 0x46546c67, jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942;
 
@@ -28,7 +28,8 @@ void append(std::string& bytes, const Vec3& v) {
     for (const float value : {v.x, v.y, v.z}) append(bytes, std::bit_cast<std::uint32_t>(value));
 }
 
-// One without length, as of a triangle without area, has no direction: any will do, but the format wants one.
+// Unit vector; any direction for a normal without length, such as that of a triangle without area, because
+// the format requires one.
 Vec3 unit(const Vec3& v) {
     const double x = double{v.x}, y = double{v.y}, z = double{v.z}, length = std::sqrt(x * x + y * y + z * z);
     if (!(length > 1e-30) || !std::isfinite(length)) return {0, 1, 0};
@@ -59,7 +60,7 @@ public:
             json_["buffers"] = Json::array({Json::object({{"byteLength", binary_.size()}})});
             json_["materials"] = materials_;
         }
-        // a name that is no UTF-8 loses what is none
+        // invalid UTF-8 in a name is replaced
         std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
         text.append((4 - text.size() % 4) % 4, ' ');
         const std::size_t chunks = binary_.empty() ? 1 : 2,
@@ -132,7 +133,8 @@ private:
             {{"type", "SCALAR"}, {"componentType", wholeNumbers}, {"count", 3 * part.triangles.size()}});
     }
 
-    // Of what was appended since `start`; everything is of 4 bytes, so all of it is aligned.
+    // Adds an accessor for the data appended since `start`; all data are words of 4 bytes, so all are
+    // aligned.
     std::size_t accessor(std::size_t start, int target, Json accessor) {
         accessor["bufferView"] = json_["bufferViews"].size();
         json_["bufferViews"].push_back({{"buffer", 0},
@@ -144,7 +146,7 @@ private:
     }
 
     std::size_t material(const Vec3& color, bool isInside) {
-        // as the viewer's inside: darker, and red whatever the skin is
+        // like the viewer's inside: darker, and red whatever the skin is
         const auto shade = [isInside](float skin, float flesh) {
             return isInside ? 0.2f * skin + 0.6f * flesh : skin;
         };

@@ -1,4 +1,4 @@
-// Full buffers go to write(2) until it fails for the first time.
+// Writes full buffers with write(2) until it fails for the first time.
 #include "mesh/file_stream.hpp"
 
 #include <cerrno>

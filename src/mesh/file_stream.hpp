@@ -1,4 +1,4 @@
-// An output stream on a file descriptor that remembers why a write failed; std::ofstream would not say.
+// Stream buffer on a file descriptor that stores the errno of a failed write; std::ofstream would lose it.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@ namespace sinew::mesh {
 
 class DescriptorBuffer : public std::streambuf {
 public:
-    /// Writes to `descriptor`, which stays the caller's.
+    /// Writes to `descriptor`, which the caller owns.
     explicit DescriptorBuffer(int descriptor);
 
     /// errno of the first failure, 0 if there was none.

@@ -1,4 +1,4 @@
-// The table of shapes, and those that have a parametric form of their own.
+// The table of shapes, and the shapes with a parametric form.
 #include "mesh/generate.hpp"
 
 #include "mesh/implicit_shapes.hpp"
@@ -66,7 +66,7 @@ TriangleMesh makeSphere(std::uint32_t resolution) {
     return mesh;
 }
 
-/// Triangles of a closed net of `along` rings, each of `around` points that follow each other.
+/// Adds the triangles of a closed net of `along` rings, each of `around` consecutive points.
 void addRings(TriangleMesh& mesh, std::uint32_t along, std::uint32_t around) {
     for (std::uint32_t i = 0; i < along; ++i)
         for (std::uint32_t j = 0; j < around; ++j) {

@@ -7,13 +7,13 @@
 namespace sinew::mesh {
 namespace {
 
-constexpr double hair = 1e-9; ///< [cells]; far above the rounding of coordinates below 1e5, far below any use
+constexpr double hair = 1e-9; ///< [cells]; far above the rounding of coordinates below 1e5, negligible in use
 
 } // namespace
 
 CellOverlap::CellOverlap(const Vector3& a, const Vector3& b, const Vector3& c)
     : low_(a.cwiseMin(b).cwiseMin(c)), high_(a.cwiseMax(b).cwiseMax(c)), normal_((b - a).cross(c - a)) {
-    const Vector3 corner = Vector3::Constant(-hair); // of the enlarged cell, relative to the cell
+    const Vector3 corner = Vector3::Constant(-hair); // corner of the enlarged cell, relative to the cell
     const double size = 1 + 2 * hair;
     const Vector3 critical = corner + size * Vector3((normal_.array() > 0).cast<double>());
     const Vector3 opposite = corner + size * Vector3((normal_.array() <= 0).cast<double>());

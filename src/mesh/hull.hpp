@@ -8,15 +8,16 @@
 
 namespace sinew::mesh {
 
-/// Triangle against unit cells at integer positions: a plane test and three 2-D edge tests per projection,
-/// set up once per triangle. Conservative: cells count as closed and a hair larger than they are, so that
-/// rounding loses none.
+/// Overlap test of a triangle with unit cells at integer positions: a plane test and three 2-D edge tests per
+/// projection, set up once per triangle. Conservative: cells count as closed and are enlarged by 1e-9, so
+/// that rounding loses none.
 class CellOverlap {
 public:
     /// Corners in cell units.
     CellOverlap(const Vector3& a, const Vector3& b, const Vector3& c);
 
-    /// Whether the triangle touches the cell with its low corner at `cell`, given that its bounding box does.
+    /// True if the triangle touches the cell with its low corner at `cell`, provided that its bounding box
+    /// does.
     bool touches(const Vector3& cell) const;
 
     /// Cells that the triangle's bounding box touches, before clipping to a grid.

@@ -1,4 +1,4 @@
-// Built from ellipsoids, boxes and cylinders joined by smooth minima (polynomial, after Quilez).
+// Shapes built from ellipsoids, boxes and cylinders joined by smooth minima (polynomial, after Quilez).
 #include "mesh/implicit_shapes.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ double smoothMax(double a, double b, double blend) {
     return -smoothMin(-a, -b, blend);
 }
 
-/// Near its surface the distance to an ellipsoid, to first order.
+/// Distance to an ellipsoid, to first order near its surface.
 double ellipsoid(const Vector3& x, const Vector3& center, const Vector3& radii) {
     const Vector3 p = x - center;
     const double k0 = p.cwiseQuotient(radii).norm(), k1 = p.cwiseQuotient(radii.cwiseAbs2()).norm();
@@ -36,7 +36,7 @@ double organDistance(const Vector3& x) {
     const double left = ellipsoid(x, {0.08, 0.02, 0.012}, {0.09, 0.036, 0.06});
     const double tail = ellipsoid(x, {-0.085, -0.035, 0.02}, {0.052, 0.058, 0.055});
     double body = smoothMin(smoothMin(right, left, 0.045), tail, 0.05);
-    // The hollow that rests on the stomach, and the groove of the ligament between the lobes.
+    // The hollow for the stomach, and the groove of the ligament between the lobes.
     body = smoothMax(body, -ellipsoid(x, {0.05, -0.105, -0.01}, {0.12, 0.1, 0.11}), 0.03);
     body = smoothMax(body, -capsule(x, {0.03, -0.06, 0.078}, {0.042, 0.08, 0.062}, 0.014), 0.022);
     const double bladder = capsule(x, {-0.012, -0.036, 0.066}, {0.0, -0.024, 0.025}, 0.02);

@@ -1,4 +1,4 @@
-// Shapes given by a function that is negative inside: what generate() turns into meshes by surface nets.
+// Shapes as implicit functions, negative inside, which generate() converts to meshes by surface nets.
 #pragma once
 
 #include "mesh/vector3.hpp"

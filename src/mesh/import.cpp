@@ -1,5 +1,5 @@
-// The parent's side of the wall: opens the one file, lets a child check and read it, and believes nothing the
-// child says.
+// The parent's part of the import: opens the file, runs a child process that checks and reads it, and
+// validates all that the child returns.
 #include "mesh/import.hpp"
 
 #include "mesh/import_assimp.hpp"
@@ -39,8 +39,8 @@ std::string printable(std::string_view text) {
 class RegularFile {
 public:
     RegularFile(const fs::path& file, const ImportLimits& limits) {
-        // First by name: opening some devices has effects. Then by descriptor: the name may mean another file
-        // by now.
+        // Checked first by name, because opening some devices has effects; then by descriptor, because the
+        // name may refer to another file by then.
         struct stat status {};
         check(file, stat(file.c_str(), &status), status, limits);
         descriptor_ = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
@@ -65,7 +65,7 @@ public:
             const ssize_t count = read(descriptor_, bytes.data() + done, size_ - done);
             if (count < 0 && errno != EINTR)
                 fail(file, "", std::string(std::strerror(errno)) + ": check the disk");
-            if (count == 0) break; // it shrank meanwhile
+            if (count == 0) break; // the file shrank meanwhile
             done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
         }
         bytes.resize(done);
@@ -94,27 +94,27 @@ private:
 Format formatOf(const fs::path& file, std::string_view bytes) {
     if (bytes.empty()) fail(file, "", "the file is empty: export the mesh again");
     if (const std::optional<Format> format = sniff(bytes)) return *format;
-    // Damaged binary STL has no mark of its own; its name makes for a better message, and for nothing else.
+    // Damaged binary STL has no mark of its own; the file name is used for a better message only.
     if (file.extension() == ".stl" && bytes.substr(0, 84).find('\0') != std::string_view::npos)
         return Format::stl;
     fail(file, "",
          "its content is neither OBJ, STL, PLY, glTF nor GLB: export the mesh in one of these formats");
 }
 
-/// Some editors put a byte order mark before text.
+/// Content without a byte order mark, which some editors put before text.
 std::string_view withoutMark(std::string_view bytes) {
     constexpr std::string_view mark = "\xef\xbb\xbf";
     return bytes.substr(bytes.starts_with(mark) ? mark.size() : 0);
 }
 
-/// Without objects.
+/// Removes objects and their names.
 Soup nameless(Soup soup) {
     soup.objects.clear();
     soup.names.clear();
     return soup;
 }
 
-/// With `names` in the place of the names of nodes: `of` tells the object of a node, by its number.
+/// Replaces the names of nodes by `names`; `of` maps the index of a node to its object.
 template <typename Of> Soup named(Soup soup, const ObjectNames& names, const Of& of) {
     if (names.all().empty()) return nameless(std::move(soup));
     for (std::uint32_t& object : soup.objects) object = of(object);
@@ -124,7 +124,7 @@ template <typename Of> Soup named(Soup soup, const ObjectNames& names, const Of&
 
 Soup readObj(const Reduced& obj, const ImportLimits& limits) {
     Soup soup = readTriangles(Format::obj, obj.text, limits);
-    std::vector<std::uint32_t> objects; // of the nodes: each is called by the number of a run
+    std::vector<std::uint32_t> objects; // by node; the name of each node is the number of a run
     for (const std::string& name : soup.names) {
         const auto run = toInteger<std::size_t>(name);
         objects.push_back(run && *run < obj.objects.size() ? obj.objects[*run] : noObject);
@@ -139,7 +139,7 @@ Soup readTextStl(const Reduced& stl, const ImportLimits& limits) {
     return named(std::move(soup), stl.names, [](std::uint32_t object) { return object; });
 }
 
-/// By the names of the nodes themselves.
+/// Objects named by the nodes themselves.
 Soup withNodeNames(Soup soup) {
     ObjectNames names;
     std::vector<std::uint32_t> objects;
@@ -147,7 +147,7 @@ Soup withNodeNames(Soup soup) {
     return named(std::move(soup), names, [&](std::uint32_t node) { return objects[node]; });
 }
 
-/// Runs in the child.
+/// Checks and reads a file. Runs in the child.
 Soup checkAndRead(Format format, std::string_view bytes, const ImportLimits& limits) {
     switch (format) {
     case Format::obj:
@@ -174,8 +174,8 @@ template <typename T> void append(std::string& bytes, const std::vector<T>& valu
     if (!values.empty()) std::memcpy(bytes.data() + size, values.data(), values.size() * sizeof(T));
 }
 
-/// Runs in the child. A mesh is its mark, the number of names, the names with a zero after each, the corners,
-/// and the objects where there are names.
+/// The child's answer. Runs in the child. For a mesh: its mark, the number of names, the names with a zero
+/// after each, the corners, and the objects if there are names.
 std::string answer(Format format, std::string_view bytes, const ImportLimits& limits) {
     try {
         const Soup soup = checkAndRead(format, bytes, limits);
@@ -190,7 +190,7 @@ std::string answer(Format format, std::string_view bytes, const ImportLimits& li
     }
 }
 
-/// Removes so many values from the front of `bytes`, which must have them.
+/// Removes `count` values from the front of `bytes`, which must contain them.
 template <typename T> std::vector<T> take(std::string_view& bytes, std::size_t count) {
     std::vector<T> values(count);
     if (count > 0) std::memcpy(values.data(), bytes.data(), count * sizeof(T));
@@ -198,7 +198,7 @@ template <typename T> std::vector<T> take(std::string_view& bytes, std::size_t c
     return values;
 }
 
-/// Removes their number and the names from the front of `bytes`. False where they make no sense.
+/// Removes the number of names and the names from the front of `bytes`. False if they are invalid.
 bool takeNames(std::string_view& bytes, std::vector<std::string>& names) {
     if (bytes.size() < sizeof(std::uint32_t)) return false;
     const std::uint32_t count = take<std::uint32_t>(bytes, 1)[0];

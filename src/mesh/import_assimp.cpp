@@ -1,7 +1,7 @@
-// One importer is registered, the one for the format at hand; it reads from memory and is refused every other
-// name.
+// Only the importer of the given format is registered; it reads from memory, and every other file name is
+// refused.
 //
-// Left out of assimp's post-processing on purpose: joining identical vertices (its tolerance of 1e-5 is
+// Two steps of assimp's post-processing are left out: joining identical vertices (its tolerance of 1e-5 is
 // absolute, so a mesh of 20 um lost 17 of 441 vertices) and dropping degenerate triangles (below 1e-6 in
 // area, absolute too, and uncounted). weld() does both exactly, and counts.
 #include "mesh/import_assimp.hpp"
@@ -36,7 +36,7 @@ public:
         const std::size_t base = origin == aiOrigin_SET   ? 0
                                  : origin == aiOrigin_CUR ? offset_
                                                           : bytes_.size();
-        if (offset > bytes_.size() - base) // also where assimp means a negative offset
+        if (offset > bytes_.size() - base) // also if assimp means a negative offset
             return aiReturn_FAILURE;
         offset_ = base + offset;
         return aiReturn_SUCCESS;
@@ -69,7 +69,7 @@ private:
 
 struct ImporterOf {
     Format format;
-    const char *name, *file; ///< what assimp calls the importer; a file name it takes for its own
+    const char *name, *file; ///< assimp's name of the importer; a file name that it accepts
 };
 constexpr std::array<ImporterOf, 5> importers{
     {{Format::obj, "Wavefront Object Importer", "mesh.obj"},
@@ -83,13 +83,13 @@ void keepOnly(Assimp::Importer& assimp, std::string_view name) {
     for (std::size_t i = 0; i < assimp.GetImporterCount(); ++i)
         if (assimp.GetImporterInfo(i)->mName != name) others.push_back(assimp.GetImporter(i));
     for (Assimp::BaseImporter* other : others)
-        assimp.UnregisterLoader(other); // and never freed: the child ends soon
+        assimp.UnregisterLoader(other); // never freed: the child ends soon
     if (assimp.GetImporterCount() != 1)
         throw Refusal("", "this build of assimp cannot read the format: install libassimp5");
 }
 
-/// Repeats assimp's own checks of indices, which its validation does not always reach, and adds those of
-/// every float.
+/// Repeats assimp's own checks of indices, which its validation does not always reach, and checks every
+/// float.
 void check(const aiScene& scene) {
     for (unsigned number = 0; number < scene.mNumMeshes; ++number) {
         const aiMesh& mesh = *scene.mMeshes[number];
@@ -141,7 +141,7 @@ Eigen::Affine3d toAffine(const aiMatrix4x4& m) {
     return result;
 }
 
-/// A mirroring transform turns triangles inside out; they are turned back.
+/// Appends a mesh. A mirroring transform inverts triangles; they are reversed again.
 void append(const aiMesh& mesh, const Eigen::Affine3d& transform, std::vector<float>& corners) {
     const bool isMirrored = transform.linear().determinant() < 0;
     for (unsigned face = 0; face < mesh.mNumFaces; ++face) {
@@ -158,7 +158,8 @@ void append(const aiMesh& mesh, const Eigen::Affine3d& transform, std::vector<fl
     }
 }
 
-/// Assimp makes up names such as "nodes[3]" and "meshes[3]-1", and numbers the parts of a mesh: "liver-1".
+/// Name of a node's object. Assimp invents names such as "nodes[3]" and "meshes[3]-1", and numbers the parts
+/// of a mesh: "liver-1".
 std::string nameOf(const aiNode& node, const aiMesh& mesh) {
     const std::string_view name(node.mName.C_Str(), node.mName.length);
     if (!name.starts_with("nodes[")) return std::string(name);
@@ -187,7 +188,7 @@ Soup readTriangles(Format format, std::string_view bytes, const ImportLimits& li
         const Eigen::Affine3d transform = parent * toAffine(node->mTransformation);
         for (unsigned i = 0; i < node->mNumMeshes; ++i) {
             const aiMesh& mesh = *scene.mMeshes[node->mMeshes[i]];
-            triangles += mesh.mNumFaces; // a mesh may hang on many nodes
+            triangles += mesh.mNumFaces; // several nodes may share a mesh
             if (triangles > limits.triangles) checkTriangleCount(triangles, limits);
             append(mesh, transform, soup.corners);
             if (i == 0) soup.names.push_back(nameOf(*node, mesh));

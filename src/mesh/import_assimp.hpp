@@ -1,15 +1,15 @@
-// The only way to assimp. Assimp 5.2.5 crashes, hangs and opens side files on hostile input: call this in a
-// child only.
+// The only interface to assimp. Assimp 5.2.5 crashes, hangs and opens side files on hostile input: call this
+// only in a child process.
 #pragma once
 
 #include "mesh/import_checks.hpp"
 
 namespace sinew::mesh {
 
-/// The triangles of a file of the given format, node transforms applied, each node an object with the name
-/// that it or its mesh has; empty where neither has one. Throws Refusal. `bytes` have passed the checks of
-/// import_checks.hpp.
-/// `announced`, where not 0, is the number of triangles that must be there before nodes repeat them.
+/// The triangles of a file of the given format, with node transforms applied; each node is an object with its
+/// own name or that of its mesh, empty if neither has one. `bytes` must have passed the checks of
+/// import_checks.hpp. `announced`, if not 0, is the number of triangles that the file must contain, each mesh
+/// counted once. Throws Refusal.
 Soup readTriangles(Format format, std::string_view bytes, const ImportLimits& limits,
                    std::uint64_t announced = 0);
 

@@ -1,4 +1,4 @@
-// What the checks of all formats share, and telling formats apart.
+// Checks shared by all formats, and format detection.
 #include "mesh/import_checks.hpp"
 
 #include "mesh/text_scanner.hpp"
@@ -22,7 +22,7 @@ std::string_view firstWord(std::string_view bytes) {
     return rest.substr(0, end);
 }
 
-/// Text that may stand for a damaged binary STL as well is not taken for one.
+/// False for text that may also be a damaged binary STL.
 bool isBinaryStl(std::string_view bytes) {
     if (bytes.size() < 84) return false;
     const std::uint64_t needed = 84 + 50ull * readUint32(bytes, 80);
@@ -44,7 +44,7 @@ std::string trimmed(std::string_view text) {
         if (static_cast<unsigned char>(character) <= ' ' || character == 0x7f) character = ' ';
     name.erase(0, name.find_first_not_of(' '));
     if (name.size() > longestName) {
-        std::size_t end = longestName; // not within a character of UTF-8
+        std::size_t end = longestName; // not within a UTF-8 character
         while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
         name.resize(end);
     }
@@ -88,7 +88,7 @@ double checkCoordinate(std::string_view word, std::size_t line) {
 }
 
 void appendNumber(std::string& text, double value) {
-    std::array<char, 32> digits; // of a double at most 24
+    std::array<char, 32> digits; // a double needs at most 24
     const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
     (text += ' ').append(digits.data(), end);
 }

@@ -1,4 +1,4 @@
-// Three bundles of lines, one tree.
+// Combines three bundles of lines and a tree.
 #include "mesh/inside.hpp"
 
 #include <cmath>

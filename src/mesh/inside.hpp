@@ -1,5 +1,5 @@
-// Whether the sample points of a cell grid lie inside a surface: by the votes of the lines along x, y and z,
-// and where these disagree by the generalised winding number [Jacobson 2013], |w| > 0.5.
+// Inside test of the sample points of a cell grid: by the votes of the lines along x, y and z, and where
+// these disagree by the generalised winding number [Jacobson 2013], |w| > 0.5.
 #pragma once
 
 #include "mesh/crossings.hpp"

@@ -1,5 +1,5 @@
-// Gives a mesh one consistent way round, so that winding numbers and normals mean what they should. Files
-// often hold parts that were mirrored or modelled inside out.
+// Consistent orientation of a mesh, so that winding numbers and normals are valid. Files often contain parts
+// that were mirrored or modelled inside out.
 #include "mesh/topology.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "mesh/vector3.hpp"
@@ -7,13 +7,13 @@
 namespace sinew::mesh {
 namespace {
 
-/// The triangle across a manifold edge, and whether it runs the other way round.
+/// The triangle across a manifold edge, and whether its orientation is opposite.
 struct Neighbour {
     std::uint32_t triangle = 0;
     bool isFlipped = false;
 };
 
-/// At most one neighbour a side; across boundary and non-manifold edges there is none.
+/// At most one neighbour per side; none across boundary and non-manifold edges.
 struct Neighbours {
     std::array<Neighbour, 3> list{};
     std::uint8_t count = 0;
@@ -24,7 +24,7 @@ bool areFlipped(std::span<const HalfEdge> sides) {
     return sides.size() == 2 && sides[0].isForward == sides[1].isForward;
 }
 
-/// Empty where no neighbours run different ways round.
+/// Neighbours of all triangles; empty if no two neighbours have opposite orientations.
 std::vector<Neighbours> findNeighbours(const TriangleMesh& mesh) {
     const std::vector<HalfEdge> all = sortedSides(mesh.triangles);
     bool isAnyFlipped = false;
@@ -53,8 +53,8 @@ Turn opposite(Turn turn) {
     return turn == Turn::keep ? Turn::flip : Turn::keep;
 }
 
-/// Decides for the connected part around `seed`. Where it has no consistent way round (a Moebius strip) the
-/// first decision stays.
+/// Decides the orientation of the connected part around `seed`. If no consistent one exists (a Moebius strip)
+/// the first decision stays.
 void orientPart(const TriangleMesh& mesh, const std::vector<Neighbours>& neighbours, std::uint32_t seed,
                 std::vector<Turn>& turns) {
     std::vector<std::uint32_t> part{seed};

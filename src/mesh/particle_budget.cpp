@@ -1,5 +1,5 @@
-// The resolution that a number of particles allows: their number grows with a power of it between 2 (a shell)
-// and 3, which the last two grids tell.
+// The largest resolution for a number of particles: their number grows with a power of it between 2 (a shell)
+// and 3, estimated from the last two grids.
 #include "mesh/voxelise.hpp"
 
 #include <algorithm>
@@ -11,15 +11,15 @@ namespace {
 
 constexpr std::uint32_t finest = 512; ///< cells along the longest side, as in scene files
 constexpr std::uint32_t firstGuess = 12;
-constexpr int mostGuesses = 6; ///< from then on by bisection
+constexpr int mostGuesses = 6; ///< after that, bisection
 
-/// A grid that was filled: [cells along the longest side], particles.
+/// A voxelised grid: cells along the longest side, and number of particles.
 struct Trial {
     std::uint32_t resolution = 0;
     double particles = 0;
 };
 
-/// Where the power law through two trials meets `most`.
+/// Resolution at which the power law through two trials reaches `most`.
 double guess(const Trial& last, const Trial& before, double most) {
     double power = 3;
     if (before.particles > 0 && before.resolution != last.resolution)

@@ -1,4 +1,4 @@
-// How large the cells are and where the grid lies.
+// Size of the cells and position of the grid.
 #include "mesh/place_grid.hpp"
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 namespace sinew::mesh {
 namespace {
 
-/// [cells] The grid ends this far beyond the mesh in all, at least: enough for the rounding of its origin.
+/// [cells] Least total extent of the grid beyond the mesh: covers the rounding of its origin.
 constexpr double margin = 1e-4;
-/// [cells] Left free along the longest side where its number of cells is asked for, so that a side of a half
-/// or a tenth of it comes out whole too.
+/// [cells] Space left along the longest side if its number of cells is given, so that sides of a half or a
+/// tenth of it get whole numbers of cells too.
 constexpr double slack = 0.04;
 
 struct Bounds {
@@ -39,7 +39,7 @@ float chooseSpacing(const Bounds& bounds, const VoxelRequest& request) {
     return static_cast<float>(longest / std::max(request.resolution - slack, 0.5));
 }
 
-/// An empty grid around the mesh, in the middle of it.
+/// An empty grid centred on the mesh.
 VoxelGrid makeGrid(const TriangleMesh& mesh, const VoxelRequest& request) {
     const Bounds bounds = boundsOf(mesh);
     VoxelGrid grid{.spacing = chooseSpacing(bounds, request)};
@@ -58,7 +58,7 @@ VoxelGrid makeGrid(const TriangleMesh& mesh, const VoxelRequest& request) {
     return grid;
 }
 
-/// Far from the origin the rounding of the grid's own origin may leave a vertex outside.
+/// Throws if a vertex is outside: far from the origin of coordinates, the grid's own origin is rounded.
 void checkPlacement(const VoxelGrid& grid, const std::vector<Vector3>& positions) {
     const Vector3 size(grid.cells[0], grid.cells[1], grid.cells[2]);
     const bool isInside = std::ranges::all_of(positions, [&](const Vector3& position) {

@@ -1,5 +1,5 @@
-// The first step of every voxelisation: a mesh without defects that matter, the grid around it, and its
-// vertices in cell units. Private to src/mesh: its vectors are Eigen's.
+// The first step of every voxelisation: a mesh without harmful defects, the grid around it, and its vertices
+// in cell units. Private to src/mesh: its vectors are Eigen's.
 #pragma once
 
 #include "mesh/vector3.hpp"
@@ -9,7 +9,7 @@ namespace sinew::mesh {
 
 struct PlacedMesh {
     TriangleMesh mesh;              ///< welded and oriented
-    VoxelGrid grid;                 ///< empty, in the middle around the mesh
+    VoxelGrid grid;                 ///< empty, centred on the mesh
     std::vector<Vector3> positions; ///< [cells] from the grid's low corner, all within the grid
 };
 

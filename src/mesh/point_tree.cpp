@@ -1,5 +1,5 @@
 // Ranges are split at their median along x, y and z in turn. A query clips its segment at each plane, so that
-// a long one visits only the ranges along its way.
+// a long segment visits only the ranges along it.
 #include "mesh/point_tree.hpp"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ void PointTree::visit(std::size_t first, std::size_t count, int axis, double fro
     test(points_[first + half]);
     const double plane = coordinate(points_[first + half].position, axis);
     const double start = query.a[axis], step = query.b[axis] - query.a[axis];
-    // The shares of the segment on either side of `plane`, widened by the radius.
+    // The parts of the segment on either side of `plane`, widened by the radius.
     double lowFrom = from, lowTo = to, highFrom = from, highTo = to;
     const double toHigh = plane + query.radius - start, toLow = plane - query.radius - start;
     if (step > 0) {

@@ -28,11 +28,11 @@ private:
     void visit(std::size_t first, std::size_t count, int axis, double from, double to,
                const Query& query) const;
 
-    std::vector<Point> points_; ///< the median of a range stands in its middle
+    std::vector<Point> points_; ///< the median of a range is in its middle
 };
 
-/// Distance from `point` to the segment from `a` to `b`, and where on it the nearest point is: 0 at `a`, 1 at
-/// `b`.
+/// Distance from `point` to the segment from `a` to `b`, and the parameter of the nearest point: 0 at `a`, 1
+/// at `b`.
 struct OnSegment {
     double distance = 0, at = 0;
 };

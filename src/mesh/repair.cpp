@@ -1,5 +1,5 @@
-// The order of the steps: seams first, since a joined seam leaves no hole; sides before holes, since a loop
-// needs neighbours that run the same way.
+// The order of the steps: seams first, since a joined seam leaves no hole; orientation before holes, since a
+// loop needs neighbours with the same orientation.
 #include "mesh/repair.hpp"
 
 #include "mesh/disjoint_sets.hpp"
@@ -23,14 +23,14 @@ std::size_t faultsOf(const MeshDefects& defects) {
     return defects.boundaryEdges + defects.nonManifoldEdges;
 }
 
-/// A mesh with its defects, on which steps are tried.
+/// A mesh with its defects, to which steps are applied on trial.
 class Trial {
 public:
     Trial(TriangleMesh mesh, const MeshDefects& defects) : mesh_(std::move(mesh)), defects_(defects) {}
 
-    /// `step(mesh, places)` changes a mesh and adds a place for each change. Keeps mesh and report as they
-    /// are where it leaves no fewer faults; else appends the places to `done`, and those of the triangles
-    /// that became empty or double to report.places.removed.
+    /// Applies `step(mesh, places)`, which changes a mesh and adds a place for each change. Discards the
+    /// change unless it leaves fewer faults; else appends the places to `done`, and those of triangles that
+    /// became degenerate or duplicates to report.places.removed.
     template <typename Step> bool apply(Repairs& report, Places& done, const Step& step) {
         TriangleMesh changed = mesh_;
         Places places, dropped;
@@ -59,7 +59,7 @@ double sizeOf(const TriangleMesh& mesh) {
     return (toVector(report.high) - toVector(report.low)).maxCoeff();
 }
 
-/// Far from the origin the coordinates themselves are rounded by more than weldTolerance.
+/// Welding distance. Far from the origin, coordinates are rounded by more than weldTolerance.
 double toleranceOf(const TriangleMesh& mesh, double weld) {
     const MeshReport report = measure(mesh);
     const Vector3 low = toVector(report.low), high = toVector(report.high);
@@ -76,7 +76,7 @@ void stitch(Trial& trial, Repairs& report) {
                 [&](TriangleMesh& mesh, Places& places) { splitJunctions(mesh, tolerance, places); });
 }
 
-/// Counts groups of vertices that triangles connect.
+/// Number of connected sets of vertices.
 std::size_t countSurfaces(const TriangleMesh& mesh) {
     DisjointSets sets(mesh.positions.size());
     std::size_t count = mesh.positions.size();
@@ -91,9 +91,9 @@ std::size_t countSurfaces(const TriangleMesh& mesh) {
 
 enum class Seams { between, all }; ///< between surfaces, or also within one
 
-/// Joins what is nearer than ever larger shares of the size, until that closes a good part of the open edges.
+/// Tries to join vertices at increasing shares of the size, until a quarter of the open edges is closed.
 void findWideSeam(const TriangleMesh& mesh, const MeshDefects& defects, Seams which, Repairs& report) {
-    constexpr std::size_t mostEdges = 100'000; // a search in more of them takes long
+    constexpr std::size_t mostEdges = 100'000; // a search among more edges takes long
     if (report.seam.weld > 0 || defects.boundaryEdges == 0 || defects.boundaryEdges > mostEdges) return;
     const double size = sizeOf(mesh);
     const std::size_t surfaces = countSurfaces(mesh);
@@ -124,7 +124,7 @@ void turnTriangles(TriangleMesh& mesh, Places& places) {
 }
 
 void close(Trial& trial, Repairs& report) {
-    if (trial.defects().nonManifoldEdges > 0) // leftovers lie at such edges
+    if (trial.defects().nonManifoldEdges > 0) // leftovers occur at such edges
         trial.apply(report, report.places.removed, removeLeftovers);
     if (trial.defects().flippedEdges > 0) turnTriangles(trial.mesh(), report.places.turnedTriangles);
     if (trial.defects().boundaryEdges > 0) {
@@ -139,7 +139,7 @@ void close(Trial& trial, Repairs& report) {
     turnParts(trial.mesh(), report.places.turnedParts);
 }
 
-/// Sets the numbers to those of the places.
+/// Sets the counts from the numbers of places.
 void count(Repairs& report) {
     const RepairPlaces& places = report.places;
     report.joinedVertices = places.joined.size();
@@ -162,8 +162,7 @@ bool isBefore(const Vec3& a, const Vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-/// Moves places to the nearest vertices of the result, where later steps have joined or removed those that
-/// they were.
+/// Moves places to the nearest vertices of the result, if later steps have joined or removed their vertices.
 class Settler {
 public:
     Settler(const TriangleMesh& result, double tolerance)
@@ -198,7 +197,7 @@ const Vec3& placeOf(const std::array<Vec3, 2>& pair) {
     return pair[0];
 }
 
-/// repairsOf() looks places up.
+/// Sorts the places, for the searches of repairsOf().
 void sortPlaces(Repairs& report) {
     for (const auto kind : placeKinds) std::ranges::sort(report.places.*kind, isBefore);
     std::ranges::stable_sort(report.places.holes, isBefore, &ClosedHole::place);
@@ -214,7 +213,7 @@ void settlePlaces(const TriangleMesh& result, Repairs& report) {
         for (Vec3& place : pair) settler.settle(place);
 }
 
-/// Those of sorted `places` that are at one of sorted `positions`.
+/// Those of sorted `places` that are at one of the sorted `positions`.
 template <typename Place, typename Of>
 std::vector<Place> among(const std::vector<Vec3>& positions, const std::vector<Place>& places, const Of& of) {
     std::vector<Place> found;
@@ -227,7 +226,8 @@ std::vector<Place> among(const std::vector<Vec3>& positions, const std::vector<P
     return found;
 }
 
-/// Lids may have closed it on both sides, so that the part itself shows no seam. `positions` are sorted.
+/// The part of a wide seam in sorted `positions`. The part itself may show no seam, if both of its sides were
+/// closed.
 WideSeam seamIn(const std::vector<Vec3>& positions, const WideSeam& whole) {
     WideSeam seam{.weld = whole.weld, .pairs = among(positions, whole.pairs, placeOf)};
     std::erase_if(seam.pairs, [&](const std::array<Vec3, 2>& pair) {

@@ -1,4 +1,4 @@
-// Holes: open edges are traced to loops without repeated vertices, and the small ones get a patch.
+// Closing of holes: open edges are traced to loops without repeated vertices, and small loops get a patch.
 #include "mesh/repair_steps.hpp"
 #include "mesh/vector3.hpp"
 
@@ -8,7 +8,7 @@
 namespace sinew::mesh {
 namespace {
 
-/// Open edges by the vertex from which a patch leaves along them.
+/// An open edge in the direction of a patch's side.
 struct Step {
     std::uint32_t from = 0, to = 0, triangle = 0;
 };
@@ -24,7 +24,8 @@ public:
     }
     std::size_t openEdges() const { return steps_.size(); }
 
-    /// A loop is cut off as soon as a vertex is met again, so loops that touch in a vertex part there.
+    /// Traces loops of open edges. A loop ends as soon as a vertex is repeated, so loops that touch in a
+    /// vertex are separated there.
     std::vector<Loop> trace() {
         std::vector<Loop> loops;
         for (std::size_t seed = 0; seed < steps_.size(); ++seed)
@@ -35,7 +36,7 @@ public:
 private:
     void walk(std::size_t seed, std::vector<Loop>& loops) {
         std::vector<std::size_t> path{seed};
-        std::map<std::uint32_t, std::size_t> places{{steps_[seed].from, 0}}; // of vertices on the path
+        std::map<std::uint32_t, std::size_t> places{{steps_[seed].from, 0}}; // index on the path, by vertex
         isUsed_[seed] = true;
         while (!path.empty()) {
             const std::uint32_t vertex = steps_[path.back()].to;
@@ -44,7 +45,7 @@ private:
                 continue;
             }
             const std::size_t next = nextFrom(vertex);
-            if (next == steps_.size()) { // neighbours face different ways: no loop leads here
+            if (next == steps_.size()) { // neighbours have opposite orientations: no loop
                 places.erase(steps_[path.back()].from);
                 path.pop_back();
                 continue;
@@ -79,7 +80,7 @@ private:
 
     std::vector<Step> steps_;
     std::vector<bool> isUsed_;
-    std::vector<std::size_t> skipped_; ///< at the first step of a vertex: how many of its steps are used
+    std::vector<std::size_t> skipped_; ///< at the first step of a vertex: number of its used steps
 };
 
 OpenHole describe(const TriangleMesh& mesh, const Loop& loop) {
@@ -94,7 +95,7 @@ OpenHole describe(const TriangleMesh& mesh, const Loop& loop) {
     return hole;
 }
 
-/// The parts of a mesh, by which the size of a hole is measured.
+/// The parts of a mesh, relative to which the size of a hole is measured.
 class Surroundings {
 public:
     explicit Surroundings(const TriangleMesh& mesh) {
@@ -113,7 +114,7 @@ public:
         double boxEdges = 0;      ///< sum of the twelve edges of the box [units of the mesh]
         bool isExempting = false; ///< a hole of three edges may be of any size
     };
-    /// Measures the parts along the rim of `loop` together.
+    /// Measures all parts along the rim of `loop` together.
     Scale scaleOf(const Loop& loop) const {
         Part whole;
         std::set<std::uint32_t> seen;

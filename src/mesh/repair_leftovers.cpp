@@ -1,4 +1,5 @@
-// Triangles that stick out of a surface, and walls within a volume, which no side of it needs.
+// Removal of leftovers: triangles that stick out of a surface, and walls within a volume that no side of it
+// needs.
 #include "mesh/repair_steps.hpp"
 #include "mesh/vector3.hpp"
 
@@ -7,7 +8,7 @@
 namespace sinew::mesh {
 namespace {
 
-/// How many edges of each triangle are open, and how many are crowded (three triangles and more).
+/// Number of open edges of each triangle, and of crowded ones (with three triangles and more).
 struct EdgeCounts {
     std::vector<std::uint8_t> open, crowded;
 };
@@ -47,13 +48,13 @@ void removeSingles(TriangleMesh& mesh, Places& places) {
 struct Sheet {
     std::size_t firstEdge = 0, edgeCount = 0; ///< in Walls::edgesOf_
     double area = 0;
-    bool isWall = true; ///< bounded by edges of three triangles alone, of which it has one each
+    bool isWall = true; ///< every edge of its rim has three triangles, one of them of this sheet
 };
 
 /// An edge of three triangles.
 struct CrowdedEdge {
     std::array<HalfEdge, 3> sides;
-    bool isFree = true; ///< still of three triangles
+    bool isFree = true; ///< has not lost a triangle
 };
 
 class Walls {
@@ -71,8 +72,8 @@ public:
         findEdges();
     }
 
-    /// Marks the triangles of walls, the smallest first: without them each edge around them has two sides
-    /// that run opposite ways.
+    /// Marks the triangles of walls, the smallest wall first: without them each edge around them has two
+    /// triangles with consistent orientation.
     void mark(std::vector<bool>& isKept, Places& places) {
         std::vector<std::size_t> order(sheets_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -132,7 +133,7 @@ private:
     std::vector<std::uint32_t> numbers_;
     std::vector<Sheet> sheets_;
     std::vector<CrowdedEdge> crowded_;
-    std::vector<std::uint32_t> edgesOf_; ///< of each sheet in a row
+    std::vector<std::uint32_t> edgesOf_; ///< sheet by sheet
 };
 
 } // namespace

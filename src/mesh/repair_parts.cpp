@@ -1,4 +1,5 @@
-// Parts that are inside out. A part is what hangs together across edges of two triangles.
+// Reversal of parts that are inside out. A part is a set of triangles connected across edges of two
+// triangles.
 #include "mesh/disjoint_sets.hpp"
 #include "mesh/point_tree.hpp"
 #include "mesh/repair_steps.hpp"
@@ -10,7 +11,7 @@
 namespace sinew::mesh {
 namespace {
 
-constexpr std::size_t mostContainers = 64; ///< the largest parts; whether one lies within others is not asked
+constexpr std::size_t mostContainers = 64; ///< the largest parts are tested as containers
 constexpr std::size_t samplesOfPart = 8;
 
 struct Part {
@@ -20,7 +21,8 @@ struct Part {
     Eigen::AlignedBox3d box;
 };
 
-/// A part is closed where as many of its triangles run one way along each edge as the other.
+/// Finds open parts. A part is closed if along each edge equally many of its triangles run in both
+/// directions.
 void findOpenParts(const std::vector<HalfEdge>& all, const std::vector<std::uint32_t>& numbers,
                    std::vector<Part>& parts) {
     std::map<std::uint32_t, int> balance;
@@ -36,7 +38,7 @@ void findOpenParts(const std::vector<HalfEdge>& all, const std::vector<std::uint
     });
 }
 
-/// Signed. About the middle of the part itself: far from it a small volume drowns in rounding.
+/// Signed volume, relative to the centre of the part: far from it a small volume is lost in rounding.
 double volumeOf(const TriangleMesh& mesh, const Part& part) {
     const Vector3 middle = part.box.center();
     double volume = 0;
@@ -50,7 +52,7 @@ double volumeOf(const TriangleMesh& mesh, const Part& part) {
     return volume;
 }
 
-/// For each triangle the number of its part.
+/// Index of the part of each triangle.
 std::vector<std::uint32_t> numberParts(std::size_t triangles, const std::vector<HalfEdge>& all,
                                        std::size_t& count, Across across) {
     DisjointSets sets(triangles);
@@ -82,7 +84,7 @@ std::vector<Part> findParts(const TriangleMesh& mesh) {
     return parts;
 }
 
-/// Whether parts lie within other parts, which may be open: they then wind around more than half.
+/// Tests whether parts lie within other parts, which may be open: the winding number there exceeds a half.
 class Nesting {
 public:
     Nesting(const TriangleMesh& mesh, const std::vector<Part>& parts) : mesh_(mesh), parts_(parts) {
@@ -99,7 +101,7 @@ public:
         lowCorners_.emplace(corners, all);
     }
 
-    /// Ascending parts whose boxes may lie within the box of `container`, itself among them.
+    /// Parts whose boxes may lie within the box of `container`, including itself, ascending.
     std::vector<std::uint32_t> candidatesWithin(std::uint32_t container) const {
         const Eigen::AlignedBox3d& box = parts_[container].box;
         Vector3 half = box.sizes() / 2, along = Vector3::Zero();
@@ -144,7 +146,7 @@ private:
     const std::vector<Part>& parts_;
     std::vector<std::uint32_t> containers_;
     std::vector<Vector3> positions_;
-    std::optional<PointTree> lowCorners_; ///< of the boxes of all parts
+    std::optional<PointTree> lowCorners_; ///< low corners of the boxes of all parts
     std::map<std::uint32_t, TriangleTree> trees_;
 };
 

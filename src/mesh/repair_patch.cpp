@@ -1,5 +1,5 @@
-// The triangles of one hole. All triangulations of a loop are compared by dynamic programming, first by the
-// greatest angle between neighbours, those on the rim included, in steps of five degrees, then by their area
+// Triangulation of a hole. All triangulations of a loop are compared by dynamic programming, first by the
+// largest angle between neighbours, including those on the rim, in steps of five degrees, then by their area
 // [Liepa 2003].
 #include "mesh/repair_steps.hpp"
 #include "mesh/vector3.hpp"
@@ -12,9 +12,9 @@
 namespace sinew::mesh {
 namespace {
 
-constexpr std::size_t mostPlanned = 128; ///< edges; the plan takes n^3 steps
+constexpr std::size_t mostPlanned = 128; ///< edges; planning takes n^3 steps
 constexpr double bendStep = 5;           ///< [degrees]
-constexpr double folded = 170;           ///< [degrees] neighbours that lie on each other
+constexpr double folded = 170;           ///< [degrees] angle of neighbours that lie on each other
 
 double degreesBetween(const Vector3& a, const Vector3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi);
@@ -88,7 +88,7 @@ private:
     const Choice& at(std::size_t i, std::size_t k) const { return best_[i * count_ + k]; }
     bool isRim(std::size_t i, std::size_t k) const { return k == i + 1 || (i == 0 && k + 1 == count_); }
 
-    /// Steps of bend across the chord from i to k, which is a side of a triangle of that normal.
+    /// Steps of bend across the chord from i to k, for a triangle with this normal at the chord.
     int bendAcross(std::size_t i, std::size_t k, const Vector3& normal) const {
         const Vector3& other = k == i + 1 ? rim_[i] : at(i, k).normal;
         return static_cast<int>(degreesBetween(normal, other) / bendStep);
@@ -132,7 +132,7 @@ private:
     std::vector<Choice> best_;
 };
 
-/// All triangles meet in the middle; possible where none of them faces away from their mean.
+/// A fan of triangles around the centre; possible only if none of them faces away from their mean normal.
 Patch fan(const TriangleMesh& mesh, const Loop& loop) {
     const std::vector<Vector3> points = pointsOf(mesh, loop), rim = rimNormals(mesh, loop);
     Vector3 middle = Vector3::Zero(), mean = Vector3::Zero();

@@ -1,5 +1,5 @@
-// Seams: vertices that are equal but for rounding, and T-junctions. Only vertices of open edges are looked
-// at, so that a closed mesh costs nothing and no closed part can be harmed.
+// Repair of seams: vertices that are equal up to rounding, and T-junctions. Only vertices of open edges are
+// processed, so that a closed mesh costs nothing and no closed part is changed.
 #include "mesh/point_tree.hpp"
 #include "mesh/repair_steps.hpp"
 
@@ -15,7 +15,7 @@ double lengthOf(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
     return (toVector(mesh.positions[a]) - toVector(mesh.positions[b])).norm();
 }
 
-/// For each vertex how far another may be to be joined with it.
+/// Welding distance of each vertex.
 std::vector<float> findReaches(const TriangleMesh& mesh, double tolerance) {
     std::vector<float> reaches(mesh.positions.size(), 0);
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -26,14 +26,14 @@ std::vector<float> findReaches(const TriangleMesh& mesh, double tolerance) {
     return reaches;
 }
 
-/// A triangle whose edge from corner `corner` on is split at `points`, which are in order along it.
+/// A triangle whose edge after corner `corner` is split at `points`, in order along the edge.
 struct Split {
     std::uint32_t triangle = 0;
     std::size_t corner = 0;
     std::vector<std::uint32_t> points;
 };
 
-/// The ends of open edges, for each vertex its neighbours.
+/// The neighbours of each vertex along open edges.
 class OpenNeighbours {
 public:
     explicit OpenNeighbours(const std::vector<OpenEdge>& edges) {
@@ -59,7 +59,7 @@ public:
     JunctionFinder(const TriangleMesh& mesh, const std::vector<OpenEdge>& edges, double tolerance)
         : mesh_(mesh), neighbours_(edges), tree_(mesh.positions, verticesOf(edges)), tolerance_(tolerance) {}
 
-    /// Vertices that split `edge`, in order along it.
+    /// Vertices at which `edge` must be split, in order along it.
     std::vector<std::uint32_t> pointsOn(const OpenEdge& edge) const {
         const Vector3 a = at(edge.from), b = at(edge.to);
         const double reach = std::min(tolerance_, (b - a).norm() / 4);
@@ -84,7 +84,7 @@ public:
 private:
     Vector3 at(std::uint32_t vertex) const { return toVector(mesh_.positions[vertex]); }
 
-    /// Whether an open edge at `vertex` overlaps `edge`.
+    /// True if an open edge at `vertex` overlaps `edge`.
     bool runsAlong(const OpenEdge& edge, std::uint32_t vertex, double reach) const {
         const Vector3 a = at(edge.from), b = at(edge.to), point = at(vertex);
         return neighbours_.any(vertex, [&](std::uint32_t other) {
@@ -114,7 +114,7 @@ std::vector<Triangle> pieces(const Triangle& triangle, const Split& split) {
     return result;
 }
 
-/// Whether corners lie exactly on a line: such a triangle would be dropped.
+/// True if the corners lie exactly on a line: such a triangle would be dropped.
 bool isEmpty(const TriangleMesh& mesh, const Triangle& triangle) {
     const Vector3 a = toVector(mesh.positions[triangle[0]]);
     return (toVector(mesh.positions[triangle[1]]) - a)
@@ -122,7 +122,7 @@ bool isEmpty(const TriangleMesh& mesh, const Triangle& triangle) {
         .isZero(0);
 }
 
-/// Returns whether any edge was split.
+/// One pass; true if any edge was split.
 bool splitOnce(TriangleMesh& mesh, double tolerance, Places& places) {
     const std::vector<OpenEdge> edges = findOpenEdges(mesh);
     const JunctionFinder finder(mesh, edges, tolerance);
@@ -194,7 +194,7 @@ void joinNear(TriangleMesh& mesh, double tolerance, Places& places, VertexPairs*
 }
 
 void splitJunctions(TriangleMesh& mesh, double tolerance, Places& places) {
-    constexpr int mostPasses = 16; // one edge of a triangle a pass
+    constexpr int mostPasses = 16; // a pass splits one edge per triangle
     for (int pass = 0; pass < mostPasses; ++pass)
         if (!splitOnce(mesh, tolerance, places)) break;
 }

@@ -1,4 +1,4 @@
-// The answer travels as its length in 8 bytes, then its bytes; anything else is a failure. Signals are
+// The child sends its answer as a length in 8 bytes, then the bytes; anything else is a failure. Signals are
 // blocked over the fork so that no handler of the parent ever runs in the child.
 #include "mesh/sandbox.hpp"
 
@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int answerDescriptor = 3; ///< in the child
 constexpr int exitOutOfMemory = 12, exitException = 13, exitSetUp = 14;
 
-/// All that the child needs to know, gathered before the fork.
+/// Values for the child, gathered before the fork.
 struct Preparation {
     int answerPipe = -1;
     pid_t parent = 0;
@@ -39,9 +39,10 @@ bool limitTo(int resource, rlim_t soft, rlim_t hard) {
     return setrlimit(static_cast<decltype(RLIMIT_AS)>(resource), &limit) == 0;
 }
 
-/// Keeps the answer pipe alone: no file, device or socket of the parent reaches the importer.
+/// Closes all descriptors except the answer pipe: no file, device or socket of the parent reaches the
+/// importer.
 bool closeDescriptors(int answerPipe) {
-    const int pipe = fcntl(answerPipe, F_DUPFD, 10); // clear of the numbers below
+    const int pipe = fcntl(answerPipe, F_DUPFD, 10); // above the numbers used below
     const int null = open("/dev/null", O_RDWR);
     if (pipe < 0 || null < 0) return false;
     for (int descriptor = 0; descriptor < answerDescriptor; ++descriptor)
@@ -53,7 +54,7 @@ void resetSignals() {
     struct sigaction action {};
     action.sa_handler = SIG_DFL;
     for (int signal = 1; signal < NSIG; ++signal)
-        sigaction(signal, &action, nullptr); // SIGKILL and SIGSTOP refuse; nothing is lost
+        sigaction(signal, &action, nullptr); // fails for SIGKILL and SIGSTOP, harmlessly
     sigset_t none;
     sigemptyset(&none);
     pthread_sigmask(SIG_SETMASK, &none, nullptr);
@@ -102,7 +103,7 @@ std::string toText(double seconds) {
     return text + " s";
 }
 
-/// A child and the pipe from it; both end with this object.
+/// Owns a child process and the pipe from it; kills the child and closes the pipe.
 class Child {
 public:
     Child(pid_t process, int pipe, Clock::time_point deadline)
@@ -132,7 +133,7 @@ public:
         return done;
     }
 
-    /// Why the answer was cut short.
+    /// Throws the reason for which the answer was cut short.
     [[noreturn]] void fail(const ChildLimits& limits) {
         while (!reap(WNOHANG)) {
             checkDeadline(limits);
@@ -164,7 +165,7 @@ private:
         }
     }
 
-    /// Whether the child is gone. Also where a host reaps all children itself.
+    /// True if the child has ended, also if the host reaps all children itself.
     bool reap(int options) {
         pid_t result = 0;
         do result = waitpid(process_, &status_, options);

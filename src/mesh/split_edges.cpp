@@ -1,5 +1,5 @@
 // Triangles around an edge, in the order of their angle about it: one that runs along the edge has its
-// material before it, one that runs against it behind it, so they pair like brackets.
+// material before it, one that runs against the edge has it behind, so they pair like brackets.
 #include "mesh/split_edges.hpp"
 
 #include "mesh/vector3.hpp"
@@ -21,8 +21,8 @@ Edge edgeOf(const std::array<std::uint32_t, 3>& triangle, std::size_t n) {
 /// A triangle at an edge.
 struct Side {
     std::uint32_t triangle = 0;
-    bool runsAlong = false; // from the lower vertex to the higher
-    long angle = 0;         // in 1e-4: two sides of a cut lie on each other until they move apart
+    bool runsAlong = false; // in the direction from the lower vertex to the higher
+    long angle = 0;         // in 1e-4 rad: the two sides of a cut coincide until they move apart
 };
 
 class Splitter {
@@ -30,7 +30,7 @@ public:
     explicit Splitter(TriangleMesh& mesh) : mesh_(mesh) {
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             const auto& [a, b, c] = mesh.triangles[t];
-            if (a == b || b == c || c == a) continue; // has no edges to speak of
+            if (a == b || b == c || c == a) continue; // degenerate: has no proper edges
             for (std::size_t n = 0; n < 3; ++n) around_[edgeOf(mesh.triangles[t], n)].push_back(t);
         }
     }
@@ -48,12 +48,12 @@ private:
     bool split(const Edge& edge) {
         std::vector<Side> sides = sidesOf(edge);
         const auto along = std::ranges::count_if(sides, &Side::runsAlong);
-        if (2 * along != std::ssize(sides)) return false; // open
+        if (2 * along != std::ssize(sides)) return false; // open surface
         std::ranges::stable_sort(sides, [](const Side& a, const Side& b) {
             return a.angle != b.angle ? a.angle < b.angle : a.runsAlong && !b.runsAlong;
         });
         std::rotate(sides.begin(), firstOf(sides), sides.end());
-        std::vector<std::uint32_t> open; // those that wait for the other side of their material
+        std::vector<std::uint32_t> open; // triangles whose material has no second side yet
         for (const Side& side : sides) {
             if (!side.runsAlong) {
                 open.push_back(side.triangle);
@@ -68,7 +68,7 @@ private:
         return true;
     }
 
-    /// With angles about the edge from the first triangle's on.
+    /// The triangles at an edge, with angles about it relative to the first triangle.
     std::vector<Side> sidesOf(const Edge& edge) const {
         const Vector3 start = toVector(mesh_.positions[edge[0]]),
                       axis = (toVector(mesh_.positions[edge[1]]) - start).normalized();
@@ -88,7 +88,7 @@ private:
         return sides;
     }
 
-    /// From where on brackets match.
+    /// The side from which on the brackets match.
     static std::vector<Side>::iterator firstOf(std::vector<Side>& sides) {
         std::ptrdiff_t open = 0, fewest = 0, first = 0;
         for (std::ptrdiff_t s = 0; s < std::ssize(sides); ++s) {
@@ -107,8 +107,8 @@ private:
         return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
     }
 
-    /// Of the two halves the second is a new triangle. What it has of an edge that was split before is not
-    /// listed: two triangles share it.
+    /// Splits a triangle; the second half is a new triangle. Its parts of an edge that was split before are
+    /// not listed: two triangles share each.
     void divide(std::uint32_t t, const Edge& edge, std::uint32_t middle) {
         std::size_t n = 0;
         while (edgeOf(mesh_.triangles[t], n) != edge) ++n;

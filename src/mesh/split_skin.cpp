@@ -1,8 +1,9 @@
-// First along the planes between cells. A vertex then goes with the nearest node, which is a corner of all
-// cells that it is in. Nodes a and b of one cell are ends of an edge of its tetrahedra where a <= b or b <= a
-// along all axes; an edge of the skin whose ends are not alike in that way gets a vertex in between that goes
-// with their minimum or maximum, the nearer one. Both are comparable with whatever is comparable with a and
-// b, so three comparable nodes are always left, and geometry is not asked again: nothing depends on rounding.
+// First the skin is split along the planes between cells. The anchor of a vertex then is the nearest node,
+// which is a corner of all cells that contain the vertex. Nodes a and b of one cell are ends of an edge of
+// its tetrahedra if a <= b or b <= a along all axes; an edge of the skin whose ends are not comparable in
+// this way gets a vertex in between with the minimum or maximum of a and b as its anchor, whichever is
+// nearer. Both are comparable with every node comparable with a and b, so three comparable nodes always
+// result, without further use of geometry: nothing depends on rounding.
 #include "mesh/split_skin.hpp"
 
 #include <algorithm>
@@ -20,9 +21,9 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 using Node = std::array<std::int64_t, 3>;
 
-// Vertices as near to a plane between cells as that [cells] count as on it, without being moved: parts that
-// are thinner say nothing of where the skin faces once it is strained, while vertices on both sides of them
-// would know half of the skin around each. It also makes fewer parts.
+// Vertices nearer than this to a plane between cells [cells] count as on it, without being moved: thinner
+// parts give no usable normal once the skin is strained, while vertices on both sides of them would have only
+// half of the skin around each. It also makes fewer parts.
 constexpr double onPlane = 1e-2;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -76,7 +77,7 @@ private:
         return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
     }
 
-    // Where an edge meets a plane: within the box of its ends, whatever is rounded.
+    // The point at which an edge meets a plane: within the box of its ends, whatever the rounding.
     std::uint32_t pointOn(std::uint32_t a, std::uint32_t b, Eigen::Index axis, double plane) {
         const auto [entry, isNew] =
             points_.try_emplace(keyOf(a, b), static_cast<std::uint32_t>(skin_.positions.size()));
@@ -89,7 +90,7 @@ private:
         return entry->second;
     }
 
-    // A part of a triangle with three or four corners; the shorter diagonal splits it.
+    // Adds a part of a triangle with three or four corners; the shorter diagonal splits four.
     void addPart(const std::vector<std::uint32_t>& part, std::vector<Triangle>& to) const {
         if (part.size() == 3) {
             to.push_back({part[0], part[1], part[2]});
@@ -103,13 +104,13 @@ private:
         to.push_back({at(0), at(2), at(3)});
     }
 
-    // Among the planes between cells.
+    // Coordinate of a vertex along an axis, rounded to a plane between cells if near one.
     double heightOf(std::uint32_t vertex, Eigen::Index axis) const {
         const double height = skin_.positions[vertex][axis], plane = std::round(height);
         return std::abs(height - plane) < onPlane ? plane : height;
     }
 
-    // The lowest plane first, in both triangles of an edge.
+    // Splits at the lowest plane first, so that both triangles of an edge split alike.
     void splitBetweenCells(Eigen::Index axis) {
         std::vector<Triangle> done, open;
         std::vector<std::uint32_t> wholeOf;
@@ -150,7 +151,7 @@ private:
         addPart(above, open);
     }
 
-    // The vertex between two that do not go together; none where they do.
+    // The vertex between two with incomparable anchors; none if they are comparable.
     std::uint32_t between(std::uint32_t first, std::uint32_t second) {
         const std::uint32_t a = std::min(first, second), b = std::max(first, second);
         const Node from = skin_.anchors[a], to = skin_.anchors[b];
@@ -159,7 +160,7 @@ private:
             points_.try_emplace(keyOf(a, b), static_cast<std::uint32_t>(skin_.positions.size()));
         if (!isNew) return entry->second;
         const Vector3 x = skin_.positions[a], way = skin_.positions[b] - x;
-        double early = 1, late = 0; // where the nearest node changes
+        double early = 1, late = 0; // parameters at which the nearest node changes
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (from[axis] == to[axis]) continue;
             const auto n = static_cast<Eigen::Index>(axis);
@@ -181,7 +182,7 @@ private:
         return areComparable(skin_.anchors[a], skin_.anchors[b]);
     }
 
-    // Triangles from one corner of a polygon to all others; false where some of them do not go together.
+    // Adds the triangles from one corner of a polygon to all others; false if some anchors are incomparable.
     bool addFan(std::span<const std::uint32_t> polygon, std::size_t from) {
         const std::size_t count = polygon.size();
         const auto at = [&](std::size_t n) { return polygon[(from + n) % count]; };
@@ -191,7 +192,8 @@ private:
         return true;
     }
 
-    // From a vertex between two, so that no three in a row are a triangle; else from one in the middle.
+    // Adds a fan from a vertex between two corners, so that no triangle has three vertices in a row; else one
+    // from the centre.
     void splitBetweenNodes(const Triangle& triangle) {
         std::vector<std::uint32_t> polygon;
         std::vector<std::size_t> added;

@@ -1,5 +1,5 @@
-// One vertex in each cell whose corners differ in sign, one quad around each grid edge whose ends differ in
-// sign.
+// Surface nets: one vertex in each cell whose corners differ in sign, one quad around each grid edge whose
+// ends differ in sign.
 #include "mesh/surface_nets.hpp"
 
 #include <algorithm>
@@ -50,9 +50,8 @@ Index3 cornerOf(Index3 cell, unsigned corner) {
     return {cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2)};
 }
 
-/// Corners inside and outside of one cell that make the surface touch itself there: a face whose diagonals
-/// differ, or a cell of which only two opposite corners differ from the rest. Returns the outside corners
-/// among them, as bits.
+/// Corners of one cell at which the surface touches itself: a face whose diagonals differ, or a cell of which
+/// only two opposite corners differ from the rest. Returns the outside corners among them, as bits.
 unsigned touchingCorners(unsigned inside) {
     constexpr std::array<unsigned, 6> lowCorner{0, 1, 0, 2, 0, 4};
     constexpr std::array<std::array<unsigned, 2>, 6> faceAxes{
@@ -73,7 +72,7 @@ unsigned touchingCorners(unsigned inside) {
 }
 
 /// Fills corners until the surface touches itself nowhere: only then is the net a manifold. Filling alone
-/// terminates, and the vertices are put back onto the function's surface later.
+/// terminates, and the vertices are moved back onto the function's surface later.
 void separate(Samples& samples) {
     const Index3 cells{samples.corners[0] - 1, samples.corners[1] - 1, samples.corners[2] - 1};
     for (bool isChanged = true; isChanged;) {
@@ -95,7 +94,7 @@ void separate(Samples& samples) {
     }
 }
 
-/// Mean of the points where the function changes sign on the cell's edges. Returns how many there are.
+/// Mean of the points where the function changes sign on the cell's edges. Returns their number.
 int meanCrossing(const Samples& samples, Index3 cell, Vector3& mean) {
     int count = 0;
     mean = Vector3::Zero();

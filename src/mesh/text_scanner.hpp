@@ -1,4 +1,4 @@
-// Lines, words and numbers of the text formats. Never looks beyond its view, never allocates.
+// Scanner of lines, words and numbers in text formats. Never reads beyond its view, never allocates.
 #pragma once
 
 #include <charconv>
@@ -9,7 +9,7 @@
 
 namespace sinew::mesh {
 
-/// Cuts text at line feeds; a carriage return before one belongs to the line end.
+/// Splits text at line feeds; a carriage return before one belongs to the line end.
 class LineScanner {
 public:
     explicit LineScanner(std::string_view text) : rest_(text) {}
@@ -47,8 +47,8 @@ inline std::string_view takeWord(std::string_view& line) {
     return word;
 }
 
-/// The whole word as a number; "nan", "inf" and a leading + count as such, a number too large for double is
-/// infinite.
+/// Converts the whole word to a number; accepts "nan", "inf" and a leading +; a number too large for double
+/// is infinite.
 inline std::optional<double> toNumber(std::string_view word) {
     if (!word.empty() && word.front() == '+') word.remove_prefix(1);
     double value = 0;

@@ -1,5 +1,5 @@
-// Mesh -> cells -> lattice, and every skin vertex into the cell that holds it. The hull is conservative, so
-// that cell exists; rounding at cell borders is caught by taking the neighbour.
+// Steps: mesh to cells to lattice, and every skin vertex into the cell that contains it. The hull is
+// conservative, so that cell exists; rounding at cell borders is handled by taking a neighbour.
 #include "mesh/to_scene.hpp"
 
 #include "mesh/components.hpp"
@@ -21,7 +21,8 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-/// A body whose mesh encloses less of the surface around it than that weighs as much as the surface.
+/// A body gets the mass of the surface around it if its mesh encloses less than this share of that surface's
+/// volume.
 constexpr double leastShare = 0.01;
 
 bool isFilled(const VoxelGrid& grid, const Cell& cell) {
@@ -30,7 +31,7 @@ bool isFilled(const VoxelGrid& grid, const Cell& cell) {
     return grid.voxels[cell[0] + grid.cells[0] * (cell[1] + grid.cells[1] * cell[2])] != Voxel::empty;
 }
 
-/// The filled cell nearest to a point in cell units, among the one that holds it and its 26 neighbours.
+/// The filled cell nearest to a point in cell units, among the cell that contains it and its 26 neighbours.
 Cell findCell(const VoxelGrid& grid, const Vector3& point) {
     const Cell home{std::llround(std::floor(point.x())), std::llround(std::floor(point.y())),
                     std::llround(std::floor(point.z()))};
@@ -54,7 +55,7 @@ Cell findCell(const VoxelGrid& grid, const Vector3& point) {
     return best;
 }
 
-/// `point` in cell units.
+/// Embedding of `point`, in cell units.
 sim::CellEmbedding embed(const VoxelGrid& grid, const sim::LatticeCorners& corners, const Vector3& point) {
     const Cell cell = findCell(grid, point);
     sim::CellEmbedding embedding;
@@ -68,9 +69,10 @@ sim::CellEmbedding embed(const VoxelGrid& grid, const sim::LatticeCorners& corne
     return embedding;
 }
 
-/// A collider touches the skin, not the particles: those outside the surface may come closer to it, those
-/// inside keep their depth, up to one cell. Without the second the lowest layer alone carries a body and is
-/// squashed flat. Corners are the samples of a grid of one more cell each way, moved by half a cell.
+/// Sets contact offsets so that a collider touches the skin, not the particles: particles outside of the
+/// surface may come closer to it, those inside keep their depth, up to one cell. Without the second rule the
+/// lowest layer alone would carry a body and be squashed flat. Corners are samples of a grid that is one cell
+/// larger, shifted by half a cell.
 void setContactOffsets(sim::Scene& scene, const sim::LatticeCorners& corners, const VoxelGrid& grid,
                        const TriangleMesh& mesh) {
     std::vector<Vector3> positions = toCellUnits(mesh, grid);
@@ -103,16 +105,16 @@ sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double vol
                          .isCuttable = body.isCuttable,
                          .tearStrain = body.tearStrain,
                          .tearsPerStep = body.tearsPerStep};
-    // A hull cell may hold the surface and none of the 64 samples: it exists all the same, the skin hangs on
-    // it.
+    // A hull cell may contain the surface and none of the 64 samples: it exists all the same, because the
+    // skin is bound to it.
     for (std::size_t i = 0; i < grid.voxels.size(); ++i)
         if (grid.voxels[i] == Voxel::hull) lattice.fill[i] = std::max(lattice.fill[i], 1.0f / 64);
     lattice.restVolume = static_cast<float>(volume);
     return lattice;
 }
 
-/// Volume of the components that lie inside of another one and face outward, as that one does [m^3]: a place
-/// that both enclose is there once.
+/// Volume of the components that lie inside of another one and face outward like it [m^3]: a region enclosed
+/// by both counts once.
 double volumeWithin(const TriangleMesh& mesh, const VoxelGrid& grid) {
     const std::vector<Component> parts = components(mesh);
     if (parts.size() < 2) return 0;
@@ -128,8 +130,8 @@ double volumeWithin(const TriangleMesh& mesh, const VoxelGrid& grid) {
     return volume;
 }
 
-/// Volume of a closed mesh [m^3]. Samples of a cell are off by an eighth of a cell at most beside a surface:
-/// where the mesh is farther off, parts of it overlap or cancel each other, and what is filled counts.
+/// Volume of a closed mesh [m^3]. The sampled volume is off by an eighth of a cell beside a surface at most:
+/// if the mesh differs by more, parts of it overlap or cancel each other, and the filled volume counts.
 double volumeOf(const TriangleMesh& mesh, const VoxelGrid& grid) {
     const MeshReport report = measure(mesh);
     const double volume = report.volume - volumeWithin(mesh, grid);
@@ -137,12 +139,12 @@ double volumeOf(const TriangleMesh& mesh, const VoxelGrid& grid) {
     return isOff ? grid.filledVolume : volume;
 }
 
-/// Every vertex into its cell; a vertex of a skin that is clipped also gets the particle that it goes with.
+/// Binds every vertex to its cell; a vertex of a clipped skin also gets its anchor.
 void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid,
           const sim::LatticeCorners& corners, bool isClipped) {
     if (isClipped) {
         skin.wholeTriangles = skin.triangles;
-        const std::size_t whole = positions.size(); // the first of those after
+        const std::size_t whole = positions.size(); // index of the first vertex added by the split
         SplitSkin split = splitSkin(std::move(positions), std::move(skin.triangles));
         positions = std::move(split.positions);
         skin.triangles = std::move(split.triangles);
@@ -152,7 +154,7 @@ void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid
                                               static_cast<std::uint32_t>(node[1]),
                                               static_cast<std::uint32_t>(node[2])));
         if (std::ranges::count(skin.anchors, sim::LatticeCorners::noParticle) > 0) {
-            positions.resize(whole); // it is never clipped: as it came
+            positions.resize(whole); // the skin is not clipped: restored
             skin.triangles = std::exchange(skin.wholeTriangles, {});
             skin.wholeOf.clear();
             skin.anchors.clear();
@@ -167,7 +169,7 @@ struct Filled {
     TriangleMesh mesh;
     bool isClosed = false;
     VoxelGrid grid;
-    double volume = 0; ///< by which the body weighs [m^3]; 0 = that of its voxels
+    double volume = 0; ///< volume that determines the mass of the body [m^3]; 0 = that of its voxels
 };
 
 Filled fillVoxels(const TriangleMesh& mesh, const MeshBody& body) {
@@ -191,7 +193,7 @@ void addSkin(sim::Scene& scene, const Filled& filled, const sim::LatticeCorners&
          body.isCuttable && filled.isClosed);
 }
 
-/// Whether the mesh, as the skin of these voxels, shows the inside along cuts.
+/// True if the mesh, as the skin of these voxels, can show the inside along cuts.
 bool showsInside(const Filled& filled, const MeshBody& body) {
     if (!filled.isClosed) return false;
     sim::Scene alone;
@@ -199,22 +201,22 @@ bool showsInside(const Filled& filled, const MeshBody& body) {
     return sim::showsInside(alone, 0, 0);
 }
 
-/// Whether a wrapped surface holds what the voxels of its mesh do; parts thinner than a cell are thicker in
-/// it.
+/// True if a wrapped surface encloses about the same volume as the voxels of its mesh; parts thinner than a
+/// cell are thicker in it.
 bool encloses(const TriangleMesh& surface, const VoxelGrid& grid) {
     const MeshReport report = measure(surface);
     const double more = report.volume - grid.filledVolume, layer = report.area * double{grid.spacing};
     return more > -layer / 4 && more < layer / 2;
 }
 
-/// The surface around the mesh, with its voxels; none where that shows no inside either.
+/// The wrapped surface of the mesh, with its voxels; none if it cannot show the inside either.
 std::optional<Filled> wrapVoxels(const Filled& given, const MeshBody& body) {
     const TriangleMesh surface = wrap(given.mesh, given.grid);
     if (!encloses(surface, given.grid)) return std::nullopt;
     Filled wrapped = fillVoxels(surface, body);
     if (!showsInside(wrapped, body)) return std::nullopt;
     if (given.volume > leastShare * wrapped.volume) wrapped.volume = given.volume;
-    wrapped.grid.doubtful = given.grid.doubtful; // nothing is doubtful about the surface
+    wrapped.grid.doubtful = given.grid.doubtful; // the wrapped surface itself has no doubtful cells
     return wrapped;
 }
 

@@ -1,4 +1,4 @@
-// A triangle mesh becomes a lattice body that carries it as its skin.
+// Converts a triangle mesh to a lattice body with the mesh as its skin.
 #pragma once
 
 #include "mesh/voxelise.hpp"
@@ -8,7 +8,7 @@ namespace sinew::mesh {
 struct MeshBody {
     std::string name = "mesh";
     VoxelRequest voxels;
-    std::size_t mostParticles = 0; ///< more than 0: the finest voxels with no more, whatever `voxels` says
+    std::size_t mostParticles = 0; ///< more than 0: voxels as fine as this limit allows, not as `voxels`
     float youngModulus = 2e4f;     ///< [Pa]
     float poissonRatio = 0.25f;    ///< 0.25 to 0.49
     float recovery = 0;            ///< sim::Lattice::recovery
@@ -22,12 +22,12 @@ struct MeshBody {
     Vec3 color{0.78f, 0.36f, 0.32f};
 };
 
-/// The surface that a body shows. Only a closed one that the voxels can carry has an inside to show along
-/// cuts, so a cuttable body takes the first of these that does.
+/// The surface that a body shows. Only a closed surface that can be bound to the voxels can show the inside
+/// along cuts, so a body that may be cut uses the first of these that can.
 enum class Shown {
-    mesh,    ///< the mesh as it came
-    wrapped, ///< wrap(): the mesh is open, passes through itself or is too thin in places
-    voxels,  ///< the outer faces of its voxels: it encloses nothing, or is too thin everywhere
+    mesh,    ///< the mesh unchanged
+    wrapped, ///< wrap(): the mesh is open, intersects itself or is too thin in places
+    voxels,  ///< the outer faces of its voxels: the mesh encloses nothing, or is too thin everywhere
 };
 
 struct AddedMesh {
@@ -35,11 +35,11 @@ struct AddedMesh {
     Shown shown = Shown::mesh;
 };
 
-/// Appends particles on the corners of the filled cells, links, a body (restVolume = the mesh's volume if
-/// closed and no parts of it overlap, else the filled volume) and the skin: every vertex in the cell that
-/// holds it. Corners outside the surface get a negative contact offset (minus their distance to it), so that
-/// the skin, not the hull of cells, rests on a plane. Returns what reports tell. Throws std::invalid_argument
-/// where the mesh is empty.
+/// Appends particles on the corners of the filled cells, links, a body (restVolume = the mesh's volume if it
+/// is closed and no parts of it overlap, else the filled volume) and the skin, with every vertex in the cell
+/// that contains it. Corners outside the surface get a negative contact offset (minus their distance to it),
+/// so that the skin, not the hull of cells, rests on a plane. Returns the voxels and the kind of skin, for
+/// reports. Throws std::invalid_argument if the mesh is empty.
 AddedMesh addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& body);
 
 } // namespace sinew::mesh

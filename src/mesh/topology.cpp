@@ -1,10 +1,10 @@
-// Sides of triangles by their lower vertex: a counting sort, then a small sort for each vertex.
+// Sorts the sides of triangles by their lower vertex: a counting sort, then a small sort for each vertex.
 #include "mesh/topology.hpp"
 
 namespace sinew::mesh {
 namespace {
 
-/// For each vertex the place of its first side among all, and one more entry for the end.
+/// Index of each vertex's first side among all sides, and one more entry for the end.
 std::vector<std::uint32_t> firstSides(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     std::uint32_t last = 0;
     for (const auto& triangle : triangles) last = std::max(last, *std::ranges::max_element(triangle));
@@ -18,7 +18,7 @@ std::vector<std::uint32_t> firstSides(const std::vector<std::array<std::uint32_t
 } // namespace
 
 std::vector<HalfEdge> sortedSides(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    std::vector<std::uint32_t> ends = firstSides(triangles); // grow until they are those of the next vertex
+    std::vector<std::uint32_t> ends = firstSides(triangles); // start as the first sides, grow to the ends
     std::vector<HalfEdge> sides(3 * triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i)
         for (std::size_t corner = 0; corner < 3; ++corner) {

@@ -1,4 +1,4 @@
-// Inside sinew_mesh: walks the edges of a triangle mesh with all triangles that meet there.
+// Internal to sinew_mesh: visits the edges of a triangle mesh with all triangles that meet there.
 #pragma once
 
 #include "mesh/triangle_mesh.hpp"
@@ -11,7 +11,7 @@
 
 namespace sinew::mesh {
 
-/// One side of one triangle: the edge low-high, run forward (low to high) or backward.
+/// One side of one triangle: the edge low-high, traversed forward (low to high) or backward.
 struct HalfEdge {
     std::uint32_t low = 0, high = 0, triangle = 0;
     bool isForward = true;
@@ -36,8 +36,8 @@ void forEachEdge(const std::vector<std::array<std::uint32_t, 3>>& triangles, con
     forEachEdge(sortedSides(triangles), visit);
 }
 
-/// Turns triangles so that neighbours run the same way round, each connected part the way most of its area
-/// already did. Returns how many were turned. Expects a welded mesh.
+/// Reverses triangles so that neighbours have the same orientation; each connected part gets that of most of
+/// its area. Returns the number of reversed triangles. Expects a welded mesh.
 std::size_t orientNeighbours(TriangleMesh& mesh);
 
 } // namespace sinew::mesh

@@ -1,5 +1,5 @@
-// Welding, topology and measures of triangle meshes. Everything is sorted, nothing hashed in order: same
-// bytes each run.
+// Welding, topology and measures of triangle meshes. Results come from sorting, not from the order of a hash
+// table: the same bytes on each run.
 #include "mesh/triangle_mesh.hpp"
 
 #include "mesh/topology.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Bit patterns of a position, and the vertex; -0 counts as 0.
+/// Bit patterns of a position, and its vertex; -0 counts as 0.
 struct Place {
     std::array<std::uint32_t, 3> bits;
     std::uint32_t vertex = 0;
@@ -39,8 +39,9 @@ std::vector<std::uint32_t> findTwins(const std::vector<Vec3>& positions) {
     return twins;
 }
 
-/// Differences of floats and their products are exact in double wherever exponents are near each other, so a
-/// triangle is degenerate only if its corners really lie on a line; slivers stay.
+/// True for a triangle without area. Differences of floats and their products are exact in double if
+/// exponents are near each other, so a triangle is degenerate only if its corners really lie on a line;
+/// slivers stay.
 bool isDegenerate(const TriangleMesh& mesh, const Triangle& triangle) {
     const auto [a, b, c] = triangle;
     if (a == b || b == c || c == a) return true;
@@ -48,8 +49,8 @@ bool isDegenerate(const TriangleMesh& mesh, const Triangle& triangle) {
     return (toVector(mesh.positions[b]) - origin).cross(toVector(mesh.positions[c]) - origin).isZero(0);
 }
 
-/// Marks each triangle at an edge that repeats an earlier one there: the same way along the edge to the same
-/// third corner.
+/// Marks each triangle at an edge that repeats an earlier one there: the same direction along the edge and
+/// the same third corner.
 void findDuplicates(const std::vector<Triangle>& triangles, std::span<const HalfEdge> sides,
                     std::vector<bool>& isDuplicate) {
     const auto thirdOf = [&](const HalfEdge& side) {
@@ -65,7 +66,7 @@ void findDuplicates(const std::vector<Triangle>& triangles, std::span<const Half
             isDuplicate[std::get<2>(order[i])] = true;
 }
 
-/// True for each triangle that repeats an earlier one; counts the edges as they are with such triangles.
+/// Marks each triangle that repeats an earlier one; counts the edges of the mesh including such triangles.
 std::vector<bool> checkEdges(const std::vector<Triangle>& triangles, MeshDefects& defects) {
     std::vector<bool> isDuplicate(triangles.size());
     forEachEdge(triangles, [&](std::span<const HalfEdge> sides) {
@@ -91,7 +92,7 @@ void keepTriangles(TriangleMesh& mesh, const std::vector<bool>& isKept) {
     if (!mesh.parts.empty()) mesh.parts.resize(kept);
 }
 
-/// Drops vertices no triangle uses.
+/// Removes vertices that no triangle uses.
 TriangleMesh compacted(const TriangleMesh& mesh) {
     constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> number(mesh.positions.size(), unused);
@@ -159,7 +160,7 @@ MeshReport measure(const TriangleMesh& mesh) {
     }
     report.low = toVec3(low);
     report.high = toVec3(high);
-    const Vector3 middle = (low + high) / 2; // keeps the sum below accurate far from the origin
+    const Vector3 middle = (low + high) / 2; // keeps the sums below accurate far from the origin
     for (const auto& [a, b, c] : mesh.triangles) {
         const Vector3 x = toVector(mesh.positions[a]) - middle, y = toVector(mesh.positions[b]) - middle,
                       z = toVector(mesh.positions[c]) - middle;

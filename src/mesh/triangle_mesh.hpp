@@ -1,4 +1,4 @@
-// Plain triangle mesh and what is said about one.
+// A plain triangle mesh, its defects and its measures.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -13,12 +13,11 @@ struct TriangleMesh {
     std::string name;
     std::vector<Vec3> positions;                         ///< [m]
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
-    /// For each triangle the index of its object in `objectNames`, or noObject; empty where no object has a
-    /// name.
+    /// Index of each triangle's object in `objectNames`, or noObject; empty if no object has a name.
     std::vector<std::uint32_t> objects = {};
-    std::vector<std::string> objectNames = {}; ///< as the file gives them, no two equal
-    /// For each triangle the number of the component that held it before some were chosen, from 1; empty
-    /// where none were.
+    std::vector<std::string> objectNames = {}; ///< as in the file, no two equal
+    /// Number of the component that contained each triangle before a selection, from 1; empty without a
+    /// selection.
     std::vector<std::uint32_t> parts = {};
 };
 
@@ -26,7 +25,7 @@ struct TriangleMesh {
 struct MeshDefects {
     std::size_t boundaryEdges = 0;       ///< edges with one triangle: the mesh is open
     std::size_t nonManifoldEdges = 0;    ///< edges with three or more
-    std::size_t flippedEdges = 0;        ///< edges whose two triangles run the same way
+    std::size_t flippedEdges = 0;        ///< edges whose two triangles have opposite orientations
     std::size_t degenerateTriangles = 0; ///< dropped: zero area or a repeated vertex
     std::size_t duplicateTriangles = 0;  ///< dropped
     bool isClosed() const { return boundaryEdges == 0 && nonManifoldEdges == 0; }
@@ -42,20 +41,20 @@ struct MeshReport {
 /// The report of inspect() without the defects. Expects a welded mesh.
 MeshReport measure(const TriangleMesh& mesh);
 
-/// Topology as after weld(); `mesh` itself may hold duplicate vertices.
+/// Topology as after weld(); `mesh` itself may contain duplicate vertices.
 MeshReport inspect(const TriangleMesh& mesh);
 
-/// Joins vertices with identical positions, drops degenerate triangles, duplicates (the same corners the same
-/// way round) and vertices that no triangle uses. Sets `defects` to what was found. Keeps the order of what
-/// stays, so that a second weld changes nothing. Appends to `dropped`, if not null, the position of a corner
-/// of each triangle that it drops.
+/// Joins vertices with identical positions, and drops degenerate triangles, duplicates (the same corners in
+/// the same orientation) and vertices that no triangle uses. Sets `defects` to what was found. Keeps the
+/// order of the rest, so that a second weld changes nothing. Appends to `dropped`, if not null, the position
+/// of a corner of each dropped triangle.
 TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects, std::vector<Vec3>* dropped = nullptr);
 
 /// The triangles marked true, their objects, and the vertices that they use, all in the order of `mesh`.
 TriangleMesh keep(const TriangleMesh& mesh, const std::vector<bool>& isKept);
 
-/// Turns triangles so that neighbours run the same way round: each connected part the way most of its area
-/// already did, then all of them together so that the volume is not negative. Expects a welded mesh.
+/// Reverses triangles so that neighbours have the same orientation: each connected part gets that of most of
+/// its area, then all are reversed if needed so that the volume is not negative. Expects a welded mesh.
 TriangleMesh orient(TriangleMesh mesh);
 
 } // namespace sinew::mesh

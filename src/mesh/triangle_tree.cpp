@@ -1,6 +1,6 @@
-// Built by median splits along the longest side of the triangles' centres. Solid angles: van Oosterom and
-// Strackee (1983). Nearest point: by Voronoi regions of the triangle, after Ericson, Real-Time Collision
-// Detection, 5.1.5.
+// The tree is built by median splits along the longest side of the box of the triangles' centres. Solid
+// angles: van Oosterom and Strackee (1983). Nearest point: by Voronoi regions of the triangle, after Ericson,
+// Real-Time Collision Detection, 5.1.5.
 #include "mesh/triangle_tree.hpp"
 
 #include <algorithm>
@@ -12,12 +12,12 @@ namespace sinew::mesh {
 namespace {
 
 constexpr std::uint32_t leafSize = 8;
-/// Radii from where on a cluster counts as a dipole: its own share is then wrong by less than
+/// Distance in radii beyond which a cluster counts as a dipole: the error of its contribution is then below
 /// (1/farFactor)^2.
 constexpr double farFactor = 2;
 constexpr int deepestStack = 64; ///< median splits of 2^32 triangles are at most 32 deep
 
-/// How far along a ray a box begins: 0 from inside, infinite where it is not met.
+/// Distance along a ray to a box: 0 from inside, infinite if the ray misses it.
 double distanceToBox(const Eigen::AlignedBox3d& box, const Vector3& origin, const Vector3& direction) {
     double begin = 0, end = std::numeric_limits<double>::infinity();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -34,7 +34,7 @@ double distanceToBox(const Eigen::AlignedBox3d& box, const Vector3& origin, cons
     return begin <= end ? begin : std::numeric_limits<double>::infinity();
 }
 
-/// How far along a ray a triangle is, after Moeller and Trumbore (1997); infinite where it is not met.
+/// Distance along a ray to a triangle, after Moeller and Trumbore (1997); infinite if the ray misses it.
 double distanceAlong(const Vector3& origin, const Vector3& direction, const Vector3& a, const Vector3& b,
                      const Vector3& c) {
     constexpr double none = std::numeric_limits<double>::infinity();
@@ -55,7 +55,7 @@ double windingOfTriangle(const Vector3& a, const Vector3& b, const Vector3& c, c
     const double numerator = x.dot(y.cross(z));
     const double denominator =
         lengthX * lengthY * lengthZ + x.dot(y) * lengthZ + y.dot(z) * lengthX + z.dot(x) * lengthY;
-    if (numerator == 0) return 0; // in the plane: no solid angle, or half a turn that belongs to neither side
+    if (numerator == 0) return 0; // in the plane: no solid angle, or a half turn that belongs to neither side
     return std::atan2(numerator, denominator) / (2 * std::numbers::pi);
 }
 

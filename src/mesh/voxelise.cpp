@@ -1,5 +1,5 @@
-// Hull, then core, then fill. All geometry in double and in cell units; each stage is a loop over cells that
-// asks CellOverlap (hull) or Inside (core, fill).
+// Stages: hull, then core, then fill. All geometry is in double and in cell units; each stage is a loop over
+// cells that queries CellOverlap (hull) or Inside (core, fill).
 #include "mesh/voxelise.hpp"
 
 #include "mesh/hull.hpp"
@@ -50,7 +50,7 @@ Inside::Answer fillCell(VoxelGrid& grid, std::size_t index, const std::array<std
 }
 
 void markCoreAndFill(VoxelGrid& grid, const Inside& centers, const Inside& samples) {
-    double cells = 0; // filled, as a sum of shares
+    double cells = 0; // filled cells, as a sum of shares
     for (std::uint32_t k = 0; k < grid.cells[2]; ++k)
         for (std::uint32_t j = 0; j < grid.cells[1]; ++j)
             for (std::uint32_t i = 0; i < grid.cells[0]; ++i) {

@@ -1,4 +1,4 @@
-// Rays from points spread evenly over the surface.
+// Casts rays inward from points spread evenly over the surface.
 #include "mesh/walls.hpp"
 
 #include "mesh/triangle_tree.hpp"
@@ -15,7 +15,7 @@ constexpr double parallel = 0.7; ///< cosine
 
 struct Corners {
     Vector3 a, b, c;
-    Vector3 normal() const { return (b - a).cross(c - a); } ///< of twice the area's length
+    Vector3 normal() const { return (b - a).cross(c - a); } ///< its length is twice the area
 };
 
 Corners cornersOf(const TriangleMesh& mesh, std::size_t triangle) {
@@ -36,7 +36,8 @@ double fraction(double value) {
     return value - std::floor(value);
 }
 
-/// Distance through the body from a point of a triangle to the opposite side; infinite where that is a slope.
+/// Distance through the body from a point of a triangle to the opposite side; infinite if that side is not
+/// parallel.
 double through(const TriangleMesh& mesh, const TriangleTree& tree, std::uint32_t triangle,
                const Vector3& point) {
     const Vector3 inward = -cornersOf(mesh, triangle).normal().normalized();
@@ -62,7 +63,7 @@ double wallThickness(const TriangleMesh& given, double share) {
         passed += corners.normal().norm();
         for (; static_cast<double>(found.size()) + 0.5 < samples * passed / area;) {
             const auto number = static_cast<double>(found.size());
-            // fractions of multiples of these two fill a square evenly
+            // fractions of multiples of these two numbers fill a square evenly
             const Vector3 point =
                 pointOf(corners, fraction(number * 0.7548776662), fraction(number * 0.5698402910));
             found.push_back(through(mesh, tree, i, point));

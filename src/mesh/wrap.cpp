@@ -1,5 +1,5 @@
-// The surface is a net around samples that lie inside (mesh/surface_nets), placed by their distances from the
-// mesh. All lengths are in cells of the grid.
+// The wrapped surface is a net around samples that lie inside (mesh/surface_nets), placed by their distances
+// from the mesh. All lengths are in cells of the grid.
 #include "mesh/wrap.hpp"
 
 #include "mesh/components.hpp"
@@ -16,15 +16,15 @@ namespace {
 using Index3 = std::array<std::uint32_t, 3>;
 
 constexpr std::uint32_t perCell = 2;    ///< samples along an edge of a cell
-constexpr double apart = 1.0 / perCell; ///< from a sample to the next
+constexpr double apart = 1.0 / perCell; ///< distance between neighbouring samples
 constexpr std::uint32_t rim = 2;        ///< layers of samples around the grid
-constexpr double farAway = 2;           ///< stands for the distance of samples that no surface is near to
-/// Components whose inside is nowhere that deep could fall between samples: they are thickened until it is.
+constexpr double farAway = 2;           ///< replaces the distance of samples without a near surface
+/// Components that are nowhere this deep could fall between samples: they are thickened until they are.
 constexpr double leastDepth = 0.45;
-/// Open components of less area are too narrow to have a depth of their own: triangles of a file in which no
+/// Open components of less area are too narrow to be thickened by themselves: triangles of a file in which no
 /// two share corners [cells^2].
 constexpr double leastArea = 4;
-constexpr std::uint32_t nobody = ~0u, crumbs = nobody - 1; ///< numbers of components
+constexpr std::uint32_t nobody = ~0u, crumbs = nobody - 1; ///< of far samples; of narrow components
 
 /// Signed distances at the samples of a grid and of a rim around it, negative inside.
 class Field {
@@ -66,7 +66,7 @@ public:
         return {placeOf({0, 0, 0}), placeOf({count_[0] - 1, count_[1] - 1, count_[2] - 1})};
     }
 
-    /// Between samples by their shares; constant beyond the last ones.
+    /// Trilinear interpolation between samples; constant beyond the last ones.
     double operator()(const Vector3& x) const {
         Index3 low{};
         Vector3 share;
@@ -115,7 +115,8 @@ private:
                 for (std::uint32_t i = low(0); i <= high(0); ++i) visit(index({i, j, k}));
     }
 
-    /// Distances of samples near the mesh, and where inside and outside meet in a hole of it.
+    /// Computes distances of samples near the mesh, and of those where inside and outside meet in a hole of
+    /// it.
     void measure(const std::vector<bool>& isNear) {
         std::vector<bool> isBeside(values_.size());
         forEach([&](const Index3& at) {
@@ -134,8 +135,8 @@ private:
         });
     }
 
-    /// A sample belongs to the component that is nearest to it: a thick one is no reason to leave a thin one
-    /// beside it as thin as it is. Those that are too narrow belong to whatever is around them.
+    /// Thickens thin components. A sample belongs to the component nearest to it, so that a thick component
+    /// beside a thin one does not keep it thin. Narrow open components belong to whatever is around them.
     void thicken() {
         const std::vector<double> given = values_;
         forEach([&](const Index3& at) {
@@ -152,14 +153,14 @@ private:
         });
     }
 
-    /// In a hole the surface is far: there the winding number, which falls from 1 to 0 across it, says how
-    /// far its middle is.
+    /// Distance for the field. In a hole the surface is far: there the winding number, which falls from 1 to
+    /// 0 across the hole, gives the distance from its middle.
     double distance(const Vector3& x, double fromMesh) const {
         if (fromMesh < apart) return fromMesh;
         return std::min(fromMesh, farAway * std::abs(0.5 - std::abs(tree_.windingNumber(x))));
     }
 
-    /// [cells^2]
+    /// Area of a component [cells^2].
     double areaOf(const TriangleMesh& mesh, const Component& component) const {
         double area = 0;
         for (const std::uint32_t triangle : component.triangles) {
@@ -171,8 +172,8 @@ private:
 
     std::vector<Vector3> positions_;
     TriangleTree tree_;
-    std::vector<std::uint32_t> componentOf_; ///< of each triangle
-    std::vector<std::uint32_t> nearest_;     ///< while it is made: of each sample near the mesh
+    std::vector<std::uint32_t> componentOf_; ///< by triangle
+    std::vector<std::uint32_t> nearest_;     ///< temporary: component nearest to each sample near the mesh
     Index3 count_{};
     std::vector<double> values_;
 };

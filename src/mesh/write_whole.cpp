@@ -1,6 +1,6 @@
-// A file is the old one or the new one, never half of it: temporary file in the same folder, flush, fsync,
-// rename, fsync of the folder. Devices and pipes (/dev/stdout) cannot be renamed over and are written
-// directly.
+// Atomic file writes, so that a file is the old or the new one, never half of it: temporary file in the same
+// folder, flush, fsync, rename, fsync of the folder. Devices and pipes (/dev/stdout) cannot be replaced by a
+// rename and are written directly.
 #include "mesh/export.hpp"
 #include "mesh/file_stream.hpp"
 
@@ -38,14 +38,14 @@ public:
         if (value_ >= 0) close(value_);
     }
     int get() const { return value_; }
-    /// Some file systems report a full disk only now.
+    /// Closes with a result: some file systems report a full disk only here.
     int closeNow() { return close(std::exchange(value_, -1)); }
 
 private:
     int value_;
 };
 
-/// A file that is removed again unless it was renamed to its final name.
+/// A temporary file that is removed unless it was renamed to its final name.
 class Temporary {
 public:
     explicit Temporary(const fs::path& file) : descriptor_(create(file)) {}
@@ -63,7 +63,7 @@ public:
 private:
     Descriptor create(const fs::path& file) {
         for (int attempt = 0;; ++attempt) {
-            const std::string name = file.filename().string().substr(0, 200); // names end at 255 bytes
+            const std::string name = file.filename().string().substr(0, 200); // names have at most 255 bytes
             const std::string number = std::to_string(getpid()) + "-" + std::to_string(attempt);
             path_ = file.parent_path() / std::string(1, '.').append(name).append("." + number + ".tmp");
             const int descriptor = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -90,7 +90,7 @@ void writeTo(Descriptor& descriptor, const fs::path& file, const std::function<v
 void syncFolder(const fs::path& file) {
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     const Descriptor descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    // A folder one may write to but not read cannot be synced; the file itself is safe already.
+    // A folder that may be written but not read cannot be synced; the file itself is safe already.
     if (descriptor.get() >= 0 && fsync(descriptor.get()) != 0 && errno != EINVAL) fail(file, errno);
 }
 

@@ -1,5 +1,5 @@
-// Work for the device in a few submissions, each a list of passes with planned barriers, where what comes
-// next depends on counts that the device has made: the set-up counterpart of a step program.
+// A device job in a few submissions, each a list of passes with planned barriers, whose later parts depend on
+// counts computed on the device: the set-up counterpart of a step program.
 #pragma once
 
 #include "sim/program.hpp"
@@ -9,7 +9,7 @@
 
 namespace sinew::mesh::gpu {
 
-/// Pipelines made on first use and kept.
+/// Pipelines, made on first use and kept.
 class Kernels {
 public:
     Kernels(const vk::Device& device, bool isReversed)
@@ -22,7 +22,7 @@ private:
     std::map<const vk::ShaderCode*, vk::Kernel> kernels_;
 };
 
-/// Owns its buffers. Everything it is given must outlive it. All calls may throw vk::Error.
+/// Owns its buffers. The constructor's arguments must outlive it. All calls may throw vk::Error.
 class Job {
 public:
     using BufferId = sim::BufferId;
@@ -40,8 +40,8 @@ public:
     }
 
     void fill(BufferId buffer, std::uint32_t value);
-    /// One invocation an item. `Push` has `first` and `count`, which are set here: more items than the device
-    /// takes groups for are dispatched piece by piece. Nothing is recorded for no items.
+    /// Dispatches one invocation an item. Sets `first` and `count` of `Push`: items beyond the device's
+    /// largest group count are dispatched in several parts. Records nothing for no items.
     template <typename Push>
     void dispatch(const vk::ShaderCode& code, std::uint64_t items, std::initializer_list<BufferId> buffers,
                   Push push) {
@@ -53,11 +53,11 @@ public:
     }
     /// Submits what was recorded since the last call and waits for it.
     void run();
-    /// After run().
+    /// Contents of a buffer; valid after run().
     template <typename T> std::vector<T> download(BufferId buffer) {
         return queue_.download<T>(view(buffer));
     }
-    std::uint64_t bytes() const; ///< of all buffers
+    std::uint64_t bytes() const; ///< total size of all buffers
 
 private:
     BufferId add(const std::string& label, std::uint64_t count, std::uint32_t stride);

@@ -1,6 +1,6 @@
-// What is read back between submissions: how many cells are hull and how long their lists are; how many
-// samples are doubtful; then the answer. Memory: 12 bytes and 2 bits a cell, 88 bytes a hull cell, 68 a
-// column of cells along each axis, 20 a triangle and 4 for each cell that it touches, 16 a vertex.
+// Read back between submissions: the number of hull cells and the length of their lists; the number of
+// doubtful samples; then the result. Memory: 12 bytes and 2 bits a cell, 88 bytes a hull cell, 68 a column of
+// cells along each axis, 20 a triangle and 4 for each cell that it touches, 16 a vertex.
 #include "mesh/gpu/voxelise.hpp"
 
 #include "mesh/gpu/whole_mesh.hpp"
@@ -25,7 +25,7 @@ std::uint64_t inBlocks(std::uint64_t count, std::uint64_t block) {
     return (count + block - 1) / block;
 }
 
-/// The samples of one kind: centres of cells, or fill samples of hull cells. `lines` a column of cells.
+/// One kind of samples: centres of cells, or fill samples of hull cells. `lines` per column of cells.
 struct Samples {
     const vk::ShaderCode *judge, *wind;
     std::uint32_t lines;
@@ -33,7 +33,7 @@ struct Samples {
     std::uint64_t words;
 };
 
-/// One voxelisation: the buffers that more than one stage touches.
+/// One voxelisation: its stages, and the buffers that several stages use.
 class Stages {
 public:
     Stages(Job& job, const PlacedMesh& placed, const WholeMesh& whole);
@@ -52,10 +52,10 @@ private:
     const WholeMesh& whole_;
     std::uint64_t cellCount_;
     layout::VoxelPush push_;
-    std::array<std::uint64_t, 3> columns_; ///< of cells, by axis
+    std::array<std::uint64_t, 3> columns_; ///< number of columns of cells, by axis
     BufferId vertices_, triangles_, rowStarts_, cells_, total_, touching_, hullCells_;
     std::uint32_t hullCount_ = 0;
-    std::vector<Samples> samples_; ///< of cells, then of hull cells
+    std::vector<Samples> samples_; ///< centres of cells, then fill samples of hull cells
 };
 
 Stages::Stages(Job& job, const PlacedMesh& placed, const WholeMesh& whole)
@@ -79,8 +79,8 @@ void Stages::mark(const vk::ShaderCode& code, std::initializer_list<BufferId> bu
     }
 }
 
-/// Blocks first, then the blocks' sums in the same way, then what stands before each block is added to its
-/// cells.
+/// Prefix sum: scans blocks, then the sums of blocks in the same way, then adds the sum before each block to
+/// its cells.
 void Stages::scan(BufferId cells, std::uint64_t count) {
     const std::uint64_t blockCount = inBlocks(count, VOXEL_SCAN_BLOCK);
     const BufferId blocks = job_.scratch<layout::VoxelCell>("blocks", blockCount);
@@ -192,7 +192,7 @@ void Stages::read(VoxelGrid& grid) {
     const Words fill = job_.download<std::uint32_t>(samples_[1].inside);
     const Words doubtful = job_.download<std::uint32_t>(samples_[1].doubtful);
     grid.hullCount = hullCount_;
-    double cells = 0; // filled, as a sum of shares
+    double cells = 0; // filled cells, as a sum of shares
     for (std::size_t i = 0; i < hullCount_; ++i) {
         grid.voxels[hullCells[i]] = Voxel::hull;
         const float share =

@@ -1,9 +1,8 @@
 // Voxelisation on a Vulkan device, in three submissions with counts read back in between:
-//   mark_hull, scan_cells, add_blocks           which cells triangles touch, and how many
+//   mark_hull, scan_cells, add_blocks           the cells that triangles touch, and their number
 //   mark_hull (lists), list_hull, vote_lines    three axes of lines through centres and fill samples
 //   judge_votes                                 -> core bits, fill bits, doubtful samples
-//   list_doubtful, wind_samples                 only where the votes disagreed: the generalised winding
-//   number
+//   list_doubtful, wind_samples                 the generalised winding number, only for doubtful samples
 #pragma once
 
 #include "mesh/gpu/job.hpp"
@@ -11,17 +10,18 @@
 
 namespace sinew::mesh::gpu {
 
-/// Gives the voxels of mesh::voxelise. Votes are counted in whole numbers on vertices rounded to 2^-24 cells
+/// Gives the same voxels as mesh::voxelise. Votes are counted in integers on vertices rounded to 2^-24 cells
 /// (in a grid of 128 cells), so they are the same on every device; a doubtful sample within rounding of |w| =
 /// 1/2 may differ. Device and queue must outlive it; one thread; every call submits to the queue and waits.
 class Voxeliser {
 public:
-    /// Makes no pipeline yet: the first call does. Reversed: a test of order (kernel.glsl).
+    /// Creates no pipeline: the first call does. isReversed: a test of order (kernel.glsl).
     Voxeliser(const vk::Device& device, vk::Queue& queue, bool isReversed = false)
         : device_(device.anchored()), queue_(queue), kernels_(device, isReversed) {}
 
-    /// Throws as mesh::voxelise, and vk::Error: outOfMemory where a buffer exceeds what the device binds, as
-    /// with more than 32 Mi pairs of a triangle and a cell that it touches at 128 MiB a binding.
+    /// Throws as mesh::voxelise does, and vk::Error: outOfMemory if a buffer exceeds the device's binding
+    /// size, for example with more than 32 Mi pairs of a triangle and a cell that it touches at 128 MiB a
+    /// binding.
     VoxelGrid operator()(const TriangleMesh& mesh, const VoxelRequest& request);
 
 private:

@@ -8,11 +8,12 @@
 namespace sinew::mesh::gpu {
 namespace {
 
-constexpr std::uint32_t coordinateBits = 30; ///< differences of products of three then fit 96 bits
-/// Of a batch of more than one triangle; one alone has at most as many as the grid has cells.
+constexpr std::uint32_t coordinateBits = 30; ///< differences of products of three then fit in 96 bits
+/// Rows of a batch of several triangles; a single triangle has at most as many rows as the grid has cells.
 constexpr std::uint64_t mostRows = 1u << 18;
 
-/// As mark_hull.comp: rows along x of the cells, a unit larger than they are, that a triangle's box touches.
+/// Number of rows of cells along x that a triangle's box touches, with cells a unit larger, as in
+/// mark_hull.comp.
 std::uint32_t rowsOf(const WholeMesh& whole, const std::array<std::uint32_t, 3>& triangle,
                      const std::array<std::uint32_t, 3>& cells) {
     std::uint32_t rows = 1;
@@ -29,7 +30,7 @@ std::uint32_t rowsOf(const WholeMesh& whole, const std::array<std::uint32_t, 3>&
 }
 
 void countRows(WholeMesh& whole, const PlacedMesh& placed) {
-    std::uint64_t rows = mostRows; // of the open batch; the first triangle opens one
+    std::uint64_t rows = mostRows; // rows of the open batch; the first triangle opens one
     for (std::uint32_t t = 0; t < placed.mesh.triangles.size(); ++t) {
         const std::uint32_t own = rowsOf(whole, placed.mesh.triangles[t], placed.grid.cells);
         if (rows + own > mostRows) {
