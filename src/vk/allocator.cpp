@@ -1,4 +1,4 @@
-// The block allocator and the adapter for a host's hook.
+// The block allocator, and the adapter for a host's allocation hook.
 #include "vk/allocator.hpp"
 
 #include "vk/check.hpp"
@@ -27,7 +27,7 @@ struct Preference {
 
 Preference preferenceOf(MemoryKind kind) noexcept {
     switch (kind) {
-    case MemoryKind::upload: // a GPU's local and visible heap is small: left to those who need it
+    case MemoryKind::upload: // avoids a GPU's small heap that is local and visible
         return {hostCoherent, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT};
     case MemoryKind::readback:
         return {hostCoherent, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
@@ -78,7 +78,7 @@ private:
     std::list<Block> blocks_;
     std::unordered_map<std::uint64_t, Placement> placements_; ///< by token
     std::uint64_t nextToken_ = 1;
-    mutable std::mutex mutex_; // of all that changes
+    mutable std::mutex mutex_; // guards all members that change
 };
 
 BufferAllocation BlockAllocator::create(const VkBufferCreateInfo& info, MemoryKind kind, const char* name) {
@@ -110,7 +110,7 @@ void BlockAllocator::destroy(const BufferAllocation& allocation) noexcept {
 void BlockAllocator::remove(const BufferAllocation& allocation) noexcept {
     functions_.vkDestroyBuffer(device_, allocation.buffer, nullptr);
     const auto placement = placements_.find(allocation.token);
-    if (placement == placements_.end()) return; // create failed before it found a place
+    if (placement == placements_.end()) return; // create() failed before it found a place
     giveBack(placement->second);
     placements_.erase(placement);
 }
@@ -240,7 +240,7 @@ public:
 private:
     BufferHook hook_;
     std::unordered_map<VkBuffer, VkDeviceSize> sizes_; ///< [B]
-    mutable std::mutex mutex_;                         // of sizes_, and of the host's two functions
+    mutable std::mutex mutex_;                         // guards sizes_ and the host's two functions
 };
 
 } // namespace
@@ -252,7 +252,7 @@ std::vector<std::uint32_t> suitableMemoryTypes(const VkPhysicalDeviceMemoryPrope
     std::vector<std::uint32_t> types;
     for (std::uint32_t type = 0; type < properties.memoryTypeCount; ++type) {
         const bool isSuitable = (flagsOf(type) & preference.needed) == preference.needed;
-        const bool isOrdinary = (flagsOf(type) & ~ordinary) == 0; // lazy, protected, vendors' uncached: never
+        const bool isOrdinary = (flagsOf(type) & ~ordinary) == 0; // not lazy, protected or vendors' uncached
         if ((allowed >> type & 1) != 0 && isSuitable && isOrdinary) types.push_back(type);
     }
     const auto penalty = [&](std::uint32_t type) {

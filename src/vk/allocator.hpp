@@ -1,5 +1,5 @@
-// Where buffers get their memory. Two implementations: blocks of a few large VkDeviceMemory per memory type
-// with buffers side by side inside them, and a host's own two functions.
+// Memory for buffers. Two implementations: blocks, a few large VkDeviceMemory objects per memory type with
+// many buffers in each, and a host's own two functions.
 #pragma once
 
 #include "vk/device.hpp"
@@ -7,34 +7,34 @@
 namespace sinew::vk {
 
 struct AllocatorStatistics {
-    std::uint32_t blocks = 0, buffers = 0; ///< a host's hook counts no blocks
+    std::uint32_t blocks = 0, buffers = 0; ///< a host's hook has no blocks
     VkDeviceSize reserved = 0, used = 0;   ///< [B]
 };
 
-/// Hands out bound buffers. Set-up and tear-down only: no call is made while a step is recorded. Any thread:
-/// what is prepared while something else plays shares its device.
+/// Allocates and frees bound buffers. Set-up and tear-down only: never called while a step is recorded. Any
+/// thread: a simulation may be prepared while another one runs on the same device.
 class Allocator {
 public:
     virtual ~Allocator() = default;
-    /// Throws Error(outOfMemory) naming the buffer. vk::Buffer gives it `name` as its debug name as well.
+    /// Throws Error(outOfMemory) that names the buffer. vk::Buffer also sets `name` as the debug name.
     virtual BufferAllocation create(const VkBufferCreateInfo& info, MemoryKind kind, const char* name) = 0;
     virtual void destroy(const BufferAllocation& allocation) noexcept = 0;
     virtual AllocatorStatistics statistics() const noexcept = 0;
 };
 
-/// Memory types out of the bits `allowed` that serve `kind`, best first. Pure, so that tests can pretend any
-/// device.
+/// Memory types among the bits `allowed` that suit `kind`, best first. A pure function, so that tests can
+/// pass the properties of any device.
 std::vector<std::uint32_t> suitableMemoryTypes(const VkPhysicalDeviceMemoryProperties& properties,
                                                std::uint32_t allowed, MemoryKind kind);
 
-/// `functions` must outlive the allocator. Buffers larger than half a block get memory of their own; an empty
-/// block is returned at once. Refuses what its blocks would reserve beyond a heap's size, since not every
-/// driver does.
+/// Makes a block allocator. `functions` must outlive it. Buffers larger than half a block get their own
+/// memory; an empty block is freed at once. Rejects blocks that would exceed the size of a heap, since not
+/// every driver does.
 std::unique_ptr<Allocator> makeBlockAllocator(VkDevice device, const DeviceFunctions& functions,
                                               const VkPhysicalDeviceMemoryProperties& properties);
 
-/// Checks what the hook returns: a buffer, an address for the kinds that are mapped, and that the buffer lies
-/// in the memory that it names.
+/// Makes an allocator that calls the hook and checks its results: a buffer, an address for mapped kinds, and
+/// that the buffer lies within the memory that it names.
 std::unique_ptr<Allocator> makeHookAllocator(const BufferHook& hook);
 
 } // namespace sinew::vk

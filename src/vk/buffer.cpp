@@ -1,4 +1,4 @@
-// Size checks before the allocator sees a request.
+// Checks sizes before a request reaches the allocator.
 #include "vk/buffer.hpp"
 
 #include "vk/allocator.hpp"
@@ -66,7 +66,7 @@ void Buffer::release() noexcept {
     allocator_ = nullptr;
 }
 
-// The range widened to whole atoms, as Vulkan demands, but for the end of the memory.
+// The range extended to whole atoms, as Vulkan requires, except at the end of the memory.
 VkMappedMemoryRange Buffer::atomsOf(VkDeviceSize offset, VkDeviceSize size) const noexcept {
     const VkDeviceSize atom = std::max<VkDeviceSize>(device_->limits().nonCoherentAtom, 1);
     const VkDeviceSize whole = view().size, from = std::min(offset, whole);
@@ -80,8 +80,8 @@ VkMappedMemoryRange Buffer::atomsOf(VkDeviceSize offset, VkDeviceSize size) cons
             .size = last - first};
 }
 
-// A range that Vulkan has no memory for is out of memory or device for the next submission too, which says
-// so.
+// Results are ignored: a failure here means that memory or device are lost for the next submission too, which
+// reports it.
 void Buffer::flush(VkDeviceSize offset, VkDeviceSize size) const noexcept {
     if (allocation_.memory == VK_NULL_HANDLE || allocation_.mapped == nullptr) return;
     const VkMappedMemoryRange range = atomsOf(offset, size);

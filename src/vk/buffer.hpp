@@ -1,11 +1,11 @@
-// A storage buffer with an element count and a stride, both checked against what a kernel declares.
+// A storage buffer with an element count and a stride, both checked against a kernel's declaration.
 #pragma once
 
 #include "vk/device.hpp"
 
 namespace sinew::vk {
 
-/// A range of a VkBuffer as a kernel, a copy or a vertex input reads it. Does not own anything.
+/// A range of a VkBuffer for a kernel, a copy or a vertex input. Owns nothing.
 struct BufferView {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize offset = 0, size = 0; ///< [B]
@@ -20,10 +20,10 @@ struct BufferRequest {
     VkBufferUsageFlags usage = 0; ///< added to storage + transfer source + transfer destination
 };
 
-/// RAII buffer. Moves, never copies. Must not outlive its Device, which may move meanwhile.
+/// RAII buffer. Can be moved, not copied. Must not outlive its Device, which may be moved meanwhile.
 class Buffer {
 public:
-    /// Throws Error(outOfMemory) if count x stride exceeds maxStorageBufferRange, naming buffer and both
+    /// Throws Error(outOfMemory) if count x stride exceeds maxStorageBufferRange, naming the buffer and both
     /// figures; Error(misuse) if the stride is no multiple of 4.
     Buffer(const Device& device, const BufferRequest& request);
     Buffer(Buffer&& other) noexcept;
@@ -35,13 +35,13 @@ public:
     VkDeviceSize count() const noexcept { return count_; }
     std::uint32_t stride() const noexcept { return stride_; }
     const std::string& name() const noexcept { return name_; }
-    /// Host address of a mapped buffer (upload, readback), else null. Host coherent, unless a host's hook
-    /// says otherwise (BufferAllocation::memory): then flush() what was written before the submission that
-    /// reads it, and invalidate() before reading what a finished submission wrote.
+    /// Host address of a mapped buffer (upload, readback), else null. Host coherent, except for a host's hook
+    /// that provides other memory (BufferAllocation::memory): then call flush() after writing and before the
+    /// submission that reads, and invalidate() before reading results of a finished submission.
     std::byte* mapped() const noexcept { return allocation_.mapped; }
-    /// Make writes of the host visible to the device, and of the device to the host. Nothing to do, and
-    /// nothing done, for coherent memory. `size` [B] from `offset` [B]; ranges grow to whole atoms
-    /// (Limits::nonCoherentAtom), of which the other side must not write any part meanwhile.
+    /// Make writes of the host visible to the device, and of the device to the host. Do nothing for coherent
+    /// memory. `size` [B] from `offset` [B]; ranges grow to whole atoms (Limits::nonCoherentAtom), of which
+    /// the other side must not write any part meanwhile.
     void flush(VkDeviceSize offset = 0, VkDeviceSize size = VK_WHOLE_SIZE) const noexcept;
     void invalidate(VkDeviceSize offset = 0, VkDeviceSize size = VK_WHOLE_SIZE) const noexcept;
 

@@ -1,4 +1,4 @@
-// Names of VkResult values and their mapping to what a caller can do.
+// Names of VkResult values and their mapping to Failure.
 #include "vk/check.hpp"
 
 namespace sinew::vk {

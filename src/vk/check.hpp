@@ -1,5 +1,4 @@
-// Failures of the machine at set-up: one exception type that carries the call, its result and the object's
-// name.
+// Failures of the machine at set-up: one exception type with the call, its result and the object's name.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -9,12 +8,12 @@
 
 namespace sinew::vk {
 
-/// What a caller can do about a failure; the programs map it to their exit codes.
+/// Kind of a failure, by what a caller can do about it; programs map it to their exit codes.
 enum class Failure {
     noDevice,    ///< no loader, driver or device that can run Sinew (exit code 4)
     outOfMemory, ///< host or device memory, or a limit of the device (exit code 5)
     deviceLost,  ///< VK_ERROR_DEVICE_LOST (exit code 5)
-    misuse,      ///< a call that the specification forbids: a fault of ours (exit code 70)
+    misuse,      ///< a call that the specification forbids: a bug in Sinew (exit code 70)
 };
 
 class Error : public std::runtime_error {

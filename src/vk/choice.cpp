@@ -1,4 +1,4 @@
-// Real GPUs before software; an index or a part of a name overrides.
+// Device choice: GPUs before software devices; an index or a part of a name overrides.
 #include "vk/choice.hpp"
 
 #include "vk/allocator.hpp"
@@ -28,7 +28,7 @@ std::string typeName(VkPhysicalDeviceType type) {
     }
 }
 
-/// Lower is better.
+/// Preference of a device; lower is better.
 int rankOf(const DeviceDescription& description) {
     static constexpr const char* order[] = {"discrete GPU", "integrated GPU", "virtual GPU", "other",
                                             "software"};
@@ -41,7 +41,7 @@ std::vector<VkPhysicalDevice> physicalDevices(const Instance& instance) {
     constexpr const char* call = "vkEnumeratePhysicalDevices";
     VkResult result = instance.functions().vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr);
     std::vector<VkPhysicalDevice> devices(count);
-    if (result != VK_ERROR_INITIALIZATION_FAILED) { // what the loader says when every driver refuses
+    if (result != VK_ERROR_INITIALIZATION_FAILED) { // the loader returns this when every driver fails
         check(result, call, "the instance");
         result = instance.functions().vkEnumeratePhysicalDevices(instance.handle(), &count, devices.data());
         check(result, call, "the instance");
@@ -53,7 +53,7 @@ std::vector<VkPhysicalDevice> physicalDevices(const Instance& instance) {
     return devices;
 }
 
-/// A family with graphics and compute if there is one; without a window compute alone will do.
+/// A queue family with graphics and compute if there is one; without a window compute alone is enough.
 std::optional<std::uint32_t> findQueueFamily(const Instance& instance, VkPhysicalDevice physical,
                                              const DeviceRequest& request) {
     std::uint32_t count = 0;
@@ -72,7 +72,7 @@ std::optional<std::uint32_t> findQueueFamily(const Instance& instance, VkPhysica
     return computeOnly;
 }
 
-// Programs map buffers and neither flush nor invalidate them (Device::create).
+// Required because programs map buffers without flush or invalidate (Device::create).
 bool hasCoherentMemory(const InstanceFunctions& functions, VkPhysicalDevice physical) {
     VkPhysicalDeviceMemoryProperties memory;
     functions.vkGetPhysicalDeviceMemoryProperties(physical, &memory);
@@ -94,7 +94,7 @@ Candidate examine(const Instance& instance, VkPhysicalDevice physical, std::uint
     std::vector<std::string>& missing = candidate.description.missing;
     if (candidate.description.apiVersion < VK_API_VERSION_1_2) {
         missing.push_back(tooOld(candidate.description.apiVersion));
-        return candidate; // its features of 1.2 cannot even be asked for
+        return candidate; // its features of 1.2 cannot be queried
     }
     VkPhysicalDeviceVulkan12Features features12{.sType =
                                                     VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};

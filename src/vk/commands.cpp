@@ -1,4 +1,4 @@
-// Every pipeline stage and access mask of the core. Synchronisation 1, since Vulkan 1.2 has no other without
+// All pipeline stages and access masks of the core. Synchronisation 1, since Vulkan 1.2 has no other without
 // an optional feature; global memory barriers, since a planned barrier covers several buffers.
 #include "vk/commands.hpp"
 

@@ -1,5 +1,5 @@
-// Creating and borrowing. Whatever others point at lives in the heap-allocated State, so that a Device can
-// move.
+// Creation and borrowing of devices. Parts that others point at are in the heap-allocated State, so that a
+// Device can be moved.
 #include "vk/device.hpp"
 
 #include "vk/allocator.hpp"
@@ -14,7 +14,7 @@
 namespace sinew::vk {
 
 struct Device::State {
-    std::unique_ptr<Instance> ownInstance; ///< null when borrowed; destroyed last
+    std::unique_ptr<Instance> ownInstance; ///< null if borrowed; destroyed last
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -28,7 +28,7 @@ struct Device::State {
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     std::unique_ptr<Allocator> allocator;
     KernelStore kernels;
-    std::unique_ptr<Device> anchored; ///< does not own this
+    std::unique_ptr<Device> anchored; ///< does not own this State
 
     State() = default;
     State(const State&) = delete;
@@ -36,7 +36,7 @@ struct Device::State {
     ~State() {
         allocator.reset();
         if (pipelineCache != VK_NULL_HANDLE) functions.vkDestroyPipelineCache(device, pipelineCache, nullptr);
-        if (ownInstance && device != VK_NULL_HANDLE) // looked up anew: the table may be what failed to load
+        if (ownInstance && device != VK_NULL_HANDLE) // looked up again: the table may be what failed to load
             reinterpret_cast<PFN_vkDestroyDevice>(
                 instanceFunctions.vkGetDeviceProcAddr(device, "vkDestroyDevice"))(device, nullptr);
     }
@@ -79,7 +79,7 @@ VkQueueFamilyProperties readFamily(const InstanceFunctions& functions, VkPhysica
     return families[family];
 }
 
-// For whoever draws: the edges of triangles (VK_POLYGON_MODE_LINE), wherever the device can.
+// True if the device can draw the edges of triangles (VK_POLYGON_MODE_LINE), which viewers use.
 VkBool32 canDrawEdges(const InstanceFunctions& functions, VkPhysicalDevice physical) {
     VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     functions.vkGetPhysicalDeviceFeatures2(physical, &features);
@@ -98,7 +98,7 @@ VkDevice createDevice(const InstanceFunctions& functions, const Candidate& chose
                                         .pQueuePriorities = &priority};
     std::vector<const char*> extensions;
     for (const std::string& extension : request.deviceExtensions) extensions.push_back(extension.c_str());
-    if (hasExtension(functions, chosen.physical, portabilitySubset)) // Vulkan demands it where it is there
+    if (hasExtension(functions, chosen.physical, portabilitySubset)) // Vulkan requires it if it exists
         extensions.push_back(portabilitySubset);
     const VkPhysicalDeviceFeatures drawn{.fillModeNonSolid = canDrawEdges(functions, chosen.physical)};
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
@@ -158,7 +158,7 @@ void Device::complete(bool hasDebugUtils, const BufferHook& hook) {
     state.queueFlags = family.queueFlags;
     state.limits = readLimits(state.instanceFunctions, state.physical, family);
     state.functions = loadDeviceFunctions(state.instanceFunctions.vkGetDeviceProcAddr, state.device);
-    if (!hasDebugUtils) // some loaders hand the functions out all the same
+    if (!hasDebugUtils) // some loaders provide the functions all the same
         dropDebugUtils(state.functions);
     VkPhysicalDeviceMemoryProperties memory;
     state.instanceFunctions.vkGetPhysicalDeviceMemoryProperties(state.physical, &memory);
@@ -260,7 +260,7 @@ void Device::name(VkObjectType type, std::uint64_t handle, const std::string& na
                                              .objectHandle = handle,
                                              .pObjectName = name.c_str()};
     state_->functions.vkSetDebugUtilsObjectNameEXT(state_->device,
-                                                   &info); // a name that fails to stick harms nobody
+                                                   &info); // failure is harmless
 }
 
 std::vector<std::string> Device::validationMessages() const {

@@ -1,4 +1,4 @@
-// Decorations are added where a module has its own: before its types.
+// Decorations are inserted at their place in a module: before its types.
 #include "vk/exact.hpp"
 
 #include <algorithm>
@@ -10,12 +10,13 @@ namespace {
 
 constexpr std::uint32_t header = 5, opDecorate = 71, noContraction = 42;
 
-/// From OpTypeVoid to OpSpecConstantOp, which no decoration may follow.
+/// True from OpTypeVoid to OpSpecConstantOp, after which no decoration may follow.
 bool isTypeOrConstant(std::uint32_t op) {
     return op >= 19 && op <= 52;
 }
 
-/// OpFAdd, OpFSub, OpFMul, OpFDiv, OpFRem, OpFMod, and the products of vectors and matrices up to OpDot.
+/// True for OpFAdd, OpFSub, OpFMul, OpFDiv, OpFRem, OpFMod, and the products of vectors and matrices up to
+/// OpDot.
 bool isOnFloats(std::uint32_t op) {
     return op == 129 || op == 131 || op == 133 || op == 136 || op == 140 || (op >= 141 && op <= 148);
 }

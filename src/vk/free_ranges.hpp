@@ -1,5 +1,5 @@
-// The free part of one memory block as disjoint ranges, neighbours merged. Pure arithmetic: includes no
-// Vulkan.
+// The free part of one memory block as disjoint ranges, with adjacent ones merged. Pure arithmetic: includes
+// no Vulkan.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ class FreeRanges {
 public:
     explicit FreeRanges(std::uint64_t size) : size_(size), free_{{0, size}} {}
 
-    /// Offset of `size` > 0 bytes at a multiple of `alignment` (a power of two), the lowest that fits; empty
-    /// if none.
+    /// Takes `size` > 0 bytes at the lowest possible multiple of `alignment` (a power of two), and returns
+    /// their offset; empty if there is no room.
     std::optional<std::uint64_t> take(std::uint64_t size, std::uint64_t alignment);
-    /// Gives back exactly what `take` returned for this size.
+    /// Returns exactly what `take` gave for this size.
     void give(std::uint64_t offset, std::uint64_t size);
     bool isAllFree() const noexcept { return free_.size() == 1 && free_.begin()->second == size_; }
-    /// Disjoint and not adjacent, offset to size.
+    /// Free ranges, offset to size; disjoint and not adjacent.
     const std::map<std::uint64_t, std::uint64_t>& ranges() const noexcept { return free_; }
 
 private:

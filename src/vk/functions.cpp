@@ -9,7 +9,7 @@ namespace sinew::vk {
 
 namespace {
 
-// Extensions may be absent; a function that the core calls may not.
+// Functions of extensions may be missing; those of the core may not.
 template <typename Function> Function required(PFN_vkVoidFunction function, std::string_view name) {
     if (function == nullptr && !name.ends_with("EXT"))
         throw Error(Failure::noDevice, "the Vulkan driver lacks " + std::string(name) +

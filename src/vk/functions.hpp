@@ -1,6 +1,6 @@
 // The private function tables. Every Vulkan call of the core goes through them, so that the core links no
-// loader and never meets the globals of a host's volk. The lists in functions.inc are the only place a
-// function is named.
+// loader and does not interfere with the globals of a host's volk. The lists in functions.inc are the only
+// place that names functions.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -21,8 +21,8 @@ struct DeviceFunctions {
 #include "vk/functions.inc"
 };
 
-/// Fills the table from the host's or the loader's `vkGetInstanceProcAddr`. A missing entry of an extension
-/// stays null, and so does what only drawing calls (SINEW_VK_DRAWING); another one that is missing throws
+/// Fills the table through the host's or the loader's `vkGetInstanceProcAddr`. A missing function of an
+/// extension, or one that only drawing uses (SINEW_VK_DRAWING), stays null; any other missing function throws
 /// Error(noDevice) with its name.
 InstanceFunctions loadInstanceFunctions(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance);
 DeviceFunctions loadDeviceFunctions(PFN_vkGetDeviceProcAddr getDeviceProcAddr, VkDevice device);

@@ -14,7 +14,7 @@ constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* howToInstall =
     ": install mesa-vulkan-drivers, which has a software device, or your GPU's driver";
 
-/// What can be asked before there is an instance.
+/// Functions that can be called without an instance.
 struct GlobalFunctions {
     PFN_vkCreateInstance vkCreateInstance = nullptr;
     PFN_vkEnumerateInstanceVersion vkEnumerateInstanceVersion = nullptr;
@@ -73,7 +73,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT,
     return VK_FALSE;
 }
 
-// General messages are left out: there the loader complains about other drivers than the one in use.
+// General messages are excluded: in these the loader complains about drivers that are not in use.
 VkDebugUtilsMessengerCreateInfoEXT messengerInfo(Messages& messages) noexcept {
     return {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
             .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
@@ -84,7 +84,7 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(Messages& messages) noexcept {
             .pUserData = &messages};
 }
 
-// Devices that lack a part of Vulkan, as those of MoltenVK, are listed where an instance asks for them.
+// Devices that lack parts of Vulkan, such as those of MoltenVK, are listed only if an instance requests them.
 VkInstanceCreateFlags flagsWith(const std::vector<const char*>& extensions) {
     const bool asks = std::ranges::any_of(extensions, [](const char* extension) {
         return std::string_view(extension) == VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME;
@@ -152,7 +152,7 @@ Instance::Instance(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const DeviceRe
     if (hasValidation && (!hasLayer(global, validationLayer) || !hasDebugUtils_))
         throw Error(Failure::noDevice, std::string("cannot validate: ") + validationLayer +
                                            " is missing: install vulkan-validationlayers");
-    if (hasValidation) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME); // the layer brings it
+    if (hasValidation) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME); // of the layer
     instance_ = createInstance(global, extensions, hasValidation, messages_);
     try {
         functions_ = loadInstanceFunctions(getInstanceProcAddr, instance_);

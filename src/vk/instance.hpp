@@ -1,5 +1,5 @@
-// The VkInstance of a device we create ourselves, with validation and the messenger that collects what it
-// says. Private to src/vk.
+// The VkInstance of a device that we create ourselves, with validation and the messenger that collects its
+// messages. Private to src/vk.
 #pragma once
 
 #include "vk/device.hpp"
@@ -23,7 +23,7 @@ private:
 
 class Instance {
 public:
-    /// Throws Error(noDevice) where loader, layer, extension or driver is missing.
+    /// Throws Error(noDevice) if loader, layer, extension or driver is missing.
     Instance(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const DeviceRequest& request);
     ~Instance();
     Instance(const Instance&) = delete;
@@ -35,7 +35,7 @@ public:
     std::vector<std::string> messages() const { return messages_.all(); }
 
 private:
-    Messages messages_; ///< first: the messenger writes to it until the instance is gone
+    Messages messages_; ///< first: the messenger writes to it until the instance is destroyed
     InstanceFunctions functions_;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;

@@ -1,5 +1,5 @@
-// One compute pipeline with the interface read out of its SPIR-V, and the descriptor sets that bind buffers
-// to it.
+// A compute pipeline with the interface read from its SPIR-V, and the descriptor sets that bind buffers to
+// it.
 #pragma once
 
 #include "vk/buffer.hpp"
@@ -10,18 +10,18 @@
 
 namespace sinew::vk {
 
-/// Creates its pipeline at construction. Movable. Must not outlive its Device, which may move meanwhile.
+/// Creates its pipeline at construction. Movable. Must not outlive its Device, which may be moved meanwhile.
 class Kernel {
 public:
-    /// Throws Error(noDevice) where the device's limits are below the kernel's needs (bindings, group size,
-    /// push constants, shared memory), naming both figures; Error(misuse) on a specialisation id the kernel
-    /// does not have; std::runtime_error where readInterface does.
+    /// Throws Error(noDevice) if the device's limits are below the kernel's needs (bindings, group size, push
+    /// constants, shared memory), with both figures; Error(misuse) on a specialisation id that the kernel
+    /// lacks; std::runtime_error as readInterface does.
     Kernel(const Device& device, const ShaderCode& code, std::span<const SpecialisationConstant> constants);
     Kernel(Kernel&& other) noexcept;
     Kernel& operator=(Kernel&& other) noexcept;
     ~Kernel();
 
-    /// The group size is the one with the given constants.
+    /// The group size is that with the given constants.
     const KernelInterface& interface() const noexcept { return interface_; }
     VkPipeline pipeline() const noexcept { return pipeline_; }
     VkPipelineLayout layout() const noexcept { return layout_; }
@@ -41,7 +41,7 @@ private:
     VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 
-/// The buffers one dispatch binds, in binding order.
+/// The buffers of one dispatch, in binding order.
 struct BindingRequest {
     const Kernel* kernel = nullptr;
     std::vector<BufferView> buffers{};
@@ -51,8 +51,8 @@ struct BindingRequest {
 /// again.
 class BindingSets {
 public:
-    /// Throws Error(misuse) naming kernel and binding where a count, a stride or an offset's alignment
-    /// disagrees, Error(outOfMemory) where a range exceeds maxStorageBufferRange or maxTexelBufferElements.
+    /// Throws Error(misuse) with kernel and binding if a count, a stride or an offset's alignment disagrees,
+    /// Error(outOfMemory) if a range exceeds maxStorageBufferRange or maxTexelBufferElements.
     BindingSets(const Device& device, std::span<const BindingRequest> requests);
     BindingSets(BindingSets&& other) noexcept;
     BindingSets& operator=(BindingSets&& other) noexcept;
@@ -68,7 +68,7 @@ private:
     const DeviceFunctions* functions_ = nullptr;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     std::vector<VkDescriptorSet> sets_;
-    std::vector<VkBufferView> texels_; ///< of every texel binding
+    std::vector<VkBufferView> texels_; ///< of all texel bindings
 };
 
 } // namespace sinew::vk

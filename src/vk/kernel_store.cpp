@@ -1,4 +1,4 @@
-// A map from what a kernel is made of to the kernel.
+// A map from shader code and constants to kernels.
 #include "vk/kernel_store.hpp"
 
 #include <utility>
@@ -22,7 +22,7 @@ std::shared_ptr<const Kernel> KernelStore::get(const Device& device, const Shade
         const std::scoped_lock lock(mutex_);
         if (const std::shared_ptr<const Kernel> kernel = find()) return keep(kernel);
     }
-    auto made = std::make_shared<const Kernel>(device, code, constants); // takes long: others need not wait
+    auto made = std::make_shared<const Kernel>(device, code, constants); // slow: other threads need not wait
     const std::scoped_lock lock(mutex_);
     if (const std::shared_ptr<const Kernel> kernel = find()) return keep(kernel); // another thread was faster
     std::erase_if(entries_, [](const auto& entry) { return entry.second.users.expired(); });

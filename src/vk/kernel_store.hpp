@@ -1,5 +1,5 @@
-// Kernels that several users of a device share, so that each is made once: simulations of one scene in other
-// forms, or one after the other, differ in a few of some fifty.
+// Kernels shared by several users of a device, so that each is made once: simulations of one scene in
+// different forms, or one after another, differ in a few of about fifty kernels.
 #pragma once
 
 #include "vk/kernel.hpp"
@@ -11,17 +11,17 @@
 
 namespace sinew::vk {
 
-/// What a Device has one of (Device::kernels). Any thread.
+/// The kernels of a Device (Device::kernels). Any thread.
 class KernelStore {
 public:
-    /// The kernel of this code and these constants, in their order, that somebody has or that is kept, else a
-    /// new one. Code is known by where its words are: these must stay there as long as the store, as what is
-    /// compiled in does. Must not outlive `device`, whose store this is. Throws as Kernel.
+    /// Returns the kernel for this code and these constants, in their order, if it is in use or kept, else
+    /// makes a new one. Code is identified by the address of its words: these must stay valid as long as the
+    /// store, like compiled-in code. Must not outlive `device`, the owner of this store. Throws as Kernel.
     std::shared_ptr<const Kernel> get(const Device& device, const ShaderCode& code,
                                       std::span<const SpecialisationConstant> constants);
 
-    /// Says that the calling thread has made a pipeline of the device, and how many it has: a thread that
-    /// must not wait for compilers can show that it makes none.
+    /// Counts a pipeline made by the calling thread, and returns the count: a thread that must not wait for
+    /// compilers can verify that it makes none.
     void countPipeline();
     std::size_t pipelinesMade() const;
 
@@ -33,16 +33,16 @@ private:
     using Key = std::pair<const std::uint32_t*, std::vector<std::pair<std::uint32_t, std::uint32_t>>>;
     struct Entry {
         std::weak_ptr<const Kernel> users;
-        std::shared_ptr<const Kernel> kept; // while there are keepers
+        std::shared_ptr<const Kernel> kept; // set while there are KeptKernels
     };
-    mutable std::mutex mutex_; // of all that follows
+    mutable std::mutex mutex_; // guards all following members
     std::map<std::thread::id, std::size_t> pipelinesOf_;
     std::map<Key, Entry> entries_;
     int keepers_ = 0;
 };
 
-/// While one is there, a store keeps what it gives though nobody uses it: between a simulation and the next.
-/// Must not outlive the Device. Any thread.
+/// While an instance exists, the store keeps all kernels that it returns, even unused: between a simulation
+/// and the next. Must not outlive the Device. Any thread.
 class KeptKernels {
 public:
     explicit KeptKernels(const Device& device);

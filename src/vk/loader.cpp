@@ -1,4 +1,4 @@
-// dlopen of the Vulkan loader.
+// Opens the Vulkan loader with dlopen.
 #include "vk/loader.hpp"
 
 #include "vk/check.hpp"
@@ -19,7 +19,7 @@ struct Opened {
     std::string name;
 };
 
-// Throws with the reason of the first name.
+// Opens the library, or the first usual name that exists. Throws with the reason for the first name.
 Opened open(const std::string& library) {
     std::string complaint;
     for (const char* usual : usualNames) {

@@ -11,8 +11,8 @@ namespace sinew::vk {
 /// Keeps libvulkan open; must outlive every Device made through it.
 class Loader {
 public:
-    /// Opens `library` with dlopen; without a name the first that there is of libvulkan.so.1, libvulkan.so,
-    /// libvulkan.1.dylib and libMoltenVK.dylib. Throws Error(noDevice) naming the library and the reason.
+    /// Opens `library` with dlopen; without a name the first existing one of libvulkan.so.1, libvulkan.so,
+    /// libvulkan.1.dylib and libMoltenVK.dylib. Throws Error(noDevice) with the library and the reason.
     explicit Loader(const std::string& library = "");
     ~Loader();
     Loader(const Loader&) = delete;
@@ -25,9 +25,9 @@ private:
     PFN_vkGetInstanceProcAddr getInstanceProcAddr_ = nullptr;
 };
 
-/// Sets VK_LAYER_ENABLES so that synchronisation validation also looks across submissions. The layer reads it
-/// when an instance is made and has no other switch for it, so a program calls this before Device::create and
-/// before it starts threads; a library has no business with its host's environment.
+/// Sets VK_LAYER_ENABLES so that synchronisation validation also works across submissions. The layer reads
+/// the variable when an instance is made and has no other switch for this, so a program must call this before
+/// Device::create and before it starts threads; a library must not change its host's environment.
 void enableQueueSubmitValidation();
 
 } // namespace sinew::vk

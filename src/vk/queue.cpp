@@ -1,4 +1,4 @@
-// One queue, one timeline.
+// One queue with one timeline semaphore.
 #include "vk/queue.hpp"
 
 #include "vk/check.hpp"
@@ -11,7 +11,7 @@ namespace sinew::vk {
 
 namespace {
 
-constexpr VkDeviceSize stagingSize = 8u << 20; // [B]; larger transfers go piece by piece
+constexpr VkDeviceSize stagingSize = 8u << 20; // [B]; larger transfers are split
 
 BufferView part(const BufferView& view, VkDeviceSize offset, VkDeviceSize size) {
     return {view.buffer, view.offset + offset, size, view.stride};
@@ -113,7 +113,7 @@ void Queue::wait(std::uint64_t value) {
                                    .pValues = &value};
     constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
     const VkResult result = device_.functions().vkWaitSemaphores(device_.handle(), &info, forever);
-    if (result < 0) // the caller will free what the submission uses
+    if (result < 0) // the caller will free resources of the submission
         device_.functions().vkQueueWaitIdle(queue_);
     check(result, "vkWaitSemaphores", "the queue");
 }
@@ -123,7 +123,7 @@ void Queue::waitIdle() {
 }
 
 void Queue::drain() noexcept {
-    device_.functions().vkQueueWaitIdle(queue_); // of a lost device it returns at once
+    device_.functions().vkQueueWaitIdle(queue_); // returns at once for a lost device
 }
 
 void Queue::transfer(const BufferView& from, const BufferView& to) {

@@ -9,29 +9,27 @@
 namespace sinew::vk {
 
 /// Owns a command pool and a timeline semaphore on queue 0 of the device's family. One thread. The Device may
-/// move, but must not go while the Queue lives. Needs the feature timelineSemaphore, which Device::create
-/// enables.
+/// be moved, but must outlive the Queue. Needs the feature timelineSemaphore, which Device::create enables.
 class Queue {
 public:
-    /// Throws Error where Vulkan refuses pool or semaphore.
+    /// Throws Error if Vulkan cannot create pool or semaphore.
     explicit Queue(const Device& device);
     ~Queue(); ///< waits for all submissions
     Queue(const Queue&) = delete;
     Queue& operator=(const Queue&) = delete;
 
-    /// Begins a command buffer for one submission (taken from finished ones where possible).
+    /// Begins a command buffer for one submission; reuses finished ones.
     VkCommandBuffer begin();
-    /// Ends and submits; returns the timeline value that `wait` takes. Throws Error(deviceLost /
-    /// outOfMemory).
+    /// Ends and submits; returns the timeline value for wait(). Throws Error(deviceLost / outOfMemory).
     std::uint64_t submit(VkCommandBuffer commands);
     /// Blocks until the submission with this value has finished. Throws Error(deviceLost / outOfMemory);
     /// even then nothing is left in flight.
     void wait(std::uint64_t value);
     void waitIdle();
-    /// The same for destructors: throws nothing. A lost device has nothing in flight.
+    /// waitIdle() for destructors: never throws. A lost device has nothing in flight.
     void drain() noexcept;
     VkQueue handle() const noexcept { return queue_; }
-    /// The semaphore and the value of the newest submission, for a presenter that must order after it.
+    /// The semaphore and the value of the newest submission, for a presenter that must run after it.
     VkSemaphore timeline() const noexcept { return timeline_; }
     std::uint64_t submitted() const noexcept { return submitted_; }
 
@@ -57,11 +55,12 @@ private:
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkSemaphore timeline_ = VK_NULL_HANDLE;
     std::uint64_t submitted_ = 0;
-    std::vector<Submission> submissions_; ///< in order of value; the front ones may have finished
+    std::vector<Submission> submissions_; ///< in order of value; the first ones may have finished
 };
 
-/// Waits for all submissions to a queue as it goes. Declare it after the buffers, pipelines and queries that
-/// the submissions use: these then outlive them, also where an exception leaves the scope or the constructor.
+/// Waits for all submissions to a queue in its destructor. Declare it after the buffers, pipelines and
+/// queries that the submissions use: these then outlive them, also if an exception leaves the scope or the
+/// constructor.
 class Drain {
 public:
     explicit Drain(Queue& queue) noexcept : queue_(queue) {}

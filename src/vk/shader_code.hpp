@@ -1,4 +1,4 @@
-// A compiled kernel. Alone in its header, because hundreds of generated files include it.
+// A compiled kernel. In a header of its own, because hundreds of generated files include it.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace sinew::vk {
 
-/// A compiled kernel as the build embeds it (cmake/Shaders.cmake). Static storage.
+/// A compiled kernel embedded by the build (cmake/Shaders.cmake). Static storage.
 struct ShaderCode {
     const char* name;                     ///< file stem, such as "solve_distance"
     std::span<const std::uint32_t> words; ///< SPIR-V, validated at build time

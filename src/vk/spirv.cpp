@@ -1,4 +1,4 @@
-// From a parsed module to the interface of a kernel.
+// Derives the interface of a kernel from a parsed module.
 #include "vk/spirv.hpp"
 
 #include "vk/spirv_module.hpp"
@@ -21,7 +21,8 @@ std::uint32_t pointee(const Module& module, const spirv::Variable& variable) {
     return pointer.operands[2];
 }
 
-/// glslang puts readonly and writeonly on every member of a block, other compilers on the variable.
+/// True for a decoration of a block. glslang puts readonly and writeonly on every member of a block, other
+/// compilers on the variable.
 bool isDecorated(const Module& module, std::uint32_t variable, std::uint32_t block, Decoration wanted) {
     if (module.decoration(variable, wanted)) return true;
     const std::size_t members = module.type(block).operands.size() - 1;
@@ -46,7 +47,7 @@ std::uint32_t strideOf(const Module& module, std::uint32_t block) {
                     " has fixed members and a run-time array: make two buffers");
     const auto stride = module.decoration(members[0], Decoration::arrayStride);
     if (!stride) module.fail("the array of block " + module.nameOf(block) + " has no stride");
-    module.size(module.type(members[0]).operands[1]); // refuses row-major members
+    module.size(module.type(members[0]).operands[1]); // throws on row-major members
     return *stride;
 }
 
@@ -60,7 +61,7 @@ KernelBinding bindingOf(const Module& module, const spirv::Variable& variable, B
         module.fail("buffer " + name + " must have a binding in set 0");
     const Access access = kind == BlockKind::uniform ? Access::read : accessOf(module, variable.id, block);
     const std::uint32_t stride = strideOf(module, block);
-    constexpr std::uint32_t smallestLimit = 16384; // of maxUniformBufferRange, on every device
+    constexpr std::uint32_t smallestLimit = 16384; // guaranteed maxUniformBufferRange of every device
     if (kind == BlockKind::uniform && stride > smallestLimit)
         module.fail("uniform block " + name + " has " + std::to_string(stride) +
                     " bytes, at most 16384 are allowed");
@@ -102,7 +103,7 @@ void addVariable(const Module& module, const spirv::Variable& variable, KernelIn
     case Storage::storageBuffer:
         interface.bindings.push_back(bindingOf(module, variable, BlockKind::storage));
         break;
-    case Storage::uniform: { // before SPIR-V 1.3 storage buffers stood here too, decorated BufferBlock
+    case Storage::uniform: { // before SPIR-V 1.3 storage buffers had this class too, decorated BufferBlock
         const bool isStorage =
             module.decoration(pointee(module, variable), Decoration::bufferBlock).has_value();
         const BlockKind kind = isStorage ? BlockKind::storage : BlockKind::uniform;
@@ -126,7 +127,7 @@ void addVariable(const Module& module, const spirv::Variable& variable, KernelIn
     }
 }
 
-// The one binding that need not follow on the one before it: LAST_BINDING of shaders/glsl/layout.h.
+// The binding that need not follow the one before it: LAST_BINDING of shaders/glsl/layout.h.
 constexpr std::uint32_t lastBinding = 31;
 
 void checkBindings(const Module& module, const std::vector<KernelBinding>& bindings) {
@@ -144,8 +145,8 @@ void checkCapabilities(const Module& module) {
                         ", an optional feature that no kernel of the core may use");
 }
 
-/// layout(local_size_x_id = ...) decorates a composite of specialisation constants as the WorkgroupSize
-/// built-in.
+/// Reads the group size. layout(local_size_x_id = ...) decorates a composite of specialisation constants as
+/// the WorkgroupSize built-in.
 void readGroupSize(const Module& module, KernelInterface& interface) {
     constexpr std::uint32_t workgroupSize = 25;
     interface.groupSize = module.localSize;

@@ -25,7 +25,7 @@ std::string literalString(std::span<const std::uint32_t> words) {
     return text;
 }
 
-/// Operands every instruction we read must at least have.
+/// Least number of operands of every instruction that is read.
 std::size_t leastOperands(Op op) {
     switch (op) {
     case Op::capability:
@@ -67,7 +67,8 @@ std::size_t leastOperands(Op op) {
     return 0;
 }
 
-/// What an instruction refers to is declared before it, so that no type or constant contains itself.
+/// Throws unless the operands of an instruction are declared before it, so that no type or constant contains
+/// itself.
 void checkOrder(const Module& module, const Instruction& instruction) {
     const auto& operands = instruction.operands;
     std::span<const std::uint32_t> types, constants;

@@ -1,4 +1,4 @@
-// A SPIR-V module taken apart as far as kernels need it: types, constants, decorations, variables. Private to
+// A parsed SPIR-V module, as far as kernels need it: types, constants, decorations, variables. Private to
 // src/vk. Opcodes and layout follow the SPIR-V specification 1.5, sections 2.3 and 3.
 #pragma once
 
@@ -75,10 +75,10 @@ struct Instruction {
     std::span<const std::uint32_t> operands;
 };
 
-using Decorations = std::map<Decoration, std::uint32_t>; ///< to the first literal, 0 where there is none
+using Decorations = std::map<Decoration, std::uint32_t>; ///< to the first literal, 0 without one
 
 struct Variable {
-    std::uint32_t id = 0, type = 0; ///< of a pointer
+    std::uint32_t id = 0, type = 0; ///< type: of a pointer
     Storage storage{};
 };
 
@@ -98,7 +98,7 @@ struct Module {
     [[noreturn]] void fail(const std::string& why) const {
         throw std::runtime_error("kernel " + shader + ": " + why);
     }
-    std::string nameOf(std::uint32_t id) const; ///< "%id" where the compiler gave none
+    std::string nameOf(std::uint32_t id) const; ///< "%id" if the module has no name for it
     const Instruction& type(std::uint32_t id) const;
     std::optional<std::uint32_t> decoration(std::uint32_t id, Decoration wanted) const;
     std::optional<std::uint32_t> memberDecoration(std::uint32_t type, std::uint32_t member,
@@ -108,7 +108,7 @@ struct Module {
     std::uint32_t value(std::uint32_t constant) const;
     /// Constituent `index` of a composite constant, as an id.
     std::uint32_t constituent(std::uint32_t constant, std::uint32_t index) const;
-    /// [B], explicit layout where it is decorated, else std430.
+    /// [B], from decorations of an explicit layout, else std430.
     std::uint32_t size(std::uint32_t type) const;
     std::uint32_t alignment(std::uint32_t type) const;
 
