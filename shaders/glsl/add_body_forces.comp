@@ -7,7 +7,7 @@
 
 layout(std430, binding = 0) readonly buffer Parts { BodyForcePart parts[]; };
 layout(std430, binding = 1) readonly buffer Ranges { ForceRange ranges[]; };
-layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; }; // of particles
+layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; }; // one per particle
 layout(std430, binding = 3) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 4) buffer Sums { ForceSum sums[]; };
 layout(push_constant) uniform Push { ForcePush push; };

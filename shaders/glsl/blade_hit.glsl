@@ -8,8 +8,8 @@
 // six determinants have the right signs. Links that share a particle share the determinants of its path, edges that
 // share a point share those of its path, and consecutive steps share those of the moment between them. All these
 // expressions are equal bit for bit, so no link slips between two edges or two steps, however the material moves
-// meanwhile. Where particles lie exactly in the path of the blade, as particles of a lattice at rest often do,
-// rounding would decide at random: the blade is shifted by a thousandth of a cell, always in one direction, which
+// meanwhile. Particles of a lattice at rest often lie exactly in the path of the blade, and rounding would then
+// decide at random: the blade is shifted by a thousandth of a cell, always in one direction, which
 // lies in no plane and no row of a lattice.
 #include "math.glsl"
 

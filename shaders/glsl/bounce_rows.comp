@@ -8,10 +8,10 @@
 
 layout(std430, binding = 0) readonly buffer Before { vec4 before[]; };     // velocities when the substep began [m/s]
 layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; };
-layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // of each element
+layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // one per element
 layout(std430, binding = 4) readonly buffer Directions { vec4 directions[]; };
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
-layout(std430, binding = 6) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
+layout(std430, binding = 6) readonly buffer Surfaces { uint surfaces[]; }; // one per particle
 layout(std430, binding = 7) readonly buffer Pairs { SurfacePair pairs[]; };
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(std430, binding = 9) writeonly buffer Bounces { vec4 bounces[]; };  // n, speed [m/s]; 0 = does not rebound

@@ -25,7 +25,7 @@ layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 7) readonly buffer Firsts { float firsts[]; }; // time of each particle's first contact, where isSwept
 #ifdef HAS_SURFACES
-layout(std430, binding = 8) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
+layout(std430, binding = 8) readonly buffer Surfaces { uint surfaces[]; }; // one per particle
 layout(std430, binding = 9) readonly buffer Pairs { SurfacePair pairs[]; };
 #define RESTITUTION(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]].restitution
 #define SLIPS_BINDING 10
@@ -33,7 +33,7 @@ layout(std430, binding = 9) readonly buffer Pairs { SurfacePair pairs[]; };
 #define RESTITUTION(i, j) push.restitution
 #define SLIPS_BINDING 8
 #endif
-layout(std430, binding = SLIPS_BINDING) readonly buffer Slips { vec4 slips[]; }; // as in contact_memory.glsl, where a rest distance is kept
+layout(std430, binding = SLIPS_BINDING) readonly buffer Slips { vec4 slips[]; }; // see contact_memory.glsl; used by contacts that keep a rest distance
 #define BOUNCE_BINDING (SLIPS_BINDING + 1)
 layout(constant_id = 5) const bool keepsRest = false;
 layout(push_constant) uniform Push { ContactPush push; };

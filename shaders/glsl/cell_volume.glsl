@@ -1,7 +1,7 @@
 // Part of gather_lattice: volume energy of cells. V = det(e), where e are the cell's mean edges, each the mean of
 // four. The gradient at a corner is +-c_x +-c_y +-c_z, a quarter each, where c are the cofactors of e. Opposite
-// corners receive bit-equal, opposite impulses, whichever invocation computes the cell, so momentum is exact. As a
-// quadrature this is the one-point rule, which locks least; it does not see the hourglass modes, which links resist;
+// corners receive bit-equal, opposite impulses, whichever invocation computes the cell, so momentum is exact. This
+// is the one-point quadrature rule, which locks least; it does not see the hourglass modes, which links resist;
 // V is signed, and its gradient is that of the exact volume in every affine state, flattened and mirrored ones too.
 // Tetrahedra would see each corner by itself, at five times the arithmetic, and prefer a diagonal.
 //

@@ -15,7 +15,7 @@ layout(constant_id = 3) const bool hasFriction = true;
 layout(constant_id = 4) const bool hasRecovery = false;
 layout(constant_id = 5) const bool keepsRest = false;
 #ifdef HAS_SURFACES
-layout(std430, binding = 12) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
+layout(std430, binding = 12) readonly buffer Surfaces { uint surfaces[]; }; // one per particle
 layout(std430, binding = 13) readonly buffer Pairs { SurfacePair pairs[]; };
 #define PAIR(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]]
 #define PLANE_BINDING 14

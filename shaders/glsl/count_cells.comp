@@ -21,7 +21,7 @@ layout(std140, binding = 2) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 3) buffer Counts { uint counts[]; };
 layout(std430, binding = 4) writeonly buffer Places { uvec2 places[]; }; // slot and rank of each particle
 layout(std430, binding = 5) writeonly buffer Detected { vec4 detected[]; };
-layout(std430, binding = 6) readonly buffer Bodies { float bodies[]; }; // of each particle, below 0 = of a body without contacts
+layout(std430, binding = 6) readonly buffer Bodies { float bodies[]; }; // one per particle; below 0 = of a body without contacts
 layout(std430, binding = 7) readonly buffer Watched { float watched[]; }; // below 0 = neither it nor its faces and edges can touch anything
 layout(push_constant) uniform Push { GridPush push; };
 

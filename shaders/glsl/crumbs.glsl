@@ -1,6 +1,6 @@
 // Hides the vertices of a removed piece: collapses them to the particle that the piece is named after.
-layout(std430, binding = 0) readonly buffer Slots { uint slots[]; };         // of the vertices of all skins
-layout(std430, binding = 1) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 0) readonly buffer Slots { uint slots[]; };         // one per vertex of all skins
+layout(std430, binding = 1) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 2) readonly buffer Pieces { uint pieces[]; };
 layout(std430, binding = 3) readonly buffer Labels { uint labels[]; };
 layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; };

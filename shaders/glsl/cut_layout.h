@@ -7,7 +7,7 @@ struct BladeHead {
     vec4 low, high;  // box around strip and ray [m]
     vec4 rayFrom;    // w = radius of the ray, 0 = no ray [m]
     vec4 rayTo;
-    uint quads;      // of the strip; its points are start and end position of point 0, of point 1, ...
+    uint quads;      // quads of the strip; its points are start and end position of point 0, of point 1, ...
     uint isCarried;  // the strip starts where that of the step before ended, in the material, wherever that has moved
     uint unused0, unused1;
 };
@@ -75,13 +75,13 @@ struct CrumbTriangle {
 };
 
 struct PiecesPush {
-    uint runs;   // of slots; argument r dispatches over the slots of run r, runs + r over its count, 2 runs + r over what is made of them
-    uint rounds; // of finding connected components
+    uint runs;   // runs of slots; argument r dispatches over the slots of run r, runs + r over its count, 2 runs + r over what is made of them
+    uint rounds; // rounds of the search for connected components
 };
 
 // A round of finding components in a run.
 struct RoundPush {
-    uint first, count; // as in CutPush
+    uint first, count; // see CutPush
     uint rowStride, sliceStride;
     uint stiffLinks;
     uint next, groups; // indirect argument of the next round, and the group count to write there
@@ -102,9 +102,9 @@ struct SurfaceState {
 };
 
 struct SurfacePush {
-    uint chunks; // of slots
+    uint chunks; // chunks of slots
     uint room;   // capacity in triangles, and as many vertices
-    uint runs;   // of slots: arguments 0 .. runs - 1 dispatch over these, the next over SURFACE_VERTICES ...
+    uint runs;   // runs of slots: arguments 0 .. runs - 1 dispatch over these, the next over SURFACE_VERTICES ...
     uint hung;   // skin vertices bound to a lattice
 };
 
@@ -180,7 +180,7 @@ struct MixedWords {
 
 struct WholePush {
     uint count;    // vertices bound to a lattice
-    uint vertices; // of all skins, those that may be corners of whole triangles
+    uint vertices; // vertices of all skins, those that may be corners of whole triangles
 };
 
 // Skins of meshes are bound to the lattice by prisms: a prism lies between a skin triangle and the anchors of its
@@ -199,7 +199,7 @@ struct SkinPrism {
     uint beyond[3];   // across edge n: 4 times the neighbouring prism, plus the number of its edge
     uint face;        // slot that owns the face between the anchors; NO_PARTICLE unless there are three
     uint links;       // 4 bits an edge: direction of the link as a corner number, 0 = both ends share an anchor; 8 = towards the start
-    uint places;      // which face of the slot; from bit 4 on, the index of each corner in it, 2 bits
+    uint places;      // face of the slot; from bit 4 on, the index of each corner in it, 2 bits
 };
 
 // A vertex of a bound skin.
@@ -269,7 +269,7 @@ struct PlacedVertex {
 // Pieces of a sheet's skin beside cuts (surface/sheet_pieces.hpp). A triangle of such a skin is half of the cell
 // above a slot: corners a, c = a + z, d = a + x + z, or a, d, b = a + x.
 struct SheetTriangle {
-    uint slot; // of a
+    uint slot; // slot of corner a
     uint kind; // bit 0: the second half; bit 1: opposite orientation
 };
 
@@ -287,17 +287,17 @@ struct SheetState {
 // between a and b.
 struct SheetVertex {
     uint a, b;   // slots
-    float share; // of b
+    float share; // weight of b
     float x, z;  // offset from a at rest [cells]
     float turn;  // sign of the normal: 1 = orientation of the halves, else -1
 };
 
 struct SheetPush {
-    uint triangles;               // of the skin
-    uint firstIndex;              // of the skin
+    uint triangles;               // triangles of the skin
+    uint firstIndex;              // first index of the skin
     uint firstPiece, room;        // index; capacity in triangles
     uint firstVertex, vertexRoom; // after the vertices of all skins
-    uint firstSlot;               // of the sheet
+    uint firstSlot;               // first slot of the sheet
     uint sliceStride;             // slots from a node to the next in z
     uint skin;
     uint isFirst; // this skin reports missing capacity
@@ -311,7 +311,7 @@ struct SheetSkinPush {
 
 // A contact face that is half of a cell of a sheet, and its place in the search list.
 struct CutFace {
-    uint slot, kind; // as in SheetTriangle
+    uint slot, kind; // see SheetTriangle
     uint place, face;
     uint isLarge; // it is in the list of large faces
 };
@@ -327,7 +327,7 @@ struct CutSolidFace {
 
 // A contact edge that is a link of a sheet.
 struct CutEdge {
-    uint slot, way; // of its lower end; offset to the other end [slots]
+    uint slot, way; // slot of its lower end; offset to the other end [slots]
     uint edge;
 };
 
@@ -342,7 +342,7 @@ struct CutTie {
     uint element;
     float stiffness;    // [N/m], uncut
     uint first, second; // slots that own them
-    uint bits;          // of the first; << 8: of the second
+    uint bits;          // mask bits of the first; << 8: of the second
 };
 
 // A tether between particles that are linked in the uncut body.
@@ -361,13 +361,13 @@ struct CellStrain {
 };
 
 struct TearCount {
-    uint count; // of candidate cells
+    uint count; // number of candidate cells
 };
 
 struct TearPush {
     uint first, count; // slots
     uint rowStride, sliceStride; // from a node to the next in y, 0 in sheets; in z
     float spacing; // [m]
-    float limit;   // of the strain
+    float limit;   // strain beyond which a cell tears
     uint most;     // cells that may tear in a step
 };

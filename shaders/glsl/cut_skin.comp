@@ -22,7 +22,7 @@ PlacedVertex placedAt(uint v) { return PlacedVertex(texelFetch(placed, int(2u * 
 layout(std430, binding = 6) readonly buffer Placed { PlacedVertex placed[]; }; // (place_vertices)
 PlacedVertex placedAt(uint v) { return placed[v]; }
 #endif
-layout(std430, binding = 7) buffer SkinHits { uint skinHits[]; }; // of each prism: byte n = hit on its edge n, in 1/255; 0 = none
+layout(std430, binding = 7) buffer SkinHits { uint skinHits[]; }; // one per prism: byte n = hit on its edge n, in 1/255; 0 = none
 layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Nears { uint nears[]; }; // prisms (list_prisms)
 

@@ -17,7 +17,7 @@ bool hasPassed(vec3 ap, vec3 ab, vec3 ac, float reach, out vec3 b) {
 struct Meeting {
     ContactFace face;
     float reach;               // [m]
-    float front;               // of a closed body: 1 = the front is along the normal, -1 = opposite
+    float front;               // closed bodies: 1 = the front is along the normal, -1 = opposite
     vec3 ap, ab, ac, vp, vb, vc; // displacements from corner a, velocities relative to it
     Triangle triangle;
     Nearest nearest;

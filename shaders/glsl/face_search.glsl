@@ -27,9 +27,9 @@ layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; };     /
 #endif
 layout(std430, binding = 3) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 4) buffer PointChains { uint pointChains[]; };
-layout(std430, binding = 5) buffer FaceChains { uint faceChains[]; }; // of faces that move
+layout(std430, binding = 5) buffer FaceChains { uint faceChains[]; }; // chains of moving faces
 layout(std140, binding = 9) uniform Step { StepParams step; };
-layout(std430, binding = WEIGHT_BINDING) readonly buffer Masses { float inverseMass[]; }; // of sleeping particles too [1/kg]
+layout(std430, binding = WEIGHT_BINDING) readonly buffer Masses { float inverseMass[]; }; // also of sleeping particles [1/kg]
 layout(push_constant) uniform Push { FaceFindPush push; };
 layout(std430, binding = 6) coherent volatile buffer Bounds { GridBounds bounds; };
 #define PAIRS_BINDING 7

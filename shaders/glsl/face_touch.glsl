@@ -84,7 +84,7 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit 
 }
 
 // The contact with a face of a closed body. It acts on points in front of the face, and on points that came from
-// there. A point behind it may come out. Where an edge is nearest and the point is behind one of its faces, the point
+// there. A point behind it may come out. If an edge is nearest and the point is behind one of its faces, the point
 // is in front of another one, or in contact with neither. A pair without a rest distance remembers by the sign that
 // the point was behind: contacts may move the point to the front after this pass, so that the next one finds it
 // there.

@@ -1,7 +1,7 @@
 #version 460
-// Excluded pairs after a cut. Linked particles never touch each other, particles on both sides of a cut do: keeps of
-// each particle's excluded partners those that it is still linked with. Rows stay sorted and as long as before: the
-// last entry is repeated. Where links were cut, or restored, all contact lists are rebuilt.
+// Excluded pairs after a cut. Linked particles never touch each other, particles on both sides of a cut do: of
+// each particle's excluded partners, those still linked with it are kept. Rows stay sorted and as long as before: the
+// last entry is repeated. If links were cut or restored, all contact lists are rebuilt.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -11,7 +11,7 @@
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
 layout(std430, binding = 2) readonly buffer Counts { uint listedCounts[]; };
-layout(std430, binding = 3) readonly buffer AllExcluded { uint allExcluded[]; }; // of the uncut body
+layout(std430, binding = 3) readonly buffer AllExcluded { uint allExcluded[]; }; // exclusions of the uncut body
 layout(std430, binding = 4) buffer Excluded { uint excluded[]; };
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 6) readonly buffer Listed { uint listed[]; };

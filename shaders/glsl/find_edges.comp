@@ -46,7 +46,7 @@ layout(std430, binding = 7) coherent volatile buffer Bounds { GridBounds bounds;
 layout(std430, binding = 8) readonly buffer Points { FacePoints points; };
 layout(std430, binding = 9) readonly buffer Apart { uint apart[]; };
 layout(std430, binding = 10) readonly buffer Middles { vec4 middles[]; };
-layout(std430, binding = 11) buffer Chains { uint chains[]; }; // of owners
+layout(std430, binding = 11) buffer Chains { uint chains[]; }; // chains of owners
 #define PAIRS_BINDING 12
 layout(std430, binding = 13) buffer Status { StatusWords status; };
 layout(std430, binding = 14) buffer LinkChains { uint linkChains[]; };

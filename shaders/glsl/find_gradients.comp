@@ -7,8 +7,8 @@
 layout(std430, binding = 0) readonly buffer Near { uint near[]; };
 layout(std430, binding = 1) readonly buffer Links { uint links[]; };
 layout(std430, binding = 2) readonly buffer Rest { vec4 rest[]; };
-layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // of each slot
-layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; }; // of each particle
+layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // one per slot
+layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; }; // one per particle
 layout(std430, binding = 5) writeonly buffer Gradients { Gradient gradients[]; };
 
 #define ALIVE(i) links[i]

@@ -20,7 +20,7 @@ layout(std430, binding = 3) readonly buffer Work { CutWork work; };
 layout(std430, binding = 4) buffer Counts { uint counts[]; };      // number of nodes, by run
 layout(std430, binding = 5) writeonly buffer Nears { uvec2 nears[]; }; // slot, links; each run begins at its first slot
 #ifdef CRUMBS
-layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
 bool isThere(uint i) { return particles[i] != NO_PARTICLE && pieces[particles[i]] != REMOVED_PIECE; }
 #else

@@ -8,7 +8,7 @@ layout(std430, binding = 0) readonly buffer Strains { CellStrain strains[]; };
 layout(std430, binding = 1) writeonly buffer Found { uint found[]; };
 layout(std430, binding = 2) buffer Tears { TearCount tears; };
 #ifdef CRUMBS
-layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 4) readonly buffer Pieces { uint pieces[]; };
 bool isThere(uint cell) { return pieces[particles[cell]] != REMOVED_PIECE; } // its corners are connected
 #else

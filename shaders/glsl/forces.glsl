@@ -27,7 +27,7 @@ void addRowForce(uint row, uint i, vec3 impulse, vec3 arm) {
 // Static faces: the row that sums the impulses of a face (forces::Stops), and the particle about which its moments
 // are taken.
 layout(std430, binding = FORCES_BINDING + 1) readonly buffer StopRows { uvec2 stopRows[]; };
-layout(std430, binding = FORCES_BINDING + 2) readonly buffer Places { vec4 places[]; }; // of static particles, in this substep [m]
+layout(std430, binding = FORCES_BINDING + 2) readonly buffer Places { vec4 places[]; }; // positions of static particles in this substep [m]
 
 // The impulse of static face f on particle i at x.
 void addStopForce(uint f, uint i, vec3 impulse, vec3 x) {

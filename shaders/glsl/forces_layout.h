@@ -23,8 +23,8 @@ struct ForceSum {
 // A run that one invocation adds up: particles of a body, or elements of a row.
 struct ForceChunk {
     uint first, count;
-    uint origin; // of a body: its first particle, about which moments are taken
-    uint moment; // of a row: offset from an impulse to its moment [elements]; 0 = it has none
+    uint origin; // body: its first particle, about which moments are taken
+    uint moment; // row: offset from an impulse to its moment [elements]; 0 = it has none
 };
 
 // Sums over a chunk of a body; moments are about its origin.
@@ -37,10 +37,10 @@ struct BodyForcePart {
 // The chunks that add up to the sums of a body, or of a row.
 struct ForceRange {
     uint firstPart, parts;
-    uint origin; // as in its chunks
-    float sign;  // of a row
-    uint firstStop, stops; // of a body: rows of its static faces
-    uint stopOrigin;       // of a body: the particle about which moments of these rows are taken
+    uint origin; // same as in its chunks
+    float sign;  // sign of a row
+    uint firstStop, stops; // body: rows of its static faces
+    uint stopOrigin;       // body: the particle about which moments of these rows are taken
     uint unused0;
 };
 

@@ -15,11 +15,11 @@ struct BodyFrame {
 // to the body's first particle.
 #define FRAME_SUMS 14
 #define FRAME_SUM_R 0      // sum of r; w: particles
-#define FRAME_SUM_X 1      // of x
-#define FRAME_SUM_V 2      // of v
-#define FRAME_SUM_RR 3     // of r r^T, three rows
-#define FRAME_SUM_DR 6     // of (x - r) r^T
-#define FRAME_SUM_VR 9     // of v r^T
+#define FRAME_SUM_X 1      // sum of x
+#define FRAME_SUM_V 2      // sum of v
+#define FRAME_SUM_RR 3     // sum of r r^T, three rows
+#define FRAME_SUM_DR 6     // sum of (x - r) r^T
+#define FRAME_SUM_VR 9     // sum of v r^T
 #define FRAME_SUM_LOW 12   // the box of x
 #define FRAME_SUM_HIGH 13
 

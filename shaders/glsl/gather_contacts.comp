@@ -51,7 +51,7 @@ void main() {
     const vec4 self = TOUCHING(i), velocity = VELOCITY(i);
     const float w = velocity.w, h = step.h;
     vec3 sum = vec3(0.0), stopping = vec3(0.0);
-    const uint resting = bounds.isSwept != 0u ? list.x : end, sweeping = bounds.isSwept != 0u ? end : list.x; // as in count_contacts
+    const uint resting = bounds.isSwept != 0u ? list.x : end, sweeping = bounds.isSwept != 0u ? end : list.x; // see count_contacts
     for (uint slot = list.x; slot < resting; ++slot) sum += impulseFrom(i, slot, self, velocity.xyz);
     for (uint slot = list.x; slot < sweeping; ++slot) addSwept(i, slot, self, velocity.xyz, sum, stopping);
 #ifdef FORCES

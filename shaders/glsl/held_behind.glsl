@@ -5,7 +5,7 @@
 // Requires the names and buffers of touch_faces.
 struct Held {
     uint body;
-    uint element; // of the face that holds the point; ~0 = none
+    uint element; // element of the face that holds the point; ~0 = none
     float rest;   // [m]
     vec3 d;       // from the nearest place to the point [m]
     float off;    // faces of the body whose d differs by less count as equally near [m]

@@ -10,7 +10,7 @@ layout(std430, binding = CHUNK_BINDING + 1) readonly buffer Links { uint links[]
 #endif
 #ifdef VOLUME
 #define HAS_WHOLE_CELLS
-layout(std430, binding = CHUNK_BINDING + 2) readonly buffer WholeCells { uint wholeCells[]; }; // as cells; 0 = not whole
+layout(std430, binding = CHUNK_BINDING + 2) readonly buffer WholeCells { uint wholeCells[]; }; // like cells; 0 = not whole
 #endif
 #else
 #define LINKS(i) 0u

@@ -6,7 +6,7 @@
 
 #include "skin_faces.glsl"
 #ifdef TEXELS
-layout(binding = 3) uniform usamplerBuffer allIndices; // of the uncut skins
+layout(binding = 3) uniform usamplerBuffer allIndices; // indices of the uncut skins
 #define INDEX(n) texelFetch(allIndices, int(n)).x
 #else
 layout(std430, binding = 3) readonly buffer AllIndices { uint allIndices[]; };
@@ -14,7 +14,7 @@ layout(std430, binding = 3) readonly buffer AllIndices { uint allIndices[]; };
 #endif
 layout(std430, binding = 4) writeonly buffer Indices { uint indices[]; };
 #ifdef MIXED
-layout(std430, binding = 5) readonly buffer States { uint states[]; }; // of whole triangles
+layout(std430, binding = 5) readonly buffer States { uint states[]; }; // one per whole triangle
 layout(std430, binding = 6) writeonly buffer MixedTriangles { uint mixedTriangles[]; };
 layout(std430, binding = 7) buffer Shown { uint shown[]; };
 #endif

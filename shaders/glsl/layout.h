@@ -28,9 +28,9 @@ struct DispatchArguments {
 struct StepParams {
     vec4 gravity;         // xyz [m/s^2]
     float h;              // substep length [s]
-    float hPrevious;      // of the step before; 0 in the first step (half-kick)
+    float hPrevious;      // substep length of the previous step; 0 in the first step (half-kick)
     float thetaH;         // `split`: stored position = x + thetaH v [s]
-    float thetaHPrevious; // of the step before
+    float thetaHPrevious; // thetaH of the previous step
     float velocityFactor; // exp(-damping h)
     float restSpeed;      // impacts slower than this do not rebound: 2 |g| h [m/s]
     uint frame;
@@ -109,10 +109,10 @@ struct AttachedParticle {
 #define GRAB_HANDS 8
 struct GrabHand {
     vec4 from, to;         // held point at the start and at the end of the step [m]
-    vec4 velocity;         // of the held point [m/s]
+    vec4 velocity;         // velocity of the held point [m/s]
     uint serial;           // 0 = holds nothing; a value that differs from that of the step before starts a new grab
     uint particle;         // at the centre of the grab
-    float radius;          // of the grabbed region [m]
+    float radius;          // radius of the grabbed region [m]
     float stiffness;       // per mass of all particles linked to the held ones [1/s^2]
     float damping;         // [1/s]
     float maxAcceleration; // [m/s^2]
@@ -130,9 +130,9 @@ struct GrabState {
 // The values of a particle that grabs use.
 struct GrabBody {
     uint component; // identifies the particles linked to it
-    float part;     // of the mass of its component; 0 = never moves
-    float mass;     // of its component [kg]
-    uint slot;      // of the particle in the solver's state
+    float part;     // share of the mass of its component; 0 = never moves
+    float mass;     // mass of its component [kg]
+    uint slot;      // slot of the particle in the solver's state
 };
 
 // The grab that holds a particle: GRAB_SHARE_BITS bits of its share, above them the index of the grab + 1, or 0.
@@ -259,7 +259,7 @@ struct CountPush {
 struct BoxesPush { // particles on equal, full grids, stored one after another
     uint count;
     uint perBox;         // particles per grid
-    uint nodesX, nodesY; // of a grid
+    uint nodesX, nodesY; // numbers of nodes of a grid
     uint origin;         // slot of the first particle
     uint rowStride, sliceStride, boxStride; // slots from a node to the next in y, in z, to that in the next grid
 };
@@ -304,14 +304,14 @@ struct GridBounds {
 #define MOST_FAST 256
 
 struct GridPush {
-    uint count;  // of particles; whole work groups
+    uint count;  // number of particles; whole work groups
     uint cells;  // a power of two
     float edge;  // smallest size of a cell [m]
     float most;  // largest radius in the grid [m]; larger particles are searched one by one
     uint others; // items of further passes that run with a build; 0 = none
     float quiet; // motion in a substep up to which no contact can lie on a path [m]
     uint bodies; // bodies with a frame
-    float reach, margin; // as in FramePush
+    float reach, margin; // see FramePush
     uint isLater; // 1 = in a substep after the first
 };
 
@@ -327,14 +327,14 @@ struct FindPush {
     float margin;  // distance beyond the reach up to which a pair is listed [m]
     uint room;     // capacity of the pool, in entries of all lists together
     uint large;    // particles that are searched one by one
-    float quiet;   // as in GridPush
+    float quiet;   // see GridPush
 };
 
 struct ContactPush {
-    uint count; // of particles; whole work groups
-    float friction, staticFriction; // of the pair of surfaces, if there is only one
+    uint count; // number of particles; whole work groups
+    float friction, staticFriction; // coefficients of the pair of surfaces, if there is only one
     float restitution;
-    float recoverySpeed; // of pairs that overlapped when the scene was loaded [m/s]
+    float recoverySpeed; // recovery speed of pairs that overlapped when the scene was loaded [m/s]
     uint surfaces;       // number of surfaces, if there are several: pair (a, b) is element a * surfaces + b of a table
 };
 
@@ -353,7 +353,7 @@ struct InterlockNode {
 #define INTERLOCK_APART 0
 #define INTERLOCK_PARTING 1
 #define INTERLOCK_LEFT 2
-#define INTERLOCK_SHALLOW 0.05 // of the reach of a contact: a tenth of a radius
+#define INTERLOCK_SHALLOW 0.05 // share of the reach of a contact: a tenth of a radius
 
 struct InterlockPair {
     uint state;
@@ -361,9 +361,9 @@ struct InterlockPair {
 };
 
 struct InterlockPush {
-    uint count; // of particles; whole work groups
+    uint count; // number of particles; whole work groups
     float recoverySpeed; // [m/s]
-    uint pairs; // of bodies
+    uint pairs; // pairs of bodies
 };
 
 // Coefficients of a contact between two surfaces.
@@ -404,7 +404,7 @@ struct ListRange {
 
 struct FaceFindPush {
     uint points, searched; // particles; small faces; in whole work groups
-    uint cells;            // of the grid
+    uint cells;            // cells of the grid
     float edge;
     float most;    // largest radius + motion of a point in the grid [m]
     float margin;  // distance beyond the reach up to which a pair is listed [m]
@@ -417,17 +417,17 @@ struct FaceFindPush {
 struct ContactEdge {
     uint a, b;
     uint isMoving; // 1 = one of its ends may move
-    float radius;  // of the ball around its midpoint that contains it; below 0 in padding [m]
+    float radius;  // radius of the ball around its midpoint that contains it; below 0 in padding [m]
 };
 
 struct PlaceEdgesPush { uint items, edges, members; }; // the larger number, in whole work groups; edges; watched ends
 
 struct FacePush {
-    uint count;   // of particles, or edges; whole work groups
+    uint count;   // number of particles, or edges; whole work groups
     uint surfaces; // number of surfaces; pair (a, b) is element a * surfaces + b of a table
-    float recoverySpeed; // of overlaps at the load of the scene [m/s]
+    float recoverySpeed; // recovery speed of overlaps that exist at load [m/s]
     uint moving; // faces below this index have a corner that moves; unused for edges
-    uint sheets; // of those, faces below this index have two sides, the others are the surface of closed bodies
+    uint sheets; // among those, faces below this index have two sides; the others are the surface of closed bodies
 };
 
 struct StopPush {
@@ -444,8 +444,8 @@ struct PackedSubstepPush {
     uint count;
     uint isFirst;
     float restLengths[PACKED_GROUPS]; // [m]
-    float units[PACKED_GROUPS];       // of stiffness [N/m]
-    float shares[PACKED_GROUPS];      // of shares [N/m]
+    float units[PACKED_GROUPS];       // units of stiffness [N/m]
+    float shares[PACKED_GROUPS];      // units of shares [N/m]
 };
 
 // Bodies on a regular grid: the invocations of a work group of the march, which is also the number of slots in a run
@@ -491,7 +491,7 @@ struct AttachmentPush {
 };
 
 struct ColliderPush {
-    uint count;         // of particles; whole work groups
+    uint count;         // number of particles; whole work groups
     uint before, after; // first pose of the colliders at the start of the substep, and at its end
     float lateKick;     // part of h g that is in v and has not moved x
 };
@@ -532,8 +532,8 @@ struct SleepPass {
 };
 
 struct SleepState {
-    vec4 gravity;  // of the last finished step [m/s^2]
-    float h;       // of the last finished step [s]
+    vec4 gravity;  // gravity of the last finished step [m/s^2]
+    float h;       // substep length of the last finished step [s]
     uint sleeping; // number of particles asleep at the end of the last step
     uint listed;   // number of groups that run in the next substep
     uint isMixed;  // 1 = some particles are awake and some sleep
@@ -544,12 +544,12 @@ struct SleepState {
 };
 
 struct SleepPush {
-    uint count;  // of particles; whole work groups
+    uint count;  // number of particles; whole work groups
     uint groups; // number of these groups
     uint attachments, colliders;
     uint driven;   // number of colliders, the last ones, that are balls around driven bodies
     uint passes;   // entries of the list of SleepPass
-    uint substeps; // of a step
+    uint substeps; // substeps of a step
 };
 
 struct DampedIterationPush {
@@ -561,7 +561,7 @@ struct DampedIterationPush {
 
 struct IterationPush {
     uint count;
-    uint firstSlot; // of this constraint type in the correction buffer
+    uint firstSlot; // first slot of this constraint type in the correction buffer
     uint isFirst;   // 1 in the first iteration of a substep
 };
 

@@ -10,7 +10,7 @@ layout(push_constant) uniform Push { FaceFindPush push; };
 #define PAIRS_BINDING 0
 #define ENTRIES_OF_PAIR 1u
 #include "listed_pairs.glsl"
-layout(std430, binding = 1) buffer Chains { uint chains[]; }; // of links
+layout(std430, binding = 1) buffer Chains { uint chains[]; }; // chains of links
 layout(std430, binding = 2) readonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) writeonly buffer Links { uint links[]; }; // elements of contacts

@@ -4,10 +4,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Groups { uint groups[]; };   // of particles; 0 = all asleep
+layout(std430, binding = 0) readonly buffer Groups { uint groups[]; };   // one per work group of particles; 0 = all asleep
 layout(std430, binding = 1) writeonly buffer Listed { uint listed[]; };  // groups that run
 layout(std430, binding = 2) readonly buffer Passes { SleepPass passes[]; };
-layout(std430, binding = 3) writeonly buffer Arguments { DispatchArguments arguments[]; }; // of each pass
+layout(std430, binding = 3) writeonly buffer Arguments { DispatchArguments arguments[]; }; // one per pass
 layout(std430, binding = 4) buffer State { SleepState state; };
 layout(push_constant) uniform Push { SleepPush push; };
 

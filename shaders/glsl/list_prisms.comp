@@ -14,7 +14,7 @@ layout(std430, binding = 7) readonly buffer Dirty { uint dirty[]; };
 layout(std430, binding = 8) buffer Counts { uint counts[]; };            // SKIN_LISTS of each body
 layout(std430, binding = 9) writeonly buffer Nears { uint nears[]; };    // each body begins at its first prism
 layout(std430, binding = 10) writeonly buffer Parted { uint parted[]; }; // the same
-layout(std430, binding = 11) buffer Flags { uint flags[]; };             // of slots
+layout(std430, binding = 11) buffer Flags { uint flags[]; };             // one per slot
 #define POINTS_BINDING 12
 #include "blade_points.glsl"
 layout(push_constant) uniform Push { SkinSlotsPush push; };

@@ -7,7 +7,7 @@
 #include "blade_places.glsl"
 #include "skin_slots.glsl"
 layout(std430, binding = 5) readonly buffer Status { StatusWords status; };
-layout(std430, binding = 6) buffer Flags { uint flags[]; }; // of slots
+layout(std430, binding = 6) buffer Flags { uint flags[]; }; // one per slot
 layout(std430, binding = 7) buffer Counts { uint counts[]; };
 layout(std430, binding = 8) writeonly buffer Listed { uint listed[]; }; // each body begins at its first vertex
 layout(std430, binding = 9) writeonly buffer Placed { PlacedVertex placed[]; };

@@ -2,7 +2,7 @@
 // (LISTS_PARTICLES). Requires the names bounds and GROUPS_BINDING of a kernel.
 layout(std430, binding = GROUPS_BINDING) buffer Arguments { DispatchArguments arguments[]; };
 #ifdef LISTS_OWNERS
-layout(std430, binding = GROUPS_BINDING + 1) buffer Marks { uint marks[]; }; // of each group: the newest build that listed it
+layout(std430, binding = GROUPS_BINDING + 1) buffer Marks { uint marks[]; }; // one per group: the newest build that listed it
 layout(std430, binding = GROUPS_BINDING + 2) writeonly buffer Owners { uint owners[]; };
 
 void listOwner(uint i) {

@@ -8,7 +8,7 @@
 
 layout(std430, binding = 0) readonly buffer Vertices { ivec4 vertices[]; };
 layout(std430, binding = 1) readonly buffer Triangles { uvec4 triangles[]; };
-layout(std430, binding = 2) readonly buffer RowStarts { uint rowStarts[]; }; // of each triangle, counted within its batch
+layout(std430, binding = 2) readonly buffer RowStarts { uint rowStarts[]; }; // one per triangle, counted within its batch
 layout(std430, binding = 3) buffer Cells { VoxelCell cells[]; };
 #ifdef LISTS
 layout(std430, binding = 4) writeonly buffer Touching { uint touching[]; };

@@ -9,7 +9,7 @@
 layout(std430, binding = 0) readonly buffer State { SleepState state; };
 layout(std430, binding = 1) readonly buffer Weights { float weights[]; };     // inverse mass of awake particles [1/kg]
 layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; };  // of sleeping particles: x [m]
+layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; };  // positions of sleeping particles [m]
 layout(std430, binding = 4) readonly buffer Islands { uint islands[]; };
 layout(std430, binding = 5) buffer Marks { uint marks[]; };
 layout(std430, binding = 6) readonly buffer Attachments { AttachedParticle attachments[]; };

@@ -5,7 +5,7 @@
 
 layout(std430, binding = 0) readonly buffer Wholes { WholeTriangle wholes[]; };
 layout(std430, binding = 1) readonly buffer States { uint states[]; };
-layout(std430, binding = 2) writeonly buffer Marks { uint marks[]; }; // of bound vertices
+layout(std430, binding = 2) writeonly buffer Marks { uint marks[]; }; // one per bound vertex
 layout(push_constant) uniform Push { CountPush push; };
 
 void main() {

@@ -22,14 +22,14 @@ layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 12) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 13) readonly buffer Listed { uint listed[]; }; // vertices (list_vertices)
 layout(std430, binding = 14) readonly buffer Placed { PlacedVertex placed[]; }; // by vertex (place_vertices)
-layout(std430, binding = 15) readonly buffer Planes { vec4 planes[]; };         // of the skin
+layout(std430, binding = 15) readonly buffer Planes { vec4 planes[]; };         // planes of the skin
 
 #include "near_skin.glsl"
 #include "blade_sweep.glsl"
 
 const float mostWay = 1.5;      // [cells]
 const float leastVolume = 1e-3; // relative to its rest volume: flatter material gives no rest position
-const float leastTangent = 0.2; // of the blade's normal in the plane of the skin, squared: a blade at a smaller angle shaves along the skin
+const float leastTangent = 0.2; // part of the blade's normal in the plane of the skin, squared: a blade at a smaller angle shaves along the skin
 
 // The rest position to which the blade between the vertex and its anchor moves the vertex; w = 0 if it does not.
 vec4 behindBlade(HungVertex self, PlacedVertex vertex, vec3 plane) {

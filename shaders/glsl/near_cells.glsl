@@ -41,7 +41,7 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], u
             const vec3 xj = uintBitsToFloat(other.xyz);
             const ivec3 cell = cellOf(xj, frame);
             const ivec2 row = firstCells[visit < second ? 0 : visit < third ? 1 : 2].yz;
-            if (cell.yz != row || cell == home && other.w <= i) continue; // of two in one cell the first lists the pair
+            if (cell.yz != row || cell == home && other.w <= i) continue; // the first of two in one cell lists the pair
             if (isFast(other.w) || !isNear(i, other.w, radius, x - xj)) continue;
             list(i, other.w);
         }

@@ -15,7 +15,7 @@ Searched searchedOf(uint e) {
     return Searched(e, edge, middles[e].xyz, a, POSITION(edge.b).xyz - a, wayOf(e), THICKNESS(e));
 }
 
-bool isApart(ContactEdge edge, float way) { // as in part_points
+bool isApart(ContactEdge edge, float way) { // see part_points
     const float size = edge.radius + way;
     return !(size <= push.most);
 }

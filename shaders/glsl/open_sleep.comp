@@ -8,9 +8,9 @@ layout(std430, binding = 0) buffer State { SleepState state; };
 layout(std430, binding = 1) buffer Status { StatusWords status; };
 layout(std430, binding = 2) writeonly buffer Waking { DispatchArguments waking[]; };
 layout(std140, binding = 3) uniform Step { StepParams step; };
-layout(std430, binding = 4) readonly buffer Anchors { vec4 anchors[]; };         // of each attachment: start and end of the step [m]
+layout(std430, binding = 4) readonly buffer Anchors { vec4 anchors[]; };         // one per attachment: start and end of the step [m]
 layout(std430, binding = 5) readonly buffer SeenAnchors { vec4 seenAnchors[]; }; // at the end of the last step
-layout(std430, binding = 6) readonly buffer Ways { ColliderPose ways[]; };       // of each collider: start and end of the step
+layout(std430, binding = 6) readonly buffer Ways { ColliderPose ways[]; };       // one per collider: start and end of the step
 layout(std430, binding = 7) readonly buffer SeenPoses { ColliderPose seenPoses[]; };
 layout(push_constant) uniform Push { SleepPush push; };
 

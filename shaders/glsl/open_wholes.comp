@@ -18,7 +18,7 @@ layout(binding = 6) uniform usamplerBuffer partitions;
 layout(std430, binding = 6) readonly buffer Partitions { uint partitions[]; };
 #define PARTITION(cell) partitions[cell]
 #endif
-layout(std430, binding = 7) writeonly buffer States { uint states[]; }; // of whole triangles
+layout(std430, binding = 7) writeonly buffer States { uint states[]; }; // one per whole triangle
 layout(push_constant) uniform Push { PrismPush push; };
 
 bool isBesideCut(uint v) { return PARTITION(hungAt(v).cell) != 0u || MOVED(v).w == VERTEX_MOVED; }

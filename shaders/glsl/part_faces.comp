@@ -11,7 +11,7 @@ layout(std430, binding = 2) readonly buffer Faces { CutFace faces[]; };
 layout(std430, binding = 3) writeonly buffer Searched { uint searched[]; }; // ~0 = none
 layout(std430, binding = 4) writeonly buffer Large { uint large[]; };       // the same
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
-layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
 layout(push_constant) uniform Push { CutFacesPush push; };
 #include "sheet_edges.glsl"

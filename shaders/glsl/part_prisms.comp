@@ -12,7 +12,7 @@ layout(std430, binding = 2) readonly buffer Prisms { SkinPrism prisms[]; };
 layout(std430, binding = 3) writeonly buffer Near { uint near[]; };    // 1 = a point may be bound to the particle
 layout(std430, binding = 4) writeonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 5) writeonly buffer Counts { SurfaceCounts counts[]; };
-layout(std430, binding = 6) writeonly buffer Rims { uint rims[]; };    // of bound vertices: 1 = a triangle around it is drawn in pieces
+layout(std430, binding = 6) writeonly buffer Rims { uint rims[]; };    // one per bound vertex: 1 = a triangle around it is drawn in pieces
 layout(std430, binding = 7) readonly buffer Parted { uint parted[]; };  // prisms near dead links (list_prisms)
 layout(push_constant) uniform Push { PrismPush push; };
 

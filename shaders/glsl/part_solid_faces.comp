@@ -12,11 +12,11 @@ layout(std430, binding = 2) readonly buffer Parts { CutSolidFace parts[]; };
 layout(std430, binding = 3) buffer Searched { uint searched[]; }; // ~0 = none
 layout(std430, binding = 4) buffer Large { uint large[]; };       // the same
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
-layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
 layout(std430, binding = 8) buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 9) writeonly buffer Opened { uint opened[]; }; // by face: 1 = new, or a link at one of its corners has died
-layout(std430, binding = 10) readonly buffer Corners { uint corners[]; }; // as in rows_of.glsl
+layout(std430, binding = 10) readonly buffer Corners { uint corners[]; }; // see rows_of.glsl
 layout(std430, binding = 11) writeonly buffer CornerEnds { uint cornerEnds[]; };
 layout(push_constant) uniform Push { CutFacesPush push; };
 

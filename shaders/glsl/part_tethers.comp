@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Labels { uint labels[]; }; // of pieces, by slot
+layout(std430, binding = 0) readonly buffer Labels { uint labels[]; }; // piece labels, by slot
 layout(std430, binding = 1) readonly buffer Parted { CutTether parted[]; };
 layout(std430, binding = 2) buffer Tethers { TetherReach tethers[]; };
 layout(push_constant) uniform Push { CountPush push; };

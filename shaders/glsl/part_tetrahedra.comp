@@ -9,7 +9,7 @@
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer Complex { uint complex[]; };
 layout(std430, binding = 2) readonly buffer ListedCounts { uint listedCounts[]; };
-layout(std430, binding = 3) writeonly buffer Partitions { uint partitions[]; }; // of the cell above a slot, 5 bits each
+layout(std430, binding = 3) writeonly buffer Partitions { uint partitions[]; }; // partition of the cell above a slot, 5 bits each
 layout(std430, binding = 4) writeonly buffer Near { uint near[]; };             // 1 = the gradient is needed there
 layout(std430, binding = 5) readonly buffer Listed { uint listed[]; };
 #include "listed_slot.glsl"

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Ways { ColliderPose ways[]; }; // of each collider: start and end of the step
+layout(std430, binding = 0) readonly buffer Ways { ColliderPose ways[]; }; // one per collider: start and end of the step
 layout(std430, binding = 1) writeonly buffer Poses { ColliderPose poses[]; };
 layout(push_constant) uniform Push { PlacePush push; };
 

@@ -11,9 +11,9 @@ layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
 layout(std430, binding = 3) readonly buffer Thickness { float thickness[]; };
 layout(std430, binding = 4) writeonly buffer Middles { vec4 middles[]; };
 layout(std430, binding = 5) writeonly buffer Speeds { vec4 speeds[]; };    // x [m/s]
-layout(std430, binding = 6) writeonly buffer Detected { vec4 detected[]; }; // of each particle
-layout(std430, binding = 7) readonly buffer Bodies { float bodies[]; };     // of each particle
-layout(std430, binding = 8) readonly buffer Watched { float watched[]; };   // of each particle; below 0 = nothing can touch its edges
+layout(std430, binding = 6) writeonly buffer Detected { vec4 detected[]; }; // one per particle
+layout(std430, binding = 7) readonly buffer Bodies { float bodies[]; };     // one per particle
+layout(std430, binding = 8) readonly buffer Watched { float watched[]; };   // one per particle; below 0 = nothing can touch its edges
 layout(std430, binding = 9) readonly buffer Members { uint members[]; };    // particles that are ends
 layout(std140, binding = 10) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { PlaceEdgesPush push; };

@@ -6,7 +6,7 @@
 
 layout(std430, binding = 0) readonly buffer Work { CutWork work; };
 layout(std430, binding = 1) buffer Counts { CutCounts counts; };
-layout(std430, binding = 2) readonly buffer Groups { uint groups[]; }; // of every argument
+layout(std430, binding = 2) readonly buffer Groups { uint groups[]; }; // one per argument
 layout(std430, binding = 3) writeonly buffer Arguments { DispatchArguments arguments[]; };
 layout(std430, binding = 4) readonly buffer Listed { uint listedCounts[]; }; // by run: slots near dead links
 layout(std430, binding = 5) writeonly buffer Even { DispatchArguments even[]; }; // rounds 0, 2, 4 ..., by run

@@ -11,7 +11,7 @@
 
 layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
-layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // of each element
+layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // one per element
 layout(std430, binding = 4) readonly buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };
@@ -19,7 +19,7 @@ layout(std430, binding = 7) buffer Memory { vec4 memory[]; };            // slip
 layout(std430, binding = 8) writeonly buffer Impulses { vec4 impulses[]; }; // [kg m]
 layout(std430, binding = 9) readonly buffer Before { vec4 before[]; };      // velocities at the start of the substep
 layout(std140, binding = 10) uniform Step { StepParams step; };
-layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
+layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // one per particle
 layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
 layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
 #include "row_items.glsl"

@@ -6,7 +6,7 @@
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Status { StatusWords status; };
-layout(std430, binding = 1) writeonly buffer Detected { vec4 detected[]; }; // of each particle: position when lists were made
+layout(std430, binding = 1) writeonly buffer Detected { vec4 detected[]; }; // one per particle: position when lists were made
 layout(std430, binding = 2) buffer Bounds { GridBounds bounds; };
 #ifdef HAS_MEMORY
 layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };

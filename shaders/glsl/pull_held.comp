@@ -15,7 +15,7 @@ layout(std430, binding = 4) readonly buffer Held { uint held[]; };
 layout(std430, binding = 5) readonly buffer Pulling { DispatchArguments pulling; };
 #ifdef OPEN
 layout(std430, binding = 6) readonly buffer Positions { vec4 positions[]; }; // predicted; w = inverse mass [1/kg]
-layout(std430, binding = 7) readonly buffer Velocities { vec4 velocities[]; }; // of the prediction
+layout(std430, binding = 7) readonly buffer Velocities { vec4 velocities[]; }; // velocities of the prediction
 #else
 layout(std430, binding = 6) buffer Positions { vec4 positions[]; };   // x + thetaH v
 layout(std430, binding = 7) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]

@@ -14,7 +14,7 @@ layout(std430, binding = 4) writeonly buffer PulledPlaces { vec4 pulledPlaces[];
 layout(std430, binding = 5) readonly buffer PlacesBefore { vec4 before[]; }; // w = 0: no blade yet
 layout(std430, binding = 6) buffer Work { CutWork work; };
 layout(std430, binding = 7) readonly buffer Blade { BladeHead blade; };
-layout(std430, binding = 8) buffer Pulls { vec4 pulls[]; }; // of the stroke; w = 0: not yet set
+layout(std430, binding = 8) buffer Pulls { vec4 pulls[]; }; // pulls of the stroke; w = 0: not yet set
 
 #define ALIVE(i) links[i]
 #define AT(i) places[i].xyz

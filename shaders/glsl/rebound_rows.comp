@@ -8,7 +8,7 @@
 
 layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; }; // after all contacts of the substep
 layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; };
-layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // of each element
+layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // one per element
 layout(std430, binding = 4) readonly buffer Bounces { vec4 bounces[]; };
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };

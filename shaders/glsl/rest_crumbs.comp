@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 0) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 1) readonly buffer Pieces { uint pieces[]; };
 layout(std430, binding = 2) buffer Limits { float limits[]; }; // below 0 = rests
 layout(push_constant) uniform Push { CrumbPush push; };

@@ -3,7 +3,7 @@
 // Lines x = a + s ab and c + t cd.
 struct Crossing {
     vec3 n;       // unit, across both
-    float height; // of the first above the second along n [m]
+    float height; // height of the first above the second along n [m]
     float s, t;   // parameters of the nearest points; inside both segments between 0 and 1
     bool exists;  // they are not parallel
 };

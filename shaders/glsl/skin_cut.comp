@@ -20,7 +20,7 @@ layout(std430, binding = 7) readonly buffer CutVertices { CutVertex cutVertices[
 CutVertex vertexAt(uint i) { return cutVertices[i]; }
 #endif
 layout(std430, binding = 8) writeonly buffer Vertices { SkinVertex vertices[]; };
-layout(std430, binding = 9) writeonly buffer Turns { Gradient turns[]; }; // of each point: rotation of normals, for skin_pieces
+layout(std430, binding = 9) writeonly buffer Turns { Gradient turns[]; }; // one per point: rotation of normals, for skin_pieces
 #ifdef HUNG
 #ifdef TEXELS
 layout(binding = 10) uniform samplerBuffer skinVertices; // SkinVertex

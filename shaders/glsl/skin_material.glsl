@@ -3,8 +3,8 @@
 #ifdef TEXELS
 layout(binding = 1) uniform usamplerBuffer links;
 layout(binding = 2) uniform samplerBuffer rest;
-layout(binding = 3) uniform usamplerBuffer particles; // of each slot
-layout(binding = 4) uniform samplerBuffer positions;  // of each particle
+layout(binding = 3) uniform usamplerBuffer particles; // one per slot
+layout(binding = 4) uniform samplerBuffer positions;  // one per particle
 layout(binding = 5) uniform samplerBuffer gradients;  // Gradient
 layout(binding = 6) uniform usamplerBuffer near;
 #define LINKS(i) texelFetch(links, int(i)).x
@@ -19,8 +19,8 @@ mat3 turnOf(uint i) {
 #else
 layout(std430, binding = 1) readonly buffer Links { uint links[]; };
 layout(std430, binding = 2) readonly buffer Rest { vec4 rest[]; };
-layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // of each slot
-layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; }; // of each particle
+layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // one per slot
+layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; }; // one per particle
 layout(std430, binding = 5) readonly buffer Gradients { Gradient gradients[]; };
 layout(std430, binding = 6) readonly buffer Near { uint near[]; };
 #define LINKS(i) links[i]

@@ -30,7 +30,7 @@ layout(std430, binding = 3) readonly buffer TrianglesOfVertex { uint trianglesOf
 #endif
 #ifdef WHOLE // for mixed skins: where all triangles around a vertex are whole
 layout(std430, binding = NEXT) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = NEXT + 1) readonly buffer Marks { uint marks[]; }; // of bound vertices
+layout(std430, binding = NEXT + 1) readonly buffer Marks { uint marks[]; }; // one per bound vertex
 layout(push_constant) uniform Push { WholePush push; };
 #else
 #ifdef SHOWN // only vertices that a mixed skin draws

@@ -6,8 +6,8 @@
 
 layout(std430, binding = 0) readonly buffer State { SurfaceState state; };
 layout(std430, binding = 1) readonly buffer CutVertices { CutVertex cutVertices[]; };
-layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; }; // of each particle
-layout(std430, binding = 3) readonly buffer Gradients { Gradient gradients[]; }; // of each slot
+layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; }; // one per particle
+layout(std430, binding = 3) readonly buffer Gradients { Gradient gradients[]; }; // one per slot
 layout(std430, binding = 4) buffer Vertices { SkinVertex vertices[]; };
 layout(std430, binding = 5) readonly buffer SkinVertices { SkinVertex skinVertices[]; };
 layout(std430, binding = 6) readonly buffer Turns { Gradient turns[]; };

@@ -8,7 +8,7 @@
 #include "compliance.glsl"
 
 layout(std430, binding = 0) readonly buffer Attachments { AttachedParticle attachments[]; };
-layout(std430, binding = 1) readonly buffer Anchors { vec4 anchors[]; }; // of each attachment: start and end of the step [m]
+layout(std430, binding = 1) readonly buffer Anchors { vec4 anchors[]; }; // one per attachment: start and end of the step [m]
 #ifdef OPEN
 layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; }; // predicted; w = inverse mass [1/kg]
 layout(std430, binding = 3) buffer Corrections { vec4 corrections[]; };      // ParticleCorrection

@@ -59,7 +59,7 @@ float reachOf(float own, uint other) { return own + radii[other]; }
 #define OWNERS_BINDING GROUPS_BINDING
 #endif
 #ifdef OWNERS_BINDING
-layout(std430, binding = OWNERS_BINDING) writeonly buffer Owners { uint owners[]; }; // of each element
+layout(std430, binding = OWNERS_BINDING) writeonly buffer Owners { uint owners[]; }; // one per element
 #endif
 
 void listGroups(uint i) {

@@ -18,10 +18,10 @@
 
 // Stored positions: y, tau [s^2]. RESIDENT: a work group keeps a whole body in shared memory for all substeps.
 #ifdef RESIDENT
-layout(constant_id = 7) const uint residentSlots = 512; // of a body
+layout(constant_id = 7) const uint residentSlots = 512; // slots of a body
 shared vec4 resident[2 * residentSlots];
 uint front = 0u, back = residentSlots; // halves that this substep reads and writes
-uint firstSlot, lastSlot;              // of the body, in the state; links beyond them have a stiffness of 0
+uint firstSlot, lastSlot;              // range of the body in the state; links beyond them have a stiffness of 0
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
 #define POSITION(i) resident[front + min(uint(i) - firstSlot, lastSlot - firstSlot)]
 #define STORE_POSITION(i, value) resident[back + (i) - firstSlot] = value
@@ -79,7 +79,7 @@ struct Substep {
     float hh;      // H^2 [s^2]
     float kick;    // k [s]
     float impulse; // k / H^2 [1/s]
-    float thetaH;  // of the stored positions [s]
+    float thetaH;  // theta H of the stored positions [s]
 };
 
 Substep substepOf(bool isFirst) {

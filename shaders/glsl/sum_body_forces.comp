@@ -5,8 +5,8 @@
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Forces { vec4 forces[]; };
-layout(std430, binding = 1) readonly buffer Positions { vec4 positions[]; }; // of particles; w = inverse mass [1/kg]
-layout(std430, binding = 2) readonly buffer Slots { uint slots[]; };        // of particles
+layout(std430, binding = 1) readonly buffer Positions { vec4 positions[]; }; // one per particle; w = inverse mass [1/kg]
+layout(std430, binding = 2) readonly buffer Slots { uint slots[]; };        // one per particle
 layout(std430, binding = 3) readonly buffer Chunks { ForceChunk chunks[]; };
 layout(std430, binding = 4) writeonly buffer Parts { BodyForcePart parts[]; };
 layout(push_constant) uniform Push { ForcePush push; };

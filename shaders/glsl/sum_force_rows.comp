@@ -4,7 +4,7 @@
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Forces { vec4 forces[]; };
-layout(std430, binding = 1) readonly buffer Elements { uint elements[]; }; // of holds
+layout(std430, binding = 1) readonly buffer Elements { uint elements[]; }; // elements of holds
 layout(std430, binding = 2) readonly buffer Chunks { ForceChunk chunks[]; };
 layout(std430, binding = 3) writeonly buffer Parts { ForceSum parts[]; };
 layout(push_constant) uniform Push { ForcePush push; };

@@ -13,7 +13,7 @@ layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
 layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; };     // ContactCandidate, in one load
-layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };           // of each edge: first element that it owns, count
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };           // one per edge: first element that it owns, count
 layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };          // w: side and overlap, 0 = no contact so far
 layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n from the other to the owner, depth [m]; 0 = none
 layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; w: new memory
@@ -24,7 +24,7 @@ layout(push_constant) uniform Push { FacePush push; };
 #define MARKS_BINDING 9
 #include "keeps_rest.glsl"
 #include "recovery.glsl"
-layout(std430, binding = 10) readonly buffer Owners { uint owners[]; };        // of each element
+layout(std430, binding = 10) readonly buffer Owners { uint owners[]; };        // one per element
 layout(std430, binding = 11) readonly buffer Links { uint links[]; };          // elements that others own
 layout(std430, binding = 12) readonly buffer LinkLists { uvec2 linkLists[]; }; // ranges in links, by edge
 #include "edge_touch.glsl"

@@ -2,7 +2,7 @@
 // of the edges. Coordinates are relative to corner a, so that large ones do not cancel.
 struct Triangle {
     vec3 ab, ac; // [m]
-    vec3 normal; // of length twice the area [m^2]
+    vec3 normal; // its length is twice the area [m^2]
 };
 
 Triangle triangleOf(vec3 ab, vec3 ac) { return Triangle(ab, ac, cross(ab, ac)); }
@@ -24,7 +24,7 @@ vec3 weightsOf(vec3 ap, Triangle triangle) {
 }
 
 struct Nearest {
-    vec3 weights;  // of the corners, none below 0
+    vec3 weights;  // weights of the corners, none below 0
     vec3 d;        // from there to the point [m]
     bool isInside; // the point projects onto the inside of the triangle
 };

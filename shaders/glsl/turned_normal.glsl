@@ -6,7 +6,7 @@
 #include "link_masks.glsl"
 #include "nearby.glsl"
 
-SkinGrid grid; // of the current vertex
+SkinGrid grid; // grid of the current vertex
 int offsetOf(ivec3 d) { return d.x + d.y * int(grid.rowStride) + d.z * int(grid.sliceStride); }
 #define ALIVE(i) LINKS(i)
 #define REST(i) HOME(i)

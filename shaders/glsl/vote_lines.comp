@@ -13,7 +13,7 @@ layout(std430, binding = 1) readonly buffer Triangles { uvec4 triangles[]; };
 layout(std430, binding = 2) readonly buffer Cells { VoxelCell cells[]; };
 layout(std430, binding = 3) readonly buffer Touching { uint touching[]; };
 layout(std430, binding = 4) buffer Votes { uint votes[]; };          // by cell, or by hull cell and line
-layout(std430, binding = 5) writeonly buffer Totals { uint totals[]; }; // of a line: 0 closed, 1 even, 2 odd
+layout(std430, binding = 5) writeonly buffer Totals { uint totals[]; }; // one per line: 0 closed, 1 even, 2 odd
 // The first hull cell of every column along the axis, then the next one after each hull cell.
 #ifdef CENTERS
 layout(std430, binding = 6) writeonly buffer Links { uint links[]; };

@@ -21,7 +21,7 @@ struct VoxelPush {
     uint first, count;                        // items of this dispatch
     uint cellsX, cellsY, cellsZ, fractionBits; // coordinates are integers, 2^fractionBits a cell
     uint cellCount;                           // in `Cells`: of the grid, or blocks of a higher level of the prefix sum
-    uint axis;                                // of the lines
+    uint axis;                                // axis of the lines
     uint triangle, triangleCount;             // a batch
     uint nodeCount;
 };

@@ -6,7 +6,7 @@
 
 layout(std430, binding = 0) readonly buffer Bodies { GrabBody bodies[]; };
 layout(std430, binding = 1) readonly buffer Held { uint held[]; };
-layout(std430, binding = 2) readonly buffer Pulling { DispatchArguments pulling; }; // of the grabs
+layout(std430, binding = 2) readonly buffer Pulling { DispatchArguments pulling; }; // arguments of the grabs
 layout(std430, binding = 3) readonly buffer Weights { float weights[]; };
 layout(std430, binding = 4) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 5) readonly buffer Islands { uint islands[]; };

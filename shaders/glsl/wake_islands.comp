@@ -9,7 +9,7 @@ layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inv
 layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Islands { uint islands[]; };
 layout(std430, binding = 3) readonly buffer Marks { uint marks[]; };
-layout(std430, binding = 4) buffer Groups { uint groups[]; }; // of particles: bit 0 = any awake
+layout(std430, binding = 4) buffer Groups { uint groups[]; }; // one per work group of particles: bit 0 = any awake
 layout(push_constant) uniform Push { SleepPush push; };
 
 void main() {

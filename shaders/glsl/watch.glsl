@@ -15,6 +15,6 @@ void watchFast(uint i, float way, float quiet, float most) {
 void watch(uint i, vec3 x, vec3 v, float quiet, float most) {
     float farthest;
     if (hasStrayed(i, x, v, farthest)) atomicMax(bounds.moved, floatBitsToUint(clamp(farthest, 1e-30, 1e30)));
-    const float far = wayOf(step.h, v); // as in find_contacts and cap_speeds
+    const float far = wayOf(step.h, v); // see find_contacts and cap_speeds
     if (far > quiet) watchFast(i, far, quiet, most);
 }

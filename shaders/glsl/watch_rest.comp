@@ -20,7 +20,7 @@ void main() {
     least[i] = 0x7f800000u;
     const vec4 velocity = velocities[i];
     if (weights[i] > 0.0 && velocity.w == 0.0) return; // asleep: its island stays
-    islands[i] = components[i]; // of static particles too: a piece may be named after one (part_islands)
+    islands[i] = components[i]; // includes static particles: a piece may be named after one (part_islands)
     if (weights[i] == 0.0) return;
     const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz;
     if (limits[i] < 0.0) {

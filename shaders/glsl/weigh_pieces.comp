@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 
-layout(std430, binding = 0) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 0) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 1) readonly buffer Pieces { uint pieces[]; };
 layout(std430, binding = 2) readonly buffer UncutBodies { GrabBody uncutBodies[]; };
 layout(std430, binding = 3) buffer Weights { uint weights[]; }; // at the particle that a piece is named after

@@ -17,7 +17,7 @@ layout(std430, binding = 5) readonly buffer State { SurfaceState state; };
 layout(std430, binding = 6) readonly buffer Rest { vec4 rest[]; }; // w = index of the body's skin
 layout(std430, binding = 7) buffer Vertices { CutVertex vertices[]; };
 layout(std430, binding = 8) writeonly buffer Indices { uint indices[]; };
-layout(std430, binding = 9) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 9) readonly buffer Particles { uint particles[]; }; // one per slot
 
 uint next; // index of the next outer triangle
 int normal[3];

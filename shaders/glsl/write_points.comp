@@ -12,7 +12,7 @@ layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // the co
 layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 2) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 3) readonly buffer Hits { LinkHits hits[]; };
-layout(std430, binding = 4) readonly buffer Rest { vec4 rest[]; }; // as blades see particles (pull_places); w = index of the body's skin
+layout(std430, binding = 4) readonly buffer Rest { vec4 rest[]; }; // particles as blades see them (pull_places); w = index of the body's skin
 layout(std430, binding = 5) writeonly buffer Vertices { CutVertex vertices[]; };
 
 // Position of the cut on a link; the midpoint for a link cut by rule K alone, which has no position.

@@ -11,7 +11,7 @@ layout(std430, binding = 1) readonly buffer Hits { LinkHits hits[]; };
 layout(std430, binding = 2) readonly buffer Triangles { SheetTriangle triangles[]; };
 layout(std430, binding = 3) readonly buffer Starts { SheetCounts starts[]; };
 layout(std430, binding = 4) readonly buffer State { SheetState state; };
-layout(std430, binding = 5) readonly buffer AllIndices { uint allIndices[]; }; // of the uncut skins
+layout(std430, binding = 5) readonly buffer AllIndices { uint allIndices[]; }; // indices of the uncut skins
 layout(std430, binding = 6) writeonly buffer Indices { uint indices[]; };
 layout(std430, binding = 7) writeonly buffer Vertices { SheetVertex vertices[]; };
 layout(push_constant) uniform Push { SheetPush push; };

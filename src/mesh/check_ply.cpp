@@ -25,7 +25,7 @@ struct Type {
 
 struct Property {
     std::string_view name;
-    Type type;      ///< of the value, or of the items of a list
+    Type type;      ///< type of the value, or of the items of a list
     Type countType; ///< bytes 0 = not a list
     bool isList() const { return countType.bytes != 0; }
 };

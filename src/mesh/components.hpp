@@ -11,7 +11,7 @@ namespace sinew::mesh {
 /// A connected surface: triangles that share vertices. A closed surface that faces inward and lies inside of
 /// another component is a cavity and belongs to that component.
 struct Component {
-    std::string name;                     ///< of its object if it is all of that object, else "part N"
+    std::string name;                     ///< name of its object if it is all of that object, else "part N"
     std::vector<std::uint32_t> triangles; ///< indices, ascending
     double volume = 0;                    ///< enclosed, less the cavities [m^3]; an estimate if it is open
     bool isClosed = false;                ///< every edge has two triangles or more

@@ -16,7 +16,7 @@ struct ShadedPart {
 /// A body, or one of the pieces of a cut body.
 struct ShadedMesh {
     std::string name;
-    Vec3 color{0.78f, 0.36f, 0.32f}; ///< of the outside, linear RGB
+    Vec3 color{0.78f, 0.36f, 0.32f}; ///< color of the outside, linear RGB
     std::vector<ShadedPart> parts;
 };
 

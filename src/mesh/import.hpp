@@ -15,7 +15,7 @@ namespace sinew::mesh {
 struct ImportLimits {
     std::uint64_t fileBytes = 512ull << 20;
     std::uint64_t triangles = 5'000'000;
-    std::uint64_t addressSpaceBytes = 1ull << 30; ///< of the child, beyond that of the parent
+    std::uint64_t addressSpaceBytes = 1ull << 30; ///< limit of the child, beyond that of the parent
     double cpuSeconds = 3, wallSeconds = 10;
     double bytesPerSecond =
         16e6; ///< large files get one second more of CPU time per this many bytes, and two of the clock

@@ -14,8 +14,8 @@ namespace sinew::mesh {
 struct SplitSkin {
     std::vector<Vector3> positions; ///< [cells]; the given ones come first, unchanged
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::uint32_t> wholeOf; ///< of each triangle: index of the given one that contains it
-    std::vector<std::array<std::int64_t, 3>> anchors; ///< of each vertex: a nearby node
+    std::vector<std::uint32_t> wholeOf; ///< one per triangle: index of the given one that contains it
+    std::vector<std::array<std::int64_t, 3>> anchors; ///< one per vertex: a nearby node
 };
 
 /// `positions` in cell units, relative to node (0, 0, 0). Adjacency is kept: edges are split once, for both

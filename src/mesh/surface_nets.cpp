@@ -118,7 +118,7 @@ struct Net {
 
 Net makeNet(const Samples& samples) {
     Net net;
-    std::vector<std::uint32_t> vertices(samples.values.size(), noVertex); // of the cell above a corner
+    std::vector<std::uint32_t> vertices(samples.values.size(), noVertex); // vertex of the cell above a corner
     forEach({samples.corners[0] - 1, samples.corners[1] - 1, samples.corners[2] - 1}, [&](Index3 cell) {
         Vector3 mean;
         if (meanCrossing(samples, cell, mean) == 0) return;

@@ -24,7 +24,7 @@ public:
         return true;
     }
 
-    std::size_t number() const { return number_; } ///< of the line last returned, from 1
+    std::size_t number() const { return number_; } ///< number of the line last returned, from 1
     std::string_view rest() const { return rest_; }
 
 private:

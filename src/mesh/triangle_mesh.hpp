@@ -15,7 +15,7 @@ struct TriangleMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
     /// Index of each triangle's object in `objectNames`, or noObject; empty if no object has a name.
     std::vector<std::uint32_t> objects = {};
-    std::vector<std::string> objectNames = {}; ///< as in the file, no two equal
+    std::vector<std::string> objectNames = {}; ///< names from the file, no two equal
     /// Number of the component that contained each triangle before a selection, from 1; empty without a
     /// selection.
     std::vector<std::uint32_t> parts = {};

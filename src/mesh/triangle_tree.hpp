@@ -48,7 +48,7 @@ public:
         Vector3 center, dipole;             ///< dipole: sum of area x normal
         double farSquared = 0;              ///< square of the distance beyond which it counts as a dipole
         std::uint32_t next = 0;             ///< equal to the number of nodes at the end
-        std::uint32_t first = 0, count = 0; ///< of a leaf, in order(); count 0 = inner node
+        std::uint32_t first = 0, count = 0; ///< triangles of a leaf, in order(); count 0 = inner node
     };
     std::vector<FlatNode> flatten() const;
     /// Indices of the triangles in the order of the leaves.
@@ -59,7 +59,7 @@ private:
         Eigen::AlignedBox3d box;
         Vector3 center = Vector3::Zero();   ///< mean of the triangles' centres, weighted by area
         Vector3 dipole = Vector3::Zero();   ///< sum of area x normal
-        double radius = 0;                  ///< of a ball around `center` that contains the box
+        double radius = 0;                  ///< radius of a ball around `center` that contains the box
         std::uint32_t first = 0, count = 0; ///< triangles of a leaf; count 0 = inner node
         std::uint32_t right = 0;            ///< second child of an inner node; the first is the next node
     };

@@ -26,7 +26,7 @@ struct VoxelGrid {
 struct VoxelRequest {
     float spacing = 0;                 ///< [m]; 0 = chosen so that the longest side has `resolution` cells
     std::uint32_t resolution = 24;     ///< cells along the longest side if spacing is 0
-    std::size_t maxCells = 16'777'216; ///< of the whole grid; more throws std::length_error with both figures
+    std::size_t maxCells = 16'777'216; ///< in the whole grid; more throws std::length_error with both figures
 };
 
 /// Hull by the separating-axis test in Schwarz-Seidel form (2010), conservative. Core by parity along three

@@ -24,7 +24,7 @@ constexpr double leastDepth = 0.45;
 /// Open components of less area are too narrow to be thickened by themselves: triangles of a file in which no
 /// two share corners [cells^2].
 constexpr double leastArea = 4;
-constexpr std::uint32_t nobody = ~0u, crumbs = nobody - 1; ///< of far samples; of narrow components
+constexpr std::uint32_t nobody = ~0u, crumbs = nobody - 1; ///< label of far samples; of narrow components
 
 /// Signed distances at the samples of a grid and of a rim around it, negative inside.
 class Field {

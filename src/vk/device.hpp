@@ -130,7 +130,7 @@ public:
     VkDevice handle() const noexcept;
     std::uint32_t queueFamily() const noexcept;
     VkQueueFlags
-    queueFlags() const noexcept; ///< of the family: determines the pipeline stages that a barrier may name
+    queueFlags() const noexcept; ///< family flags: determine the pipeline stages that a barrier may name
     PFN_vkGetInstanceProcAddr getInstanceProcAddr() const noexcept;
     const InstanceFunctions& instanceFunctions() const noexcept;
     const DeviceFunctions& functions() const noexcept;

@@ -152,7 +152,7 @@ Instance::Instance(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const DeviceRe
     if (hasValidation && (!hasLayer(global, validationLayer) || !hasDebugUtils_))
         throw Error(Failure::noDevice, std::string("cannot validate: ") + validationLayer +
                                            " is missing: install vulkan-validationlayers");
-    if (hasValidation) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME); // of the layer
+    if (hasValidation) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME); // layer's own
     instance_ = createInstance(global, extensions, hasValidation, messages_);
     try {
         functions_ = loadInstanceFunctions(getInstanceProcAddr, instance_);

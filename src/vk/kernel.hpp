@@ -68,7 +68,7 @@ private:
     const DeviceFunctions* functions_ = nullptr;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     std::vector<VkDescriptorSet> sets_;
-    std::vector<VkBufferView> texels_; ///< of all texel bindings
+    std::vector<VkBufferView> texels_; ///< views of all texel bindings
 };
 
 } // namespace sinew::vk

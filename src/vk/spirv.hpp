@@ -31,7 +31,7 @@ struct KernelBinding {
     /// texels, whose kernels declare none
     std::uint32_t stride = 0;
     BlockKind kind = BlockKind::storage;
-    bool isFloat = false; ///< of texels: float32, else uint32
+    bool isFloat = false; ///< texels: float32, else uint32
     /// True if decorated Aliased: its buffer may be bound to another such binding too, even if one of both
     /// writes it.
     bool isAliased = false;

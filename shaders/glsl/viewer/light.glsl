@@ -6,7 +6,7 @@ layout(constant_id = 1) const uint shadowTaps = 32u;
 
 layout(set = 0, binding = 1) uniform sampler2DShadow shadowMap;
 layout(set = 0, binding = 2) uniform sampler2D shadowDepth; // the same map, without comparison
-layout(set = 0, binding = 4) uniform sampler2D floorMap;    // of floor.frag
+layout(set = 0, binding = 4) uniform sampler2D floorMap;    // texture of floor.frag
 
 const vec3 keyLight = vec3(2.75, 2.58, 2.34); // irradiance of a facing surface
 const vec3 skyLight = vec3(0.82, 0.85, 0.90); // irradiance of an upward surface

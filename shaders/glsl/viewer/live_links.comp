@@ -7,7 +7,7 @@
 layout(std430, binding = 0) readonly buffer Links { LineLink links[]; };
 layout(std430, binding = 1) readonly buffer Alive { uint alive[]; }; // by slot, link_masks.glsl
 layout(std430, binding = 2) writeonly buffer Indices { uint indices[]; };
-layout(std430, binding = 3) readonly buffer Pieces { uint pieces[]; }; // of particles
+layout(std430, binding = 3) readonly buffer Pieces { uint pieces[]; }; // one per particle
 layout(push_constant) uniform Push { ValuesPush push; };
 
 void main() {

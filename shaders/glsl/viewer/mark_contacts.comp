@@ -18,7 +18,7 @@ layout(std430, binding = 7) readonly buffer FacePairs { uvec2 facePairs[]; }; //
 layout(std430, binding = 8) readonly buffer FaceLists { uvec2 faceLists[]; };
 layout(std430, binding = 9) writeonly buffer Marks { ContactMark marks[]; };
 layout(std430, binding = 10) buffer Draw { MarkDraw draw; };
-layout(std430, binding = 11) readonly buffer Pieces { uint pieces[]; }; // of particles
+layout(std430, binding = 11) readonly buffer Pieces { uint pieces[]; }; // one per particle
 layout(push_constant) uniform Push { MarkPush push; };
 #include "viewer/marks.glsl"
 

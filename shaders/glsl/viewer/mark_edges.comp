@@ -13,7 +13,7 @@ layout(std430, binding = 3) readonly buffer Candidates { uvec2 candidates[]; }; 
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) writeonly buffer Marks { ContactMark marks[]; };
 layout(std430, binding = 6) buffer Draw { MarkDraw draw; };
-layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; }; // of particles
+layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; }; // one per particle
 layout(push_constant) uniform Push { MarkPush push; };
 #include "viewer/marks.glsl"
 

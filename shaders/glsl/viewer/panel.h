@@ -13,7 +13,7 @@ struct PanelPush {
     vec2 scale; // 2 / size of the picture [1/pixel]
     vec2 atlas; // size of the atlas, or of the sheet of pictures [texels]
     vec2 full; // texel of the atlas with full coverage, used for everything but glyphs [texels]
-    float pictureHeight; // of each picture in the sheet [texels]
+    float pictureHeight; // height of each picture in the sheet [texels]
 };
 
 #ifdef __cplusplus

@@ -6,7 +6,7 @@
 layout(constant_id = 0) const uint isLinear = 1; // the target encodes linear colors
 layout(std430, binding = 1) readonly buffer Sheet { uint sheet[]; }; // sRGB, rows from the top
 layout(push_constant) uniform Push { PanelPush push; };
-layout(location = 0) in vec2 texel; // of the sheet, in the units of push.atlas
+layout(location = 0) in vec2 texel; // texel of the sheet, in the units of push.atlas
 layout(location = 1) in vec4 color;
 layout(location = 0) out vec4 shown;
 

@@ -4,7 +4,7 @@
 #include "kernel.glsl"
 #include "viewer/values.h"
 
-layout(std430, binding = 0) readonly buffer Values { float values[]; }; // of particles
+layout(std430, binding = 0) readonly buffer Values { float values[]; }; // one per particle
 layout(std430, binding = 1) readonly buffer Vertices { SheetVertex vertices[]; };
 layout(std430, binding = 2) readonly buffer Particles { uint particles[]; }; // by slot, or NO_PARTICLE
 layout(std430, binding = 3) writeonly buffer SkinValues { float skinValues[]; };

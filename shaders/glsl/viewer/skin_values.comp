@@ -4,7 +4,7 @@
 #include "kernel.glsl"
 #include "viewer/values.h"
 
-layout(std430, binding = 0) readonly buffer Values { float values[]; }; // of particles
+layout(std430, binding = 0) readonly buffer Values { float values[]; }; // one per particle
 layout(std430, binding = 1) readonly buffer Holders { ValueHolders holders[]; };
 layout(std430, binding = 2) writeonly buffer SkinValues { float skinValues[]; };
 layout(push_constant) uniform Push { ValuesPush push; };

@@ -9,7 +9,7 @@ layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) readonly buffer Masses { float inverseMasses[]; };
 layout(std430, binding = 2) writeonly buffer Values { float values[]; };
 layout(std430, binding = 3) buffer Spread { ValueSpread spread; };
-layout(std430, binding = 4) readonly buffer Pieces { uint pieces[]; }; // of particles
+layout(std430, binding = 4) readonly buffer Pieces { uint pieces[]; }; // one per particle
 layout(push_constant) uniform Push { ValuesPush push; };
 #include "viewer/spread.glsl"
 

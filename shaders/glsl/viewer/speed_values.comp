@@ -7,7 +7,7 @@
 layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 1) writeonly buffer Values { float values[]; };
 layout(std430, binding = 2) buffer Spread { ValueSpread spread; };
-layout(std430, binding = 3) readonly buffer Pieces { uint pieces[]; }; // of particles
+layout(std430, binding = 3) readonly buffer Pieces { uint pieces[]; }; // one per particle
 layout(push_constant) uniform Push { ValuesPush push; };
 #include "viewer/spread.glsl"
 

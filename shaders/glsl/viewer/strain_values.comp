@@ -10,7 +10,7 @@ layout(std430, binding = 2) readonly buffer Links { ValueLink links[]; };
 layout(std430, binding = 3) readonly buffer Alive { uint alive[]; }; // by slot, link_masks.glsl
 layout(std430, binding = 4) writeonly buffer Values { float values[]; };
 layout(std430, binding = 5) buffer Spread { ValueSpread spread; };
-layout(std430, binding = 6) readonly buffer Pieces { uint pieces[]; }; // of particles
+layout(std430, binding = 6) readonly buffer Pieces { uint pieces[]; }; // one per particle
 layout(push_constant) uniform Push { ValuesPush push; };
 #include "viewer/spread.glsl"
 

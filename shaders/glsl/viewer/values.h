@@ -13,20 +13,20 @@ using uint = std::uint32_t;
 // A particle's links: entries first .. first + count - 1 of the list of ValueLink.
 struct ValueLinks {
     uint first, count;
-    uint slot; // of its word of live links; 0 if none of them can be cut
+    uint slot; // slot of its word of live links; 0 if none of them can be cut
 };
 
 struct ValueLink {
     uint other;       // particle
     float restLength; // [m]
-    uint bit;         // of the word; 0 = cannot be cut
+    uint bit;         // bit in the word; 0 = cannot be cut
 };
 
 // A link that is drawn as a line.
 struct LineLink {
     uint a, b; // particles
-    uint slot; // of the word of live links of a
-    uint bit;  // of that word; 0 = cannot be cut
+    uint slot; // slot of the word of live links of a
+    uint bit;  // bit in that word; 0 = cannot be cut
     uint overSlot, overBit; // the same for the particle in the middle, if the link spans one
 };
 
@@ -48,7 +48,7 @@ struct ValueSpread {
 
 struct ValuesPush {
     uint count; // particles or vertices
-    uint first; // of the vertices of all skins
+    uint first; // first vertex, among those of all skins
 };
 
 // A contact mark.
@@ -66,7 +66,7 @@ struct MarkParticle {
 
 // A plane, or a collider at its pose: a box grown by a radius.
 struct MarkWall {
-    vec4 core;     // half extents, radius [m]; of a plane its normal and offset
+    vec4 core;     // half extents, radius [m]; for a plane its normal and offset
     vec4 position; // w = 1: a plane
     vec4 rotation; // unit quaternion
 };
@@ -80,7 +80,7 @@ struct MarkDraw {
 };
 
 struct MarkPush {
-    uint count;   // of particles
+    uint count;   // number of particles
     uint walls;
     uint firstWall;
     uint hasPairs, hasFaces; // 1 = there are lists of particles, of faces
@@ -101,7 +101,7 @@ struct CellDraw {
     uint sharing; // cells whose slot is shared with others
     uint most;   // most particles in one cell
     uint held;   // particles in all cells
-    float edge;  // of a cell [m]
+    float edge;  // edge of a cell [m]
 };
 
 struct CellPush {

@@ -72,7 +72,7 @@ private:
     Kernels& kernels_;
     std::vector<vk::Buffer> buffers_;
     std::vector<sim::Pass> passes_;
-    std::vector<vk::BindingRequest> requests_; ///< of the dispatches, in order
+    std::vector<vk::BindingRequest> requests_; ///< bindings of the dispatches, in order
 };
 
 } // namespace sinew::mesh::gpu
