@@ -1,7 +1,7 @@
 #version 460
-// Rule K: makes the links of the solver agree with Kuhn's tetrahedra, which surfaces of cuts are made of. A link that
-// is no edge of theirs, or has no stiffness, is cut unless its ends are connected by stiff edges within its own
-// square or cell. The rule clears no bit that it reads, so it may read while others clear.
+// Links of the solver after a cut: made consistent with Kuhn's tetrahedra, which form the surfaces of cuts. A link
+// that is no edge of a tetrahedron, or has no stiffness, is cut unless its ends are connected by stiff edges within
+// its own square or cell. No bit that is read is cleared here, so invocations may read while others clear.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
