@@ -1,6 +1,6 @@
-// What a show comes to need while it plays, made beside it: layers in a thread of their own. What a device
-// uses for the first time is rehearsed, in submissions that no picture waits for: drivers of software devices
-// compile it then, and hands are served meanwhile.
+// Background maker of layers for a scene player. A thread of its own makes the buffers and pipelines that
+// layers need. The first use of each on a device is a rehearsal: a submission that no picture waits for,
+// because drivers of software devices compile at the first use. Input is handled meanwhile.
 #pragma once
 
 #include "viewer/hands/inspection.hpp"
@@ -13,46 +13,46 @@
 
 namespace sinew::viewer {
 
-/// One thread uses it, that which submits the pictures. Must not outlive device, stage and show.
+/// Used by one thread, the one that submits pictures. Must not outlive device, stage and show.
 class Backstage {
 public:
-    /// `slots` pictures may be under way at a time.
+    /// At most `slots` pictures may be in flight at a time.
     Backstage(const vk::Device& device, PreparedShow& show, const Camera& camera, std::uint32_t slots);
-    ~Backstage(); ///< waits for what is being made or rehearsed
+    ~Backstage(); ///< waits for the layers in the making and for the rehearsal
     Backstage(const Backstage&) = delete;
     Backstage& operator=(const Backstage&) = delete;
 
-    /// What of `wanted` is there to be recorded; begins to make the rest.
+    /// Returns the part of `wanted` that can be recorded now, and begins to make the rest.
     Watched ready(const Watched& wanted);
-    /// Rehearses and takes what is made, whether or not there are pictures. True where something is there
-    /// that was not. Throws vk::Error where something cannot be made.
+    /// Continues rehearsals and adopts finished layers; needs no pictures. Returns true if a layer became
+    /// ready. Throws vk::Error if a layer cannot be made.
     bool goOn();
-    /// Of what is ready.
+    /// Buffers of the layers that are ready.
     const Inspection& inspection() const { return inspection_; }
-    /// Whether something is on its way that ready() has been asked for.
+    /// Whether a layer that ready() was asked for is still being made.
     bool isMaking() const { return making_.valid() || made_; }
 
-    /// Submits what `record` records, for which no picture may be submitted until isBusy() says no more;
-    /// `done` is called by that. One at a time.
+    /// Submits the commands that `record` records. No picture may be submitted until isBusy() returns false;
+    /// isBusy() then calls `done`. One rehearsal at a time.
     void rehearse(const std::function<void(VkCommandBuffer)>& record, std::function<void()> done = {});
     bool isBusy();
 
-    /// Before the stage has another simulation: what was made of the one before goes, and what is rehearsed
-    /// is done with. Waits.
+    /// Call before the stage changes its simulation: drops the layers of the old one and finishes rehearsals.
+    /// Waits.
     void forget();
 
 private:
-    // Pictures nobody sees, of a view.
+    // An off-screen image of a view, for rehearsals.
     struct Unseen {
         Image image;
         Canvas canvas;
     };
     struct Made {
-        Layers layers; // that it is made for
+        Layers layers; // layers that it is made for
         Renderer::Additions moving, still;
         Inspection::Parts parts;
-        std::optional<Unseen> ofMoving, ofStill; // where there are rehearsals
-        std::size_t rehearsed = 0;               // of the parts, then of each addition
+        std::optional<Unseen> ofMoving, ofStill; // for views that are rehearsed
+        std::size_t rehearsed = 0;               // count: the parts, then each addition
     };
     Made make(const Watched& wanted, const sim::Scene& scene) const;
     bool has(const Watched& watched) const noexcept;
@@ -61,12 +61,12 @@ private:
 
     const vk::Device& device_;
     PreparedShow& show_;
-    const Camera camera_; // of rehearsals
+    const Camera camera_; // for rehearsals
     Inspection inspection_;
     std::uint32_t slots_;
     bool isRehearsing_;
     vk::Queue queue_;
-    std::optional<std::uint64_t> running_; // submission
+    std::optional<std::uint64_t> running_; // submission value
     std::function<void()> done_;
     std::optional<Made> made_;
     std::future<Made> making_;

@@ -1,6 +1,6 @@
-// A second simulation of the scene on show, by another solver or with other substeps: it is played in step
-// with the first, hands do in it what they do there, and both are measured alike, so that speed and error of
-// the two can be compared while they play.
+// The second simulation of a comparison: the same scene by another solver or with other substeps. It steps
+// together with the first one, receives the same input, and both are measured in the same way, so that speed
+// and error can be compared while they play.
 #pragma once
 
 #include "viewer/draw/stage.hpp"
@@ -11,54 +11,55 @@
 
 namespace sinew::viewer {
 
-/// What it differs in from the first.
+/// The settings in which it differs from the first.
 struct BesideShape {
     sim::Solver solver = sim::Solver::gaussSeidel;
     std::uint32_t substeps = 0; ///< per step; 0 = as many as the scene needs
     bool operator==(const BesideShape&) const = default;
 };
 
-/// "SOLVER" or "SOLVER:SUBSTEPS"; nothing of what is neither.
+/// Parses "SOLVER" or "SOLVER:SUBSTEPS"; empty for any other text.
 std::optional<BesideShape> parseBeside(const std::string& text);
 BesideKnobs knobsOf(const BesideShape& shape);
 BesideShape shapeOf(const BesideKnobs& knobs);
-/// "gauss_seidel, 4 substeps".
+/// Text such as "gauss_seidel, 4 substeps".
 std::string toText(const BesideShape& shape);
 
-/// Must not outlive its Device, which must not move. Made in any thread, then used by that of the first.
+/// Must not outlive its Device, which must not move. May be made in any thread; afterwards used by the thread
+/// of the first.
 class Beside {
 public:
-    /// Of the scene, blades, material and room of `first`. `slots` pictures may be under way at a time.
-    /// Throws std::invalid_argument with what the solver has no form for, and vk::Error.
+    /// Takes scene, blades, material and capacities of `first`. At most `slots` pictures may be in flight at
+    /// a time. Throws std::invalid_argument naming what the solver has no form for, and vk::Error.
     Beside(const vk::Device& device, const scenes::LoadedScene& loaded, const sim::Settings& settings,
            const sim::Material& material, const BesideShape& shape, std::uint32_t slots);
 
-    /// Instead of a reset: goes on where `first` stands, all steps of both have finished.
+    /// Instead of a reset: continues from the state of `first`. All steps of both must have finished.
     void recordTakeOver(VkCommandBuffer commands, const Stage& first);
     void recordReset(VkCommandBuffer commands) noexcept;
-    /// The step that was recorded for `first` just now, and that of the first is timed.
+    /// Records the step that was just recorded for `first`. `isTimed`: the step of the first is timed too.
     void recordStep(VkCommandBuffer commands, const Stage& first, const StepHands& hands, std::uint32_t slot,
                     bool isTimed) noexcept;
-    /// What is drawn, for layers with that overlap, and with `isMeasured` a copy of where particles are.
+    /// Records the skins for layers with that overlap and, if `isMeasured`, a copy of the particle positions.
     void recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured,
                        sim::Overlap overlap = sim::Overlap::none) noexcept;
 
-    /// Why it cannot go on; where contacts need more room, for how many with one.
+    /// Why it cannot continue; if contacts need more room, for how many.
     struct Trouble {
         std::string why;
         std::uint32_t room = 0;
     };
-    /// Of a slot that has finished. Nothing where all is well.
+    /// Call when the picture in the slot has finished. Empty if all is well.
     std::optional<Trouble> settle(std::uint32_t slot);
 
     const sim::Simulation& simulation() const noexcept { return stage_.simulation(); }
     const Stage& stage() const noexcept { return stage_; }
     const BesideShape& shape() const noexcept { return shape_; }
-    /// Warnings of loading the scene in this shape that loading it in its own does not give.
+    /// Warnings that loading the scene with these settings gives and loading it with its own does not.
     const std::vector<std::string>& warnings() const noexcept { return warnings_; }
-    /// Notes on what bodies have in the first and do without here.
+    /// Notes on features that bodies have in the first simulation and do without here.
     const std::vector<std::string>& notes() const noexcept { return notes_; }
-    /// As far as gauges know them.
+    /// The facts that gauges know.
     Facts facts() const { return gauges_.facts(stage_); }
 
 private:
@@ -67,7 +68,7 @@ private:
         std::uint32_t steps = 0;
         bool isTimed = false, isMeasured = false;
     };
-    BesideShape shape_; // with a number of substeps
+    BesideShape shape_; // with the number of substeps filled in
     Stage stage_;
     std::vector<std::string> warnings_, notes_;
     Gauges gauges_;

@@ -11,27 +11,26 @@
 
 namespace sinew::viewer {
 
-/// How a device that was found is asked for again: what it is called or, where two are called alike, its
-/// index.
+/// The name that asks for a found device again: its name or, if two devices have the same name, its index.
 std::string requestFor(std::span<const vk::DeviceDescription> devices, std::size_t index);
 
-/// `window` and `messages` must outlive it and every device.
+/// `window` and `messages` must outlive this object and every device.
 class Devices {
 public:
-    /// Main thread. `options` and `messages` as deviceRequest().
+    /// Main thread. `options` and `messages`: see deviceRequest().
     Devices(const Window& window, const Options& options, std::atomic<std::size_t>& messages);
 
     Devices(const Devices&) = delete;
     Devices& operator=(const Devices&) = delete;
 
-    /// As vk::DeviceRequest::device. Any thread. Throws vk::Error.
+    /// `wanted`: see vk::DeviceRequest::device. Any thread. Throws vk::Error.
     std::unique_ptr<vk::Device> open(const std::string& wanted) const;
 
-    /// Every device with what it lacks for this window; empty until all were found, for which another thread
-    /// looks from the first call on. The thread that made this.
+    /// Every device with what it lacks for this window. The first call starts the search in another thread;
+    /// empty until it ends. Call from the thread that made this object.
     const std::vector<vk::DeviceDescription>& list() const;
 
-    /// The same, after waiting for that thread.
+    /// The same list, after waiting for the search.
     const std::vector<vk::DeviceDescription>& all() const;
 
 private:

@@ -1,4 +1,4 @@
-// Facts about a scene on show, out of the simulation: what its step consists of, what finished steps say.
+// Statistics of the scene on show for the panels: what a step consists of, and the results of finished steps.
 #pragma once
 
 #include "layout.h"
@@ -9,29 +9,29 @@
 
 namespace sinew::viewer {
 
-/// What stays the same. `settings` as the stage runs with them.
+/// Facts that stay constant while a scene is shown. `settings` are those the stage runs with.
 SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Device& device);
 
-/// How many links are clamped, and how soft the softest is; empty where none is elastic.
+/// Number of clamped links and the softest stiffness; empty if no link is elastic.
 std::string stiffnessText(const Stage& stage);
 
-/// What was turned of the material; what is as in the file is left as it is there.
+/// The material that the knobs ask for; values equal to those of the file leave the file's own.
 sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile);
 
-/// `knobs` turned so that this is their material.
+/// `knobs` with the values of `material`.
 Knobs turnedTo(const sim::Material& material, Knobs knobs, const Knobs& fromFile);
 
-/// Strain of the links that are not cut, in the state that `probe` recorded last.
+/// Strain of the live links, in the state that `probe` recorded last.
 Strain measureStrain(const sim::Scene& scene, StateProbe& probe);
 
-/// Collects what changes.
+/// Collects the facts that change.
 class Gauges {
 public:
     Gauges(const Stage& stage, double dt);
 
-    /// A picture, `seconds` after the last, with `steps` before it.
+    /// Adds a picture, `seconds` after the last one, with `steps` before it.
     void frame(double seconds, std::uint32_t steps);
-    /// GPU time of a step, by phase [ms].
+    /// GPU time of one step, by phase [ms].
     void stepTimed(std::span<const double> milliseconds);
     void stepFinished(const sim::Status& status);
     void stepsRepeated(std::uint64_t steps) { facts_.stepsRepeated += steps; }
@@ -39,12 +39,12 @@ public:
     /// Sets the number of pieces that is shown until the next call.
     void piecesCounted(const app::PieceCount& count) { facts_.pieces = count; }
     const app::PieceCount& pieces() const { return facts_.pieces; }
-    /// After a reset, or a way back.
+    /// Call after a reset, or after an earlier state was restored.
     void restart();
-    /// After the simulation of `before` was taken over from, which may have other phases.
+    /// Call after the simulation of `before` was taken over; the new one may have other phases.
     void goOn(const Gauges& before);
 
-    /// Filled in but for what the window, the tools and the player know.
+    /// All facts except those of window, tools and player.
     Facts facts(const Stage& stage) const;
 
 private:

@@ -1,4 +1,4 @@
-// Sky and floor far from all bodies, kept while they are seen from the same place.
+// Cached image of the sky and the floor far from all bodies, valid while the view stays the same.
 #pragma once
 
 #include "viewer/draw/image.hpp"
@@ -12,16 +12,17 @@ namespace sinew::viewer {
 /// Owns the image, not the pass. Movable. Must not outlive its Device.
 class Backdrop {
 public:
-    /// `behind` are the views that a picture of `pass` is drawn with, in order; an empty one is this image.
+    /// `behind` are the views that a picture of `pass` is drawn with, in order; an empty one stands for this
+    /// image.
     Backdrop(const vk::Device& device, const RenderPass& pass, VkFormat color, VkExtent2D extent,
              std::span<const VkImageView> behind);
 
     enum class Use {
-        direct, ///< sky and floor are drawn as ever: they were seen from elsewhere in the last picture
-        made,   ///< they are drawn into this image now
-        kept    ///< they are there
+        direct, ///< sky and floor are drawn into the picture: the view has changed since the last one
+        made,   ///< sky and floor are drawn into this image now
+        kept    ///< the image is valid
     };
-    /// For the next picture to be recorded, with these numbers.
+    /// Decides the use for the next picture, which has these parameters.
     Use next(const layout::FrameParams& params) noexcept;
 
     VkImageView view() const noexcept { return image_.view(); }
@@ -31,7 +32,7 @@ private:
     Image image_;
     Framebuffer framebuffer_;
     std::optional<layout::FrameParams> last_;
-    bool isMade_ = false; // of last_
+    bool isMade_ = false; // for last_
 };
 
 } // namespace sinew::viewer

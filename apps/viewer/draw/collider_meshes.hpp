@@ -1,4 +1,4 @@
-// Triangles of the colliders of a scene, which carry no skin: made once, placed by a pose when drawn.
+// Triangle meshes of the colliders of a scene, which have no skin: made once, moved by a pose when drawn.
 #pragma once
 
 #include "layout.h"
@@ -15,7 +15,7 @@ struct ColliderMesh {
     std::vector<std::uint32_t> indices;            ///< counter-clockwise seen from outside
 };
 
-/// A sphere, capsule or box without its margin.
+/// The mesh of a sphere, capsule or box without its margin.
 ColliderMesh meshOf(const sim::Collider& collider);
 
 /// Must not outlive its Device.
@@ -28,7 +28,7 @@ public:
         std::uint32_t firstIndex = 0, indexCount = 0;
         std::int32_t firstVertex = 0;
     };
-    /// Of each collider; empty where there are none, and no buffers then.
+    /// One for each collider; empty if there are none, and there are no buffers then.
     const std::vector<Range>& ranges() const noexcept { return ranges_; }
     vk::BufferView vertices() const noexcept { return vertices_->view(); }
     vk::BufferView indices() const noexcept { return indices_->view(); }

@@ -1,5 +1,5 @@
-// Where bodies touch, as marks to be drawn: found on the device in the state that is shown, from the solver's
-// own lists of what may touch.
+// Contact points as marks to be drawn. The device finds them in the shown state, from the solver's own
+// contact lists.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -13,17 +13,17 @@ namespace sinew::viewer {
 /// Must not outlive its Device, which must not move, nor the simulation.
 class ContactMarks {
 public:
-    /// For marks to be drawn, or to count only.
+    /// Marks can be drawn, or only counted.
     enum class Room { many, none };
 
-    /// As ValueMaps. Throws vk::Error.
+    /// Parameters as in ValueMaps. Throws vk::Error.
     ContactMarks(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
                  const sim::Simulation& simulation, std::uint32_t slots, Room room = Room::many);
 
     void record(VkCommandBuffer commands, std::uint32_t slot) const noexcept;
-    /// What one particle touches, alone.
+    /// Records only the contacts of one particle.
     void recordOf(VkCommandBuffer commands, std::uint32_t slot, std::uint32_t particle) const noexcept;
-    /// Of a slot that has finished: how many there are, whether drawn or not.
+    /// Number of contacts, drawn or not, once the commands of that slot have finished.
     std::uint32_t found(std::uint32_t slot) const noexcept;
 
     const HandMesh& mesh() const noexcept { return mesh_; }
@@ -46,7 +46,7 @@ private:
     HandMesh mesh_;
     vk::Buffer particles_, bySlot_, walls_, nothing_;
     vk::Buffer marks_, draw_, draws_;
-    std::shared_ptr<const vk::Kernel> kernel_, ofEdges_; // of the device's store
+    std::shared_ptr<const vk::Kernel> kernel_, ofEdges_; // shared with the device's kernel store
     vk::BindingSets sets_;
 };
 

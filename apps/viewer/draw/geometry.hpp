@@ -28,15 +28,15 @@ Matrix4 orthographic(const Box& box);
 /// The box around `box` after `transform` (affine).
 Box transformed(const Box& box, const Matrix4& transform);
 
-/// What the scene's particles, with their radii, fill at the start. A scene without particles gives the box
-/// of one point, the origin.
+/// The box around the scene's particles, with their radii, at the start. A scene without particles gives the
+/// box of one point, the origin.
 Box particleBounds(const sim::Scene& scene);
 
 /// Height of the highest boundary plane that faces straight up [m].
 std::optional<float> groundHeight(const sim::Scene& scene);
 
-/// Where the bodies are seen: their box at the start, joined with the colliders, where they would land on the
-/// ground and how far down they can hang from what is fixed.
+/// The box in which bodies are expected: their box at the start, joined with the colliders, with where they
+/// would land on the ground, and with how far they can hang down from fixed particles.
 Box stageBounds(const sim::Scene& scene);
 
 } // namespace sinew::viewer

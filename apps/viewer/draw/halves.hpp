@@ -1,4 +1,4 @@
-// Two pictures side by side in one: each half is drawn by itself, and then put in its place.
+// Two pictures side by side in one: each half is drawn into its own canvas, then copied to its place.
 #pragma once
 
 #include "viewer/draw/canvas.hpp"
@@ -10,12 +10,12 @@ namespace sinew::viewer {
 /// Made by Renderer::makeHalves. Movable. Must not outlive its Device; the picture views belong to the caller
 /// and must outlive it.
 struct Halves {
-    RenderPass pass; ///< of both in their places
+    RenderPass pass; ///< copies both halves to their places
     std::array<Canvas, 2> canvases;
     std::vector<Framebuffer> pictures;
     VkExtent2D extent;   ///< of the pictures
-    std::uint32_t width; ///< of both, from the left; what is beyond is dark [pixels]
-    /// Where a half stands; both are equally wide.
+    std::uint32_t width; ///< of both halves, from the left; the rest is dark [pixels]
+    /// The place of a half; both are equally wide.
     VkRect2D placeOf(std::size_t half) const noexcept {
         const VkExtent2D own = canvases[half].extent();
         return {{half == 0 ? 0 : static_cast<std::int32_t>(width - own.width), 0}, own};

@@ -1,4 +1,4 @@
-// What shows a hand that holds: a ball where it is, and a rope from there to what it holds.
+// The mesh that shows a grab: a ball at the hand, and a rope from there to the held point.
 #pragma once
 
 #include "viewer/draw/geometry.hpp"
@@ -10,42 +10,43 @@
 namespace sinew::viewer {
 
 struct Hand {
-    std::uint32_t particle = 0;       ///< that it holds
-    Vector3 offset = Vector3::Zero(); ///< of the held point from the particle [m]
-    Vector3 target = Vector3::Zero(); ///< where the hand is [m]
+    std::uint32_t particle = 0;       ///< held particle
+    Vector3 offset = Vector3::Zero(); ///< from the particle to the held point [m]
+    Vector3 target = Vector3::Zero(); ///< position of the hand [m]
 };
 
-/// What is shown beside the bodies as they are: by tools, and layers.
+/// Everything drawn in addition to the plain bodies, by tools and layers.
 struct Overlay {
     std::optional<Hand> hand;
     std::span<const Hand> pins = {};
     std::span<const Vector3> stroke = {}; ///< path of a blade, near the eye [m]; at most mostStrokePoints
-    std::span<const Vector3> gauge = {};  ///< of its depth, likewise: two points or none
+    std::span<const Vector3> gauge = {};  ///< shows the blade's depth, near the eye [m]: 2 points or none
     Layers layers = {};
-    LayerBuffers buffers = {}; ///< of what `layers` needs
+    LayerBuffers buffers = {}; ///< buffers for `layers`
 };
 
-/// The same for a second simulation, of whose state layers know nothing: those that need none.
+/// The overlay of a second simulation: only the layers that need no buffers.
 Overlay overlayBeside(const Overlay& overlay);
 
 constexpr std::size_t mostStrokePoints = 256;
 
-/// Vertices for hand.vert or mark.vert and indices. Must not outlive its Device, which must not move.
+/// Vertices for hand.vert or mark.vert, and indices. Must not outlive its Device, which must not move.
 class HandMesh {
 public:
-    /// A rope of so many sides and a ball as makeBall().
+    /// Number of sides of the rope; the ball is makeBall(cuts).
     struct Shape {
         std::uint32_t sides = 12, cuts = 2;
     };
     explicit HandMesh(const vk::Device& device) : HandMesh(device, Shape{}) {}
     HandMesh(const vk::Device& device, const Shape& shape);
 
-    /// A rope from element `first` of `points` (vec4: the public positions, or a stroke) and a ball, as the
-    /// push constants of the caller say; the pipeline must be bound. No rope where `removed` says so of the
-    /// element.
+    /// Draws a rope from element `first` of `points` (vec4: the public positions, or a stroke) and a ball,
+    /// with the push constants of the caller; the pipeline must be bound. Draws no rope if `removed` marks
+    /// the element.
     void draw(VkCommandBuffer commands, const vk::BufferView& points, const vk::BufferView& removed,
               std::uint32_t first) const noexcept;
-    /// One for each of `points`, as the device says (VkDrawIndexedIndirectCommand, of indexCount() indices).
+    /// Draws one for each of `points`; the count comes from the device (VkDrawIndexedIndirectCommand with
+    /// indexCount() indices).
     void drawIndirect(VkCommandBuffer commands, const vk::BufferView& points,
                       const vk::BufferView& draw) const noexcept;
     std::uint32_t indexCount() const noexcept { return indexCount_; }

@@ -1,6 +1,6 @@
-// The cells of the hash grids in which the solver looks for contacts, as the device has them: as they were
-// built last, which is whenever something has moved farther than lists allow for. Made when that layer is
-// first on.
+// The cells of the solver's hash grids, read on the device. Grids are rebuilt only when a particle has moved
+// farther than the contact lists allow for, so cells are those of the last rebuild. Made when the layer is
+// first turned on.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -14,18 +14,19 @@ namespace sinew::viewer {
 /// Must not outlive its Device, which must not move, nor the simulation.
 class HashCells {
 public:
-    /// `slots` readings may be under way at a time. Throws vk::Error.
+    /// At most `slots` readings may be in flight at a time. Throws vk::Error.
     HashCells(const vk::Device& device, const sim::Simulation& simulation, std::uint32_t slots);
 
-    /// After a step, in the same queue. `slot` < slots; what was recorded into it must have finished.
+    /// Record after a step, in the same queue. `slot` < slots; the slot's previous commands must have
+    /// finished.
     void record(VkCommandBuffer commands, std::uint32_t slot) const noexcept;
-    /// Of a slot that has finished: each grid that the solver has.
+    /// One entry for each grid of the solver, once the commands of that slot have finished.
     std::vector<GridFacts> reading(std::uint32_t slot) const;
 
-    /// layout::CellMark, those of a grid behind as many as `sorted` of the one before may have.
+    /// layout::CellMark; the marks of a grid start behind the capacity of `sorted` of the grid before.
     vk::BufferView marks() const noexcept { return marks_.view(); }
 
-    /// Lines, an instance a cell; the pipeline must be bound.
+    /// Draws lines, one instance per cell; the pipeline must be bound.
     void draw(VkCommandBuffer commands) const noexcept;
 
 private:
@@ -38,7 +39,7 @@ private:
     const vk::Device& device_;
     std::vector<Grid> grids_;
     vk::Buffer marks_, draws_, readings_;
-    std::shared_ptr<const vk::Kernel> kernel_; // of the device's store
+    std::shared_ptr<const vk::Kernel> kernel_; // shared with the device's kernel store
     vk::BindingSets sets_;
 };
 

@@ -13,7 +13,7 @@ struct ImageRequest {
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
-/// RAII. Device-local memory of its own (a viewer has a handful). Must not outlive its Device.
+/// RAII. Has device-local memory of its own (a viewer has a handful of images). Must not outlive its Device.
 class Image {
 public:
     /// Throws vk::Error(outOfMemory) naming the image.
@@ -36,7 +36,7 @@ private:
     VkImageView view_ = VK_NULL_HANDLE;
 };
 
-/// Whole-image colour view of an image somebody else owns. The caller destroys it.
+/// Makes a colour view of a whole image that another object owns. The caller destroys the view.
 VkImageView makeView(const vk::Device& device, VkImage image, VkFormat format, const std::string& name);
 
 /// True for the depth formats this viewer uses.

@@ -1,4 +1,5 @@
-// What is drawn of bodies beside their lit skins, or instead of them: chosen by hands or on the command line.
+// The layers of a picture: what is drawn of bodies besides their lit skins, or instead of them. Chosen by the
+// user.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -20,10 +21,10 @@ class LinkLines;
 
 enum class SkinLook { solid, glass, hidden };
 
-/// A number of each particle that colors stand for.
+/// The quantity of particles that colours show.
 enum class ColorMap {
     none,
-    strain, ///< of its live links, (length - rest) / rest: root of the mean square
+    strain, ///< of the live links of a particle, (length - rest) / rest: root mean square
     speed,  ///< [m/s]
     sleep   ///< 1 = awake, 0 = asleep
 };
@@ -32,78 +33,80 @@ struct Layers {
     SkinLook skin = SkinLook::solid;
     ColorMap map = ColorMap::none;
     bool hasWires = false; ///< edges of all triangles of skins
-    bool hasBalls = false; ///< particles of bodies with a skin, too
-    bool hasLinks = false; ///< in the colors of their classes
+    bool hasBalls = false; ///< also particles of bodies with a skin
+    bool hasLinks = false; ///< in the colours of their classes
     bool hasContacts = false;
-    bool hasCells = false;          ///< of hash grids, that hold something
-    std::optional<Section> section; ///< opens bodies
+    bool hasCells = false;          ///< cells of hash grids that are not empty
+    std::optional<Section> section; ///< plane that opens bodies
     bool operator==(const Layers&) const = default;
-    /// Whether something of it comes from buffers that are made for it (Inspection).
+    /// Whether a layer needs buffers of its own (Inspection).
     bool needsBuffers() const {
         return map != ColorMap::none || hasBalls || hasLinks || hasContacts || hasCells;
     }
-    /// What skins are made for (Stage::recordSkin): some layers draw no triangle in two forms.
+    /// The overlap that skins are made for (Stage::recordSkin): some layers need each triangle drawn only
+    /// once.
     sim::Overlap overlap() const {
         return skin == SkinLook::glass || hasWires || section ? sim::Overlap::none : sim::Overlap::some;
     }
 };
 
-/// The one after it, round and round: solid, glass, hidden.
+/// The next look, cyclically: solid, glass, hidden.
 SkinLook next(SkinLook look);
-/// none, strain, speed, sleep.
+/// The next map, cyclically: none, strain, speed, sleep.
 ColorMap next(ColorMap map);
 
-/// How the command line calls layers: "glass", "hidden", "strain", "speed", "sleep", "wires", "particles",
+/// Names of layers on the command line: "glass", "hidden", "strain", "speed", "sleep", "wires", "particles",
 /// "links", "contacts", "cells".
 std::vector<std::string> layerNames();
-/// One of them on top of others; false for a name that is none.
+/// Adds the layer of this name; false if the name is unknown.
 bool addLayer(const std::string& name, Layers& layers);
 
-/// Colors of a map from its lowest value to its highest, linear RGB. Equal steps look equally far apart and
-/// get evenly lighter, which everybody can tell: in OKLCh [Ottosson 2020] a straight way up, half-way around,
-/// at one chroma.
+/// Colours of a map from its lowest value to its highest, linear RGB. Equal steps look equally far apart and
+/// get evenly lighter, so that colour-blind users can read them: a straight path up in lightness, half-way
+/// around in hue, at constant chroma in OKLCh [Ottosson 2020].
 constexpr std::size_t mapColorCount = 17;
 std::array<std::array<float, 3>, mapColorCount> mapColors();
 
-/// Linear RGB of a class, in the order in which classes are solved: neighbours in it stay apart.
+/// Linear RGB of a class of links, in the order in which classes are solved; consecutive classes differ
+/// clearly.
 std::array<float, 3> classColor(std::size_t index);
 
-/// Links by how the solver corrects them.
+/// Counts of links by the class in which the solver corrects them.
 struct LinkFacts {
-    std::vector<std::uint32_t> classes; ///< how many links each has
-    std::size_t fixed = 0;              ///< links between particles that never move, of no class
-    std::string note;                   ///< what the solver does with them
+    std::vector<std::uint32_t> classes; ///< number of links of each class
+    std::size_t fixed = 0;              ///< links between two fixed particles, in no class
+    std::string note;                   ///< how the solver treats links
 };
 
-/// How the values of a map spread over the particles.
+/// Distribution of a map's values over the particles.
 struct MapReading {
-    float range = 0; ///< 1, 2 or 5 times a power of ten: at most 1 % of all have more; 0 = nobody has a value
-    float largest = 0; ///< of all
-    float beyond = 0;  ///< share of those with more than `range`
+    float range = 0;   ///< 1, 2 or 5 times a power of ten: at most 1 % of particles exceed it; 0 = no values
+    float largest = 0; ///< largest value
+    float beyond = 0;  ///< share of particles above `range`
 };
 
-/// A hash grid, as it was built last.
+/// Statistics of a hash grid at its last rebuild.
 struct GridFacts {
-    std::string name;         ///< of what is in it
-    float edge = 0;           ///< of a cell [m]
-    std::uint32_t cells = 0;  ///< that hold something
-    std::uint32_t shared = 0; ///< of them, in whose slot of the table there are others, too
-    std::uint32_t most = 0;   ///< in a cell
-    std::uint32_t held = 0;   ///< in all of them
-    std::uint32_t slots = 0;  ///< of the table
+    std::string name;         ///< its contents
+    float edge = 0;           ///< side of a cell [m]
+    std::uint32_t cells = 0;  ///< cells that are not empty
+    std::uint32_t shared = 0; ///< cells that share their slot of the table with others
+    std::uint32_t most = 0;   ///< largest number of items in a cell
+    std::uint32_t held = 0;   ///< number of items in all cells
+    std::uint32_t slots = 0;  ///< slots of the table
 };
 
-/// Where layers are drawn from, as Inspection makes it. Views of what is not on are empty.
+/// Buffers that layers are drawn from, made by Inspection. Views for layers that are off are empty.
 struct LayerBuffers {
-    vk::BufferView particles; ///< float a particle: the map's value, below 0 where there is none
-    vk::BufferView skins;     ///< likewise a vertex of skins
-    vk::BufferView cuts;      ///< likewise a vertex of the surface of cuts
-    float range = 0;          ///< of the map's colors
+    vk::BufferView particles; ///< float per particle: the map's value; negative = no value
+    vk::BufferView skins;     ///< float per vertex of skins
+    vk::BufferView cuts;      ///< float per vertex of the surface of cuts
+    float range = 0;          ///< value of the last colour of the map
     const Balls* balls = nullptr;
     const LinkLines* links = nullptr;
     const ContactMarks* contacts = nullptr;
     const HashCells* cells = nullptr;
-    float cellRange = 0; ///< how many in a cell have the last color; 0 = not known yet
+    float cellRange = 0; ///< number of items in a cell that has the last colour; 0 = not known yet
 };
 
 } // namespace sinew::viewer

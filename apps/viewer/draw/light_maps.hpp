@@ -1,5 +1,5 @@
 // The three images that light a picture: the key light's shadow map, the plan map (bodies seen from below the
-// floor) and the floor map made from both.
+// floor) and the floor map, made from the other two.
 #pragma once
 
 #include "viewer/draw/render_pass.hpp"
@@ -23,7 +23,7 @@ public:
     VkSampler comparing() const noexcept { return comparing_.handle(); }
     VkSampler nearest() const noexcept { return nearest_.handle(); }
     VkSampler smooth() const noexcept { return smooth_.handle(); }
-    /// As smooth(), of edges that go on.
+    /// Like smooth(), but clamps to the edge instead of a border.
     VkSampler stretching() const noexcept { return stretching_.handle(); }
 
 private:

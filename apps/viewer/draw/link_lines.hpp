@@ -1,5 +1,5 @@
-// The links of bodies as lines, those that the solver corrects together in one color. Made when that layer is
-// first on.
+// The links of bodies as lines; links that the solver corrects together have one colour. Made when the layer
+// is first turned on.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -10,12 +10,12 @@
 
 namespace sinew::viewer {
 
-/// Which links a solver corrects together.
+/// Partition of the links into classes that the solver corrects together.
 struct LinkClasses {
-    std::vector<std::uint32_t> order; ///< indices of Scene::distances, class after class; the rest is
-                                      ///< corrected by nobody, since neither of its ends moves
-    std::vector<std::uint32_t> ends;  ///< one past the last of each class in `order`
-    std::string note;                 ///< what the solver does with them
+    std::vector<std::uint32_t> order; ///< indices of Scene::distances, class after class; then links in no
+                                      ///< class, since neither end moves
+    std::vector<std::uint32_t> ends;  ///< one past the last link of each class in `order`
+    std::string note;                 ///< how the solver treats links
     std::size_t count() const { return ends.size(); }
 };
 LinkClasses linkClasses(const sim::Scene& scene, sim::Solver solver);
@@ -27,16 +27,16 @@ public:
     LinkLines(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
               const sim::Simulation& simulation);
 
-    /// Leaves out what a blade has cut by the state that recordSkin() was recorded for.
+    /// Removes links that are cut in the state for which recordSkin() was recorded.
     void record(VkCommandBuffer commands) const noexcept;
 
     struct Range {
         std::uint32_t firstIndex, indexCount;
         std::array<float, 3> color; ///< linear RGB
     };
-    /// One a class, then what nobody corrects.
+    /// One per class, then the links in no class.
     std::span<const Range> ranges() const noexcept { return ranges_; }
-    /// Two a link: particles.
+    /// Two particles per link.
     vk::BufferView indices() const noexcept { return indices_.view(); }
     LinkFacts facts() const;
 
@@ -49,8 +49,8 @@ private:
     LinkClasses classes_;
     std::uint32_t count_;
     vk::Buffer links_, indices_;
-    vk::Buffer noWords_;                     // stands for live links where nothing can be cut
-    std::shared_ptr<const vk::Kernel> live_; // of the device's store
+    vk::Buffer noWords_;                     // stands for live links if nothing can be cut
+    std::shared_ptr<const vk::Kernel> live_; // shared with the device's kernel store
     vk::BindingSets sets_;
     std::vector<Range> ranges_;
 };

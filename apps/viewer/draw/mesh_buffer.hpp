@@ -1,4 +1,4 @@
-// Meshes that the host makes once, as buffers to draw from.
+// Buffers of meshes that the host makes once.
 #pragma once
 
 #include "vk/buffer.hpp"
@@ -7,7 +7,7 @@
 
 namespace sinew::viewer {
 
-/// A buffer of the elements. `usage` as vertices or indices.
+/// Makes a buffer of the elements. `usage`: vertices or indices.
 template <typename T>
 vk::Buffer filledBuffer(const vk::Device& device, const std::string& name, const std::vector<T>& elements,
                         VkBufferUsageFlags usage) {

@@ -1,23 +1,23 @@
-// A picture without a window.
+// An off-screen renderer of single pictures.
 #pragma once
 
 #include "viewer/draw/shot.hpp"
 
 namespace sinew::viewer {
 
-/// Owns a renderer and one picture, of full quality unless others are asked for. `scale` as in
+/// Owns a renderer and one picture, of full quality unless other quality is requested. `scale`: see
 /// Renderer::makeCanvas. Must not outlive its Device, which must not move.
 class Offscreen {
 public:
     Offscreen(const vk::Device& device, VkExtent2D extent, const StageLight& light,
               const Quality& quality = {}, float scale = 1)
-        : renderer_(device, {.color = VK_FORMAT_R8G8B8A8_SRGB}, quality, light), // every device copies it
+        : renderer_(device, {.color = VK_FORMAT_R8G8B8A8_SRGB}, quality, light), // every device can copy it
           shot_(device, renderer_, extent, scale) {}
 
-    /// Makes what these layers are drawn with. Throws vk::Error.
+    /// Makes the pipelines and images for these layers. Throws vk::Error.
     void prepare(const Layers& layers) { renderer_.add(renderer_.make(layers)); }
 
-    /// As those of Shot.
+    /// These functions: see Shot.
     void record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
                 const Overlay& overlay = {}) {
         shot_.record(commands, 0, camera, simulation, overlay);

@@ -1,4 +1,4 @@
-// What the picture's shaders bind: the numbers of the frame and the light maps, once per picture in flight.
+// Descriptor sets of the picture's shaders: frame parameters and light maps, one set per picture in flight.
 #pragma once
 
 #include "viewer/draw/light_maps.hpp"
@@ -14,16 +14,16 @@ class PictureSets {
 public:
     PictureSets(const vk::Device& device, const LightMaps& maps, std::uint32_t slots);
 
-    /// Of every picture pipeline: this set, and layout::SkinPush for fragment shaders.
+    /// Layout of every picture pipeline: this set, and layout::SkinPush for fragment shaders.
     VkPipelineLayout layout() const noexcept { return sets_.handle(); }
 
-    /// The picture that last used the slot must be finished.
+    /// The slot's previous picture must be finished, here and in the functions below.
     void write(std::uint32_t slot, const layout::FrameParams& params) const noexcept;
-    /// What a section has counted, where pipelines read it. Likewise.
+    /// Binds the image of a section's counts for pipelines that read it.
     void writeCounts(std::uint32_t slot, VkImageView counts, VkSampler sampler) const noexcept;
-    /// What stands behind all bodies, likewise.
+    /// Binds the image of sky and far floor.
     void writeBackdrop(std::uint32_t slot, VkImageView backdrop, VkSampler sampler) const noexcept;
-    /// A picture that is enlarged, likewise.
+    /// Binds the small image of an enlarged picture.
     void writeEnlarged(std::uint32_t slot, VkImageView drawn, VkSampler sampler) const noexcept;
     void bind(VkCommandBuffer commands, std::uint32_t slot) const noexcept { sets_.bind(commands, slot); }
 

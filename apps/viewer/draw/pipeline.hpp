@@ -1,4 +1,4 @@
-// Graphics pipelines out of the embedded shaders, with the little that differs between ours.
+// Graphics pipelines from the embedded shaders. A request holds what differs between the viewer's pipelines.
 #pragma once
 
 #include "vk/device.hpp"
@@ -9,23 +9,23 @@ namespace sinew::viewer {
 /// A corner of a panel's triangle, as Dear ImGui lays it out.
 struct PanelVertex {
     float place[2];        ///< from the upper left corner of the picture [pixels]
-    float atlas[2];        ///< in the glyph atlas, which is 1 wide and high
-    std::uint8_t color[4]; ///< red, green, blue as shown (sRGB), alpha
+    float atlas[2];        ///< in the glyph atlas, whose sides have length 1
+    std::uint8_t color[4]; ///< red, green, blue in sRGB, alpha
 };
 
 struct PipelineRequest {
     std::string name;
     const vk::ShaderCode* vertex = nullptr;
     const vk::ShaderCode* fragment = nullptr; ///< null: depth only
-    bool isDepthOnly = false;                 ///< though there is one
+    bool isDepthOnly = false;                 ///< even if there is a fragment shader
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkRenderPass pass = VK_NULL_HANDLE;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    /// Of SkinVertex, binding 0; or corners of a ball, and an instance its place, its piece at location 4,
-    /// and its radius, bindings 0 to 3; of a hand those without a radius. Of a cut SkinVertex and CutVertex,
-    /// bindings 0 and 1. Of panels PanelVertex. With a value (float) at location 3: skins at binding 1, balls
-    /// an instance at 4, cuts at 2. Of a mark corners as of a hand, and ContactMark an instance, bindings 0
-    /// and 1. Of particles positions. Of cells CellMark an instance, binding 0.
+    /// Vertex inputs. positions, positionsAndNormals: SkinVertex at binding 0. balls: corners at 0, and per
+    /// instance position (1), piece (2, location 4) and radius (3); hand: as balls without radius. cuts:
+    /// SkinVertex at 0, CutVertex at 1. panels: PanelVertex. skinValues, ballValues, cutValues: also a float
+    /// at location 3, from binding 1, 4 (per instance) and 2. marks: corners as for a hand at 0, and a
+    /// ContactMark per instance at 1. particles: positions. cells: a CellMark per instance at 0.
     enum class Input {
         none,
         positions,
@@ -48,11 +48,11 @@ struct PipelineRequest {
         fronts,
         backs
     } faces = Faces::all;       ///< fronts are counter-clockwise in the picture
-    bool hasEdgesAlone = false; ///< of triangles; only where drawsEdges()
-    /// Over what is there by alpha; or added to it; or over it in an image that is put over another later:
-    /// laid, which keeps colors times alpha; or over it with such colors.
+    bool hasEdgesAlone = false; ///< draws only edges of triangles; only if drawsEdges()
+    /// over: alpha blending. sum: adds to the image. laid: alpha blending into an image that is blended over
+    /// another later; it holds colours times alpha. overTimesAlpha: blends such colours over an image.
     enum class Blend { none, over, sum, laid, overTimesAlpha } blend = Blend::none;
-    std::span<const vk::SpecialisationConstant> constants; ///< of both stages; ids a shader lacks are ignored
+    std::span<const vk::SpecialisationConstant> constants; ///< for both stages; unknown ids are ignored
 };
 
 /// A VkPipeline with dynamic viewport and scissor. Movable. Must not outlive its Device.

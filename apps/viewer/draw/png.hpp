@@ -1,4 +1,4 @@
-// Pictures as PNG files, with what made them in their text chunks.
+// PNG files of pictures, with a description of their origin in text chunks.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ struct Picture {
 /// Keyword and text of tEXt chunks, Latin-1: {"Software", "Sinew"}, {"Scene", "organ"} ...
 using PictureText = std::vector<std::pair<std::string, std::string>>;
 
-/// The file's bytes, alpha left out. Takes about a tenth of a second for a million pixels.
+/// Encodes a PNG file without alpha. Takes about a tenth of a second for a million pixels.
 std::vector<std::uint8_t> encodePng(const Picture& picture, const PictureText& text);
 
-/// Writes the whole file or none, see mesh::writeWhole. Throws mesh::ExportError.
+/// Writes the whole file or none (see mesh::writeWhole). Throws mesh::ExportError.
 void writePng(const std::filesystem::path& file, const Picture& picture, const PictureText& text);
 
 } // namespace sinew::viewer

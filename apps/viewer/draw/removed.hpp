@@ -1,13 +1,12 @@
-// What says of a particle that it is drawn no more: the piece that it was part of is a crumb that was
-// removed.
+// Marks of particles that are no longer drawn, because their piece was removed as a fragment.
 #pragma once
 
 #include "sim/simulation.hpp"
 
 namespace sinew::viewer {
 
-/// A word a particle: REMOVED_PIECE of layout.h where it was removed (sim::Scene::crumbs), anything else
-/// where not. Of the simulation's newest step, for vertex input and compute.
+/// One word per particle: REMOVED_PIECE of layout.h if it was removed (sim::Scene::crumbs), any other value
+/// if not. State of the simulation's newest step, for vertex input and compute.
 vk::BufferView removedParticles(const sim::Simulation& simulation);
 
 } // namespace sinew::viewer

@@ -1,6 +1,5 @@
-// The render passes of a picture and the framebuffers they draw into. Every pipeline stage and access mask of
-// the viewer's drawing is in render_pass.cpp, as external dependencies: the renderer records no barrier of
-// its own.
+// The render passes of a picture and their framebuffers. All pipeline stages and access masks of the viewer's
+// drawing are in render_pass.cpp, as external dependencies: the renderer records no barrier of its own.
 #pragma once
 
 #include "viewer/draw/image.hpp"
@@ -28,7 +27,8 @@ public:
     /// With one sample there is no third: the first attachment is the picture.
     static RenderPass picture(const vk::Device& device, const Picture& picture);
 
-    /// Draws all of a picture, of one sample and without depth, and leaves it in `finalLayout`, as picture().
+    /// Draws a whole picture with one sample and without depth, and leaves it in `finalLayout`, like
+    /// picture().
     static RenderPass whole(const vk::Device& device, VkFormat color, VkImageLayout finalLayout);
 
     /// Draws over a picture that picture() has left in its final layout, and leaves it there.

@@ -1,5 +1,5 @@
-// Draws the skins and the colliders of a simulation, and balls for what has no skin, lit and shadowed, on a
-// floor under a sky. The same code for a window and for files.
+// The renderer: draws skins, colliders, and balls for bodies without a skin, lit and shadowed, on a floor
+// under a sky. The same code serves the window and files.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -15,44 +15,43 @@ namespace sinew::viewer {
 
 struct Quality {
     std::uint32_t shadowSize = 2048;                       ///< pixels a side
-    std::uint32_t floorSize = 512;                         ///< of the map of the floor's light, pixels a side
+    std::uint32_t floorSize = 512;                         ///< map of the floor's light, pixels a side
     std::uint32_t shadowTaps = 32, skyTaps = 96;           ///< per pixel
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT; ///< 1 and 4 work on every device
-    bool keepsBackdrop = false; ///< sky and far floor, while the camera rests: where shading is dear
+    bool keepsBackdrop = false; ///< caches sky and far floor while the camera rests; saves shading
     bool mayEnlarge = false;    ///< pictures may be drawn smaller than they are; needs one sample
-    /// Backs of skins that enclose something are drawn where the camera may be inside alone, or a section is.
+    /// Draws backs of skins of closed bodies only if the camera may be inside one, or for a section.
     bool leavesBacks = false;
-    std::uint32_t floorEvery = 1; ///< pictures: those between have the floor's light of an earlier one
+    std::uint32_t floorEvery = 1; ///< pictures per update of the floor's light
 };
 
 /// For moving pictures in a window on a software device: smaller maps, fewer taps, one sample.
 Quality reducedQuality();
 
-/// Whether a device of our own making draws the edges of triangles.
+/// Whether a device made by the viewer can draw the edges of triangles.
 bool drawsEdges(const vk::Device& device);
 
-/// True for a device that draws on the CPU.
+/// Whether the device is a CPU.
 bool isSoftware(const vk::Device& device);
 
-/// Owns passes, pipelines and maps, not what they draw into. Must not outlive its Device, which must not
-/// move.
+/// Owns passes, pipelines and maps, not the targets. Must not outlive its Device, which must not move.
 class Renderer {
 public:
-    /// Pictures recorded but not finished, at most: those of a window, films and files of them, each
-    /// of two halves, a rehearsal.
+    /// The most pictures recorded but not finished: those of a window, of films and of files, each of two
+    /// halves, and one rehearsal.
     static constexpr std::uint32_t slots = 13;
 
     struct Target {
         VkFormat color = VK_FORMAT_R8G8B8A8_SRGB;
         VkImageLayout finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     };
-    /// A target format without sRGB encoding gets it from the shaders. `light` is of the scene that will be
-    /// drawn.
+    /// For a target format without sRGB encoding, the shaders encode. `light` belongs to the scene that will
+    /// be drawn.
     Renderer(const vk::Device& device, const Target& target, const Quality& quality, const StageLight& light);
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Pipelines that a renderer has not had yet.
+    /// Pipelines that a renderer lacks.
     class Additions {
     public:
         std::size_t count() const { return made_.size(); }
@@ -67,28 +66,29 @@ public:
         std::vector<Made> made_;
         std::optional<RenderPass> countsPass_;
     };
-    /// Makes what overlays with these layers are drawn with, and is not there yet. Any thread, while pictures
-    /// are recorded, but nothing is added. Throws vk::Error.
+    /// Makes the missing pipelines for overlays with these layers. Any thread, while pictures are recorded,
+    /// but not during add(). Throws vk::Error.
     Additions make(const Layers& layers) const;
     void add(Additions additions);
-    /// Whether all that they are drawn with is there.
+    /// Whether all pipelines for these layers exist.
     bool has(const Layers& layers) const noexcept;
-    /// Makes it at once, and in the canvas what these layers need. Throws vk::Error.
+    /// Makes and adds the missing pipelines and the images that the canvas needs. Throws vk::Error.
     void prepare(const Layers& layers, Canvas& canvas);
-    /// The latter alone, where the renderer has these layers.
+    /// Makes only the images of the canvas, if the renderer has these layers.
     void prepareCanvas(const Layers& layers, Canvas& canvas) const;
-    /// Draws nothing with one of the additions, made for `layers`, into `canvas`, which need not be prepared
-    /// and which nobody sees: a driver that compiles what is first used does so then. Slot as in record().
+    /// Binds the pipelines of one addition, made for `layers`, and draws nothing visible into `canvas`, which
+    /// need not be prepared and is never shown: drivers that compile at the first use compile here. Slot: see
+    /// record().
     void recordRehearsal(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas, const Camera& camera,
                          const Layers& layers, const Additions& additions, std::size_t which) const;
 
-    /// Of less than 1 is the `scale` of the sides of what is drawn, where quality has mayEnlarge.
+    /// `scale` < 1 reduces the sides of the drawn image, if quality has mayEnlarge.
     Canvas makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures, float scale = 1) const;
-    /// For pictures that are left in TRANSFER_SRC_OPTIMAL layout; another one than the target's has a scale
-    /// of 1.
+    /// For pictures that are left in TRANSFER_SRC_OPTIMAL layout; if that is not the target's layout, the
+    /// scale is 1.
     Canvas makeCopiedCanvas(VkExtent2D extent, std::span<const VkImageView> pictures, float scale = 1) const;
-    /// For two pictures in one: each is recorded into a canvas of its own, in a slot of its own, then both
-    /// put in their places, `width` pixels from the left. `isCopied` as of makeCopiedCanvas().
+    /// For two pictures in one: each is recorded into its own canvas in its own slot; then both are copied to
+    /// their places, `width` pixels from the left. `isCopied`: see makeCopiedCanvas().
     Halves makeHalves(VkExtent2D extent, std::span<const VkImageView> pictures, std::uint32_t width,
                       bool isCopied = false) const;
     void recordHalves(VkCommandBuffer commands, std::array<std::uint32_t, 2> ofHalves, const Halves& halves,
@@ -97,8 +97,8 @@ public:
 
     /// Records one picture. `commands` must be recording, outside a render pass, after recordSkin() of
     /// `simulation` in the same queue. `slot` < slots; its previous picture must be finished. Leaves the
-    /// picture in the final layout. The layers of `overlay` must be prepared; what the device cannot draw of
-    /// them is left out.
+    /// picture in the final layout. The layers of `overlay` must be prepared; layers that the device cannot
+    /// draw are left out.
     void record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas, std::size_t picture,
                 const Camera& camera, const sim::Simulation& simulation,
                 const Overlay& overlay = {}) noexcept;
@@ -111,12 +111,12 @@ private:
     void addLit(Additions& to, std::size_t index, PipelineRequest request) const;
     void addDepths(Additions& to, std::size_t ofShadow, std::size_t ofPlan,
                    const PipelineRequest& request) const;
-    /// The form of a pipeline that leaves away what a section does, where there is one.
+    /// The form of a pipeline that omits the side cut away by a section, if there is such a form.
     std::size_t opened(std::size_t pipeline, const Layers& layers) const noexcept {
         return layers.section && has(pipeline + pipelineCount) ? pipeline + pipelineCount : pipeline;
     }
     bool has(std::size_t pipeline) const noexcept { return pipelines_[pipeline].has_value(); }
-    /// What a layer is drawn with: the first of its pipelines stands for all.
+    /// The pipelines of a layer; if the first one exists, all do.
     struct Feature {
         bool (*isIn)(const Layers& layers);
         std::size_t first;
@@ -145,7 +145,7 @@ private:
     const RenderPass& passOf(const Canvas& canvas) const noexcept;
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation, const Overlay& overlay,
                     bool isFloorDue) const noexcept;
-    /// Pipelines of a map: of all faces, of those that face the light, and of balls.
+    /// Pipelines of a light map: for all faces, for faces towards the light, and for balls.
     struct Shades {
         std::size_t all, facing, balls;
     };
@@ -160,7 +160,7 @@ private:
                    const Overlay& overlay) const noexcept;
     void drawValues(VkCommandBuffer commands, const sim::Simulation& simulation,
                     const Overlay& overlay) const noexcept;
-    /// What is drawn into.
+    /// The target of a picture.
     struct Sheet {
         Canvas& canvas;
         std::size_t picture;
@@ -180,7 +180,7 @@ private:
     void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer, VkExtent2D extent,
                std::span<const VkClearValue> clear) const noexcept;
     void bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
-    /// Pipelines: of any skin, and of those that enclose something and face outwards.
+    /// Pipelines for any skin, and for closed skins whose triangles face outwards.
     struct OfSkins {
         OfSkins(std::size_t one) : any(one), solids(one) {}
         OfSkins(std::size_t ofAny, std::size_t ofSolids) : any(ofAny), solids(ofSolids) {}
@@ -215,25 +215,25 @@ private:
 
     const vk::Device& device_;
     StageLight light_;
-    ColliderMeshes colliders_, poke_; // the second a sphere of radius 1
+    ColliderMeshes colliders_, poke_; // the second: a sphere of radius 1
     CanvasFormat format_;
     VkImageLayout finalLayout_;
     Quality quality_;
     bool drawsEdges_;
     std::uint64_t pictures_ = 0;
-    bool leavesBacks_ = false; // in this picture
+    bool leavesBacks_ = false; // for this picture
     LightMaps maps_;
     RenderPass pass_;
     PictureSets sets_;
     Balls balls_, marks_;
     HandMesh hand_;
     vk::Buffer strokes_;                                        // vec4, pointsASlot each
-    vk::Buffer nothing_;                                        // corners that are one
-    std::array<vk::SpecialisationConstant, 3> look_, heldLook_; // of what is lit; of marks of what is held
+    vk::Buffer nothing_;                                        // one degenerate corner
+    std::array<vk::SpecialisationConstant, 3> look_, heldLook_; // for lit bodies; for marks of held particles
     enum PipelineIndex : std::size_t {
         shadowPipeline,
         planPipeline,
-        shadowFacingPipeline, // of what a light meets first: faces that look towards it
+        shadowFacingPipeline, // faces that look towards the light: a closed body's nearest ones
         planFacingPipeline,
         floorPipeline,
         skinPipeline,
@@ -266,13 +266,14 @@ private:
         capPipeline,
         pipelineCount
     };
-    std::array<PipelineRequest, pipelineCount> requests_; // of those that there are
-    // Of layers where they were prepared; behind them, in the same order, what a section makes of them.
+    std::array<PipelineRequest, pipelineCount> requests_; // of the pipelines that exist
+    // A pipeline exists once a layer that uses it is prepared. The second half holds, in the same order, the
+    // forms for a section.
     std::array<std::optional<Pipeline>, 2 * pipelineCount> pipelines_;
-    std::optional<RenderPass> countsPass_;   // of a section
-    std::optional<RenderPass> readablePass_; // as pass_, of pictures that shaders read
-    RenderPass copiedPass_;                  // likewise, of pictures that are copied
-    std::optional<RenderPass> wholePass_;    // where pictures may be enlarged
+    std::optional<RenderPass> countsPass_;   // for counts of a section
+    std::optional<RenderPass> readablePass_; // like pass_, for pictures that shaders read
+    RenderPass copiedPass_;                  // like pass_, for pictures that are copied
+    std::optional<RenderPass> wholePass_;    // if pictures may be enlarged
 };
 
 } // namespace sinew::viewer

@@ -1,4 +1,4 @@
-// How shaders read an image.
+// A sampler: how shaders read an image.
 #pragma once
 
 #include "vk/device.hpp"
@@ -7,14 +7,14 @@
 
 namespace sinew::viewer {
 
-/// A VkSampler without levels. Movable. Must not outlive its Device.
+/// A VkSampler without mip levels. Movable. Must not outlive its Device.
 class Sampler {
 public:
     struct Request {
         std::string name;
         VkFilter filter = VK_FILTER_NEAREST;
         VkSamplerAddressMode beyond = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER; ///< the border is 1
-        bool isComparing = false; ///< 1 where the reference is at most what is there
+        bool isComparing = false; ///< returns 1 if the reference is at most the texel
     };
     Sampler(const vk::Device& device, const Request& request);
     Sampler(Sampler&& other) noexcept;

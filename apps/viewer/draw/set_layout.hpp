@@ -1,4 +1,4 @@
-// Descriptor sets of one shape and the pipeline layout that they fit.
+// Descriptor sets with one layout, and the pipeline layout that they fit.
 #pragma once
 
 #include "vk/device.hpp"
@@ -9,7 +9,7 @@
 
 namespace sinew::viewer {
 
-/// Those that see push constants.
+/// The stages that see push constants.
 inline constexpr VkShaderStageFlags drawingStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 /// Set 0 of a pipeline, `count` times, and push constants of the drawing stages. Must not outlive its Device,
@@ -25,7 +25,7 @@ public:
     ~SetLayout();
 
     VkPipelineLayout handle() const noexcept { return layout_; }
-    /// What is not written yet must not be bound.
+    /// A set must be written before it is bound.
     VkDescriptorSet set(std::uint32_t index) const noexcept { return sets_[index]; }
     void bind(VkCommandBuffer commands, std::uint32_t index) const noexcept;
 

@@ -1,4 +1,4 @@
-// A picture that goes to the host: the image it is drawn into and its way back.
+// An off-screen picture and its copy to the host.
 #pragma once
 
 #include "viewer/draw/png.hpp"
@@ -6,19 +6,19 @@
 
 namespace sinew::viewer {
 
-/// Drawn with a renderer's pipelines, whatever that draws for: it makes none. Must not outlive the renderer
-/// and the Device, which must not move.
+/// Draws with the pipelines of a renderer, and makes none. Must not outlive the renderer and the Device,
+/// which must not move.
 class Shot {
 public:
-    /// Throws vk::Error. `scale` as in Renderer::makeCopiedCanvas.
+    /// Throws vk::Error. `scale`: see Renderer::makeCopiedCanvas.
     Shot(const vk::Device& device, Renderer& renderer, VkExtent2D extent, float scale = 1);
 
-    /// Records picture and copy, with layers that the renderer has. As Renderer::record, whose slot it takes;
-    /// the previous picture must be finished. Throws vk::Error.
+    /// Records the picture and the copy, with layers that the renderer has. Parameters as for
+    /// Renderer::record, whose slot it uses; the previous picture must be finished. Throws vk::Error.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Camera& camera,
                 const sim::Simulation& simulation, const Overlay& overlay = {});
 
-    /// Two simulations beside each other, each with its overlay: in `slots`, one each.
+    /// Two simulations side by side, each with its overlay, in one slot each.
     struct Side {
         const sim::Simulation& simulation;
         const Overlay& overlay;
@@ -26,14 +26,14 @@ public:
     void recordHalves(VkCommandBuffer commands, std::array<std::uint32_t, 2> slots, const Camera& camera,
                       const std::array<Side, 2>& sides);
 
-    /// The same in two, for what draws over the picture in between: it finds and leaves view() in
-    /// TRANSFER_SRC_OPTIMAL layout.
+    /// Records picture and copy separately, so that a caller can draw over the picture in between: view() is
+    /// then in TRANSFER_SRC_OPTIMAL layout, before and after.
     void recordPicture(VkCommandBuffer commands, std::uint32_t slot, const Camera& camera,
                        const sim::Simulation& simulation, const Overlay& overlay = {});
     void recordCopy(VkCommandBuffer commands) const noexcept;
     VkImageView view() const noexcept { return image_.view(); }
 
-    /// The picture of the newest finished record(), red first.
+    /// Reads the picture of the newest finished record(), RGBA.
     Picture read() const;
 
 private:
@@ -42,7 +42,7 @@ private:
     Image image_;
     vk::Buffer readback_;
     Canvas canvas_;
-    std::optional<Halves> halves_; // made when they are first wanted
+    std::optional<Halves> halves_; // made at the first use
 };
 
 } // namespace sinew::viewer

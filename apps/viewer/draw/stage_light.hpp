@@ -1,5 +1,5 @@
-// Where the light of a scene comes from and which volume its maps cover: fixed when the scene is opened, so
-// that shadows do not swim as bodies move.
+// The light of a scene and the volume that its maps cover. Both are fixed when the scene is opened, so that
+// shadows do not shift as bodies move.
 #pragma once
 
 #include "viewer/draw/balls.hpp"
@@ -9,30 +9,30 @@
 
 namespace sinew::viewer {
 
-constexpr float pinShare = 0.02f; ///< radius of the ball of a hand or pin, of that of the stage
+constexpr float pinShare = 0.02f; ///< radius of the ball of a hand or pin / radius of the stage
 
 struct StageLight {
-    Box bounds;                           ///< where bodies are expected [m]
-    std::optional<float> ground;          ///< its height [m]; none = no floor is drawn
+    Box bounds;                           ///< box in which bodies are expected [m]
+    std::optional<float> ground;          ///< height of the floor [m]; empty = no floor
     Vector3 toLight = Vector3::UnitY();   ///< unit direction to the key light
-    std::vector<float> gloss;             ///< of each skin: 1 moist tissue, less for cloth
-    std::vector<sim::Vec3> skins;         ///< their colors, linear RGB
-    std::vector<bool> isClosed;           ///< likewise: whether it encloses something (closedSkins)
-    std::vector<bool> isOutward;          ///< likewise: and its triangles face outwards
-    BallList balls;                       ///< what is drawn of bodies that have none
-    BallList marks;                       ///< of what the scene holds
-    bool showsSleep = false;              ///< bodies that sleep are paler
-    std::vector<sim::Collider> colliders; ///< drawn where the simulation has them
+    std::vector<float> gloss;             ///< one per skin: 1 moist tissue, less for cloth
+    std::vector<sim::Vec3> skins;         ///< colour of each skin, linear RGB
+    std::vector<bool> isClosed;           ///< whether each skin is closed (closedSkins)
+    std::vector<bool> isOutward;          ///< whether it is closed and its triangles face outwards
+    BallList balls;                       ///< balls for bodies without a skin
+    BallList marks;                       ///< marks of the particles that the scene holds
+    bool showsSleep = false;              ///< sleeping bodies are paler
+    std::vector<sim::Collider> colliders; ///< drawn at the poses of the simulation
 
-    /// Whether triangles of all skins that enclose something face outwards, as those of their cuts do.
+    /// Whether the triangles of all closed skins face outwards, as those of their cuts do.
     bool areSolidsOutward() const;
     float radius() const { return 0.5f * bounds.diagonal().norm(); }
 };
 
-/// A key light to the left of `camera`, and room around the bodies to fall, spread and bounce.
+/// Places a key light to the left of `camera`, and adds room around the bodies to fall, spread and bounce.
 StageLight lightFor(const sim::Scene& scene, const Camera& camera);
 
-/// The numbers of one picture.
+/// Shader parameters of one picture.
 layout::FrameParams frameParams(const StageLight& light, const Camera& camera, float aspect,
                                 const std::optional<Section>& section = {});
 

@@ -1,6 +1,6 @@
-// The numbers behind color maps: a kernel gives each particle its value in the state that is shown, others
-// hand it on to the vertices of skins and of cuts. Made when a map is first on; nothing of the state goes to
-// the host but how values are spread.
+// The values behind colour maps. A kernel computes a value for each particle in the shown state; others pass
+// it to the vertices of skins and cuts. Only the distribution of values goes to the host. Made when a map is
+// first turned on.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -15,18 +15,17 @@ struct StateLayout;
 
 namespace sinew::viewer {
 
-/// Which particle a slot of the solver's state holds, or NO_PARTICLE.
+/// The particle in each slot of the solver's state, or NO_PARTICLE.
 std::vector<std::uint32_t> particlesBySlot(const sim::StateLayout& state);
 
-/// The links of every particle, by which a kernel finds their strain. `slots`: of the particles in the
-/// solver's state.
+/// The links of every particle, for the strain kernel. `slots`: slots of the particles in the solver's state.
 struct LinkTable {
     std::vector<layout::ValueLinks> linksOf;
     std::vector<layout::ValueLink> links;
 };
 LinkTable linkTable(const sim::Scene& scene, std::span<const std::uint32_t> slots);
 
-/// Of every vertex of all skins, in their order.
+/// One for every vertex of all skins, in order.
 std::vector<layout::ValueHolders> skinHolders(const sim::Scene& scene);
 
 MapReading readingOf(const layout::ValueSpread& spread);
@@ -38,13 +37,13 @@ public:
     ValueMaps(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
               const sim::Simulation& simulation, std::uint32_t slots);
 
-    /// Of the state that recordSkin() was recorded for. `slot` < slots; what was recorded into it must have
-    /// finished.
+    /// Computes the values of the state for which recordSkin() was recorded. `slot` < slots; the slot's
+    /// previous commands must have finished.
     void record(VkCommandBuffer commands, ColorMap map, std::uint32_t slot) const noexcept;
-    /// Of a slot that has finished.
+    /// The distribution, once the commands of that slot have finished.
     MapReading reading(std::uint32_t slot) const noexcept;
 
-    /// Empty where there are no skins, no cuts.
+    /// skins() and cuts() are empty if there are none.
     vk::BufferView particles() const noexcept { return values_.view(); }
     vk::BufferView skins() const noexcept;
     vk::BufferView cuts() const noexcept;
@@ -64,9 +63,9 @@ private:
     std::uint32_t particleCount_, heldVertices_, cutVertices_;
     bool hasSpeeds_;
     vk::Buffer linksOf_, links_, holders_, particleOfSlot_, inverseMasses_;
-    vk::Buffer noLinks_; // stands for live links where nothing can be cut
+    vk::Buffer noLinks_; // stands for live links if nothing can be cut
     vk::Buffer values_, skinValues_, cutValues_, spread_, spreads_;
-    std::shared_ptr<const vk::Kernel> strain_, speed_, sleep_, skin_, cut_, sheet_; // of the device's store
+    std::shared_ptr<const vk::Kernel> strain_, speed_, sleep_, skin_, cut_, sheet_; // from the device's store
     std::vector<Sheet> sheets_;
     vk::BindingSets sets_;
 };

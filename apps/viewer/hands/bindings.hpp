@@ -1,5 +1,5 @@
-// Every key and mouse binding of the viewer, in one table: the window, the help text and the tests are made
-// from it.
+// The table of all key and mouse bindings of the viewer, from which the window, the help text and the tests
+// are made.
 #pragma once
 
 #include <optional>
@@ -68,21 +68,21 @@ enum class Action {
     quit
 };
 
-/// What a hand does. `code` and `modifiers` are GLFW's: a key, a mouse button, or nothing for the wheel and
-/// for modifiers that are held.
+/// A user input. `code` and `modifiers` are GLFW's: a key, a mouse button, or 0 for the wheel and for
+/// modifiers that are held.
 struct Trigger {
     enum class Kind { key, drag, doubleClick, wheel, held } kind = Kind::key;
     int code = 0;
-    int modifiers = 0; ///< of Shift and Ctrl, of the wheel Alt too; others are ignored
+    int modifiers = 0; ///< Shift and Ctrl, for the wheel also Alt; others are ignored
     bool operator==(const Trigger&) const = default;
 };
 
 struct Binding {
     Trigger trigger;
     Action action;
-    std::string_view shown; ///< how the help names it; empty = as the one before, on another keyboard
+    std::string_view shown; ///< name in the help; empty = same as the one before, on another keyboard
     std::string_view help;
-    std::string_view button = {}; ///< what its button in the panels says; only the first of an action has one
+    std::string_view button = {}; ///< label in the panels; only for the first binding of an action
 };
 
 std::span<const Binding> bindings();
@@ -95,18 +95,18 @@ struct HelpLine {
     std::string_view help;
 };
 std::vector<HelpLine> helpLines();
-/// The same as text.
+/// The help lines as one text.
 std::string helpText();
 
-/// How the first key of an action is shown: "Space".
+/// Name of the first key of an action: "Space".
 std::string_view keyOf(Action action);
-/// What can be done now, in a line: with the blade or the sphere in hand, while a body is held, or with empty
-/// hands; `depth` of the blade [m], nothing = through.
+/// One line on the possible actions: with the blade or the sphere, while a body is held, or without a tool.
+/// `depth` of the blade [m], empty = through.
 enum class Hands { empty, holding, blade, poke };
 std::string hintText(Hands hands, bool canCut, const std::optional<float>& depth = {});
-/// How deep a blade goes: "0.012 m deep", "through".
+/// Depth of a blade: "0.012 m deep", "through".
 std::string depthText(const std::optional<float>& depth);
-/// Where there is no room for it: how to get help.
+/// For windows without room for hintText(): only how to get help.
 std::string shortHintText();
 
 } // namespace sinew::viewer

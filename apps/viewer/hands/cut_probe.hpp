@@ -1,5 +1,5 @@
-// Skins where they are cut, and what the cuts have laid open, for StateProbe: as much of it as there was the
-// time before and some more, since how much there is now only the device knows.
+// Copies of cut skins and of the surface of cuts, for StateProbe. Only the device knows how much there is
+// now, so a copy takes as much as the last time and some more.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -14,22 +14,23 @@ namespace sinew::viewer {
 /// Must not outlive its Device, which must not move, nor the simulation. One recording at a time.
 class CutProbe {
 public:
-    /// Of a simulation of this scene that has a surface of cuts.
+    /// The simulation must be of this scene and have a surface of cuts.
     CutProbe(const vk::Device& device, const sim::Scene& scene, const sim::Simulation& simulation);
 
-    /// After a barrier that follows recordSkin(). Without memory for it, it is as if nothing were cut.
+    /// Record after a barrier that follows recordSkin(). Without memory, the result is as if nothing were
+    /// cut.
     void record(vk::Commands& commands) noexcept;
 
-    /// Of what was recorded, which must have finished: nothing where nothing is cut.
+    /// Result of the last recording, which must have finished; empty if nothing is cut.
     std::optional<SeenCuts> seen() const noexcept;
-    /// False where there was more than was copied: the next time all of it is.
+    /// False if there was more than was copied; the next recording copies all of it.
     bool isComplete() const noexcept;
 
 private:
     struct Room {
         vk::Buffer vertices, rest, indices;
     };
-    // Of a skin that is no sheet, in all triangles.
+    // All triangles of a skin that is no sheet.
     struct Range {
         vk::BufferView from, to;
     };
@@ -38,10 +39,10 @@ private:
 
     const vk::Device& device_;
     const sim::Simulation& simulation_;
-    vk::Buffer counts_, particles_, skins_; // triangles of sheets stay as they are uncut
+    vk::Buffer counts_, particles_, skins_; // triangles of sheets stay uncut
     std::vector<Range> ranges_;
     std::optional<Room> room_;
-    bool isThere_ = false; // in what was recorded
+    bool isThere_ = false; // in the last recording
 };
 
 } // namespace sinew::viewer

@@ -1,6 +1,7 @@
-// The scalpel of the pointer: while its button is down the blade lies along the ray under it, from before the
-// bodies to behind them or to a depth below the surface, and cuts what it sweeps, a piece of the stroke a
-// step. Where the surface is, is asked of the device, so a stroke of some depth cuts a few pictures later.
+// The scalpel of the pointer. While its button is down the blade lies along the ray under the pointer, from
+// in front of the bodies to behind them or to a depth below the surface, and cuts what it sweeps, one piece
+// of the stroke per step. The device finds the surface, so a stroke of limited depth cuts a few pictures
+// later.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -14,62 +15,62 @@
 
 namespace sinew::viewer {
 
-/// One step's piece of a stroke, for sim::Blade.
+/// The piece of a stroke for one step (sim::Blade).
 struct Sweep {
-    std::array<sim::Vec3, 2> from, to; ///< the blade's edge: before the bodies, behind them or in them [m]
-    bool isCarried = false;            ///< not the first of its stroke
+    std::array<sim::Vec3, 2> from, to; ///< ends of the blade at start and end of the sweep [m]
+    bool isCarried = false;            ///< false for the first piece of a stroke
 };
 
 class CutTool {
 public:
-    /// `stage` is where bodies may be; the blade reaches from one side of the ball around it to the other.
+    /// `stage` is the box of the bodies; the blade spans the ball around it.
     explicit CutTool(const Box& stage);
 
     bool isOn() const { return isOn_; }
-    /// Putting it away ends the stroke; what has been swept is cut all the same, in the next steps.
+    /// Turning it off ends the stroke; swept pieces are still cut in the next steps.
     void toggle();
 
-    /// Of blades that do not go through [m].
+    /// Limits of the depth of a blade that does not go through [m].
     struct Depths {
         float least, most;
     };
     Depths depths() const;
-    /// Below the surface, along the ray of the pointer [m]; nothing = through. From now on; within what makes
-    /// sense.
+    /// Sets the depth below the surface, along the ray of the pointer [m]; empty = through. Clamped to
+    /// depths().
     void setDepth(const std::optional<float>& depth);
     const std::optional<float>& depth() const { return depth_; }
-    /// By so many notches of the wheel, forwards deeper and in the end through.
+    /// Changes the depth by wheel notches: forwards is deeper, and in the end through.
     void deepen(float notches);
 
     void press(const Camera& camera, const Vector2& pointer);
     void move(const Camera& camera, const Vector2& pointer);
     void release();
-    /// Ends the stroke where it has come to: what is still to be cut is not.
+    /// Ends the stroke and drops its pieces that are not cut yet.
     void drop();
 
-    /// The next piece, taken; nothing where no stroke has one.
+    /// Takes the next piece; empty if there is none.
     std::optional<Sweep> next();
-    /// Of steps that were undone, to be cut again first; in their order.
+    /// Puts pieces of undone steps back in front, in their order.
     void putBack(std::span<const Sweep> sweeps);
     /// Whether the piece that next() returns begins a stroke.
     bool beginsStroke() const { return !sweeps_.empty() && !sweeps_.front().isCarried; }
     bool isDown() const { return isDown_; }
     bool isCutting() const { return isDown_ || !sweeps_.empty() || !waiting_.isEmpty(); }
 
-    /// A ray of the stroke that is still to be answered: cuts wait for it.
+    /// A ray of the stroke whose hit is needed; the cut waits for the answer.
     const std::optional<Ray>& question() const { return waiting_.question(); }
     void answer(const std::optional<Pick>& pick);
-    /// Likewise of where the blade could begin to cut, for what is drawn alone.
+    /// The ray for the depth gauge, which is drawn only.
     const std::optional<Ray>& preview() const { return preview_; }
     void answerPreview(const std::optional<Pick>& pick);
-    /// What lies there may have moved.
+    /// The surface under the pointer may have moved.
     void stepTaken();
 
-    /// The stroke as drawn so far, near the eye [m]: what was and what will be cut.
+    /// The stroke as drawn, near the eye [m]: pieces cut and pieces still to be cut.
     std::span<const Vector3> path() const { return path_; }
-    /// How deep it goes, from the pointer downwards on the picture, as long as it would look at the surface
-    /// under the pointer, near the eye [m]; empty where it goes through, or nothing was under the pointer
-    /// yet.
+    /// Line for the depth of the blade: from the pointer downwards on the picture, as long as the depth looks
+    /// at the surface under the pointer, near the eye [m]. Empty for a blade that goes through, or while no
+    /// surface was under the pointer yet.
     std::span<const Vector3> gauge() const { return gauge_; }
 
 private:
@@ -87,17 +88,17 @@ private:
     Vector3 center_;
     float radius_;
     bool isOn_ = false, isDown_ = false, isFirst_ = true, isBeside_ = true;
-    Vector2 pointer_ = Vector2::Zero(); // of the last place
+    Vector2 pointer_ = Vector2::Zero(); // at the newest place
     std::optional<float> depth_;
     WaitingStroke waiting_;
     std::optional<Edge> last_;
     std::deque<Sweep> sweeps_;
     std::vector<Vector3> path_;
 
-    Camera camera_; // through which it was pointed last
+    Camera camera_; // of the newest place
     Ray hovered_;
-    std::optional<Ray> preview_, previewed_; // asked; answered last
-    std::optional<float> surface_;           // under the pointer, along the ray [m]
+    std::optional<Ray> preview_, previewed_; // asked; last answered
+    std::optional<float> surface_;           // distance under the pointer, along the ray [m]
     std::uint32_t stepsSince_ = 0;
     std::vector<Vector3> gauge_;
 };

@@ -1,4 +1,4 @@
-// What lies under the pointer, in numbers: plain data, for the panels.
+// Properties of the particle under the pointer: plain data for the panels.
 #pragma once
 
 #include <array>
@@ -8,24 +8,24 @@
 
 namespace sinew::viewer {
 
-/// Of links, (length - rest length) / rest length: root of the mean square, and largest.
+/// Strain of links, (length - rest length) / rest length: root mean square, and largest.
 struct Strain {
     double rms = 0, largest = 0;
 };
 
 struct Found {
     std::string body;
-    std::uint32_t particle = 0;      ///< the nearest one to what is seen
-    std::array<float, 3> position{}; ///< of it [m]
+    std::uint32_t particle = 0;      ///< nearest to the seen point
+    std::array<float, 3> position{}; ///< of the particle [m]
     bool isFixed = false, isAsleep = false;
-    std::string hold = {};                 ///< name of the scene's [[hold]] that has it; empty where none has
-    std::optional<float> speed;            ///< [m/s]; nothing where the simulation has no velocities
-    std::size_t links = 0;                 ///< that hold
-    std::optional<Strain> strain;          ///< of those; nothing where none does
-    std::optional<std::uint32_t> contacts; ///< how many things it touches; nothing = not counted yet
+    std::string hold = {};                 ///< name of the scene's [[hold]] that holds it; empty = none
+    std::optional<float> speed;            ///< [m/s]; empty if the simulation has no velocities
+    std::size_t links = 0;                 ///< live links
+    std::optional<Strain> strain;          ///< strain of the live links; empty without any
+    std::optional<std::uint32_t> contacts; ///< number of contacts; empty = not counted yet
 };
 
-/// "held by ligament", "fixed", "asleep" or its speed: "0.12 m/s".
+/// "held by ligament", "fixed", "asleep" or a speed: "0.12 m/s".
 std::string stateText(const Found& found);
 
 } // namespace sinew::viewer

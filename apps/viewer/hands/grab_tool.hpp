@@ -1,5 +1,5 @@
-// The hand of the pointer: pressed on a body it holds and pulls it, pressed beside one it turns the camera.
-// What lies under it is asked of the device, so for a frame or two after a press the tool does not know yet.
+// The grab of the pointer: pressed on a body it pulls the body, pressed elsewhere it orbits the camera. The
+// device finds the particle under the pointer, so the answer comes one or two frames after the press.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -10,30 +10,30 @@ namespace sinew::viewer {
 
 class GrabTool {
 public:
-    /// The button went down with `pointer` (as Input::pointer) there.
+    /// The button was pressed at `pointer` (see Input::pointer).
     void press(const Camera& camera, const Vector2& pointer);
-    /// It went up, or what was held is no more.
+    /// The button was released, or the held particle is gone.
     void release();
 
-    /// The ray of a press that is still to be answered.
+    /// The ray of a press that is not answered yet.
     const std::optional<Ray>& question() const { return question_; }
-    /// What it meets. `radius` as holdRadius(). Of a press that is over by now, nothing comes.
+    /// Answers the question. `radius`: see holdRadius(). Ignored if the press is over.
     void answer(const std::optional<Pick>& pick, float radius);
 
-    /// Where the pointer is now. What is held keeps the depth at which it was taken.
+    /// Moves the pointer. The held point keeps its depth from the press.
     void move(const Camera& camera, const Vector2& pointer);
-    /// How far (x, y) of window heights the camera is to be turned by a drag: all since the press where
-    /// nothing is held, nothing otherwise.
+    /// Part of a drag, in (x, y) window heights, that orbits the camera: everything since the press if
+    /// nothing is held, else zero.
     Vector2 drag(const Vector2& heights);
 
-    /// How far around its particle it holds, as answer() was told [m].
+    /// Radius of the grab, as passed to answer() [m].
     float radius() const { return grabs_.empty() ? 0 : grabs_[0].radius; }
 
     bool isDown() const { return isDown_; }
     bool isHolding() const { return !grabs_.empty(); }
     /// For sim::Step::grabs.
     std::span<const sim::Grab> grabs() const { return grabs_; }
-    /// To be drawn.
+    /// The hand to draw.
     std::optional<Hand> hand() const;
 
 private:
@@ -41,7 +41,7 @@ private:
     std::optional<Ray> question_;
     Vector2 waiting_ = Vector2::Zero(); // drag since the press
     Vector3 planePoint_ = Vector3::Zero(), planeNormal_ = Vector3::Zero(), offset_ = Vector3::Zero();
-    std::vector<sim::Grab> grabs_; // one or none
+    std::vector<sim::Grab> grabs_; // none or one element
 };
 
 } // namespace sinew::viewer

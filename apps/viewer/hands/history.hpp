@@ -1,5 +1,4 @@
-// States to go back to: one from before every cut, with its time, and what was undone; or one from before
-// every step.
+// Saved states for undo and redo: one from before every cut, with its time; or one from before every step.
 #pragma once
 
 #include "viewer/draw/stage.hpp"
@@ -10,55 +9,55 @@
 
 namespace sinew::viewer {
 
-/// Of the simulation of one stage, which is given to every call, until bring(). Must not outlive its Device,
-/// which must not move.
+/// Holds states of the simulation of one stage, which is passed to every call, until bring(). Must not
+/// outlive its Device, which must not move.
 class History {
 public:
-    /// Of device memory, but one state always.
+    /// Limit of device memory; one state is always kept.
     static constexpr std::uint64_t mostBytes = 256u << 20;
     static constexpr std::size_t mostCuts = 32, mostSteps = 120;
 
-    /// Of `mostStates` at most.
+    /// Keeps at most `mostStates`.
     History(const vk::Device& device, std::size_t mostStates) : device_(device), mostStates_(mostStates) {}
 
-    /// How many states there is room for, one at least.
+    /// Number of states that fit, at least one.
     std::size_t room(const Stage& stage) const { return room(stage.simulation()); }
 
-    /// Records a copy of the state as it is, to come back to. What was undone is forgotten. Throws vk::Error
-    /// where there is no memory for it. Keeps so many `more` than there is room for: the newest of them may
-    /// be forgotten (forgetFrom) without loss of older ones.
+    /// Records a copy of the present state, to return to, and drops the states to redo. Keeps `more` states
+    /// than fit: the newest of them may be dropped (forgetFrom) without loss of older ones. Throws vk::Error
+    /// if there is no memory.
     void recordBefore(VkCommandBuffer commands, const Stage& stage, std::size_t more = 0);
-    /// Records the way back to the newest of those states, or forwards again; false where there is none.
+    /// Records the return to the newest saved state, or forwards again; false if there is none.
     bool recordUndo(VkCommandBuffer commands, Stage& stage);
     bool recordRedo(VkCommandBuffer commands, Stage& stage);
-    /// The same way back for good: the state as it is cannot be gone forwards to.
+    /// Like recordUndo(), but the present state cannot be redone.
     bool recordBack(VkCommandBuffer commands, Stage& stage);
-    /// Forgets those to go back to that are not before `played`, or so many of them.
+    /// Drops the newest states to undo whose time is not before `played`, at most `most`.
     void forgetFrom(std::uint64_t played, std::size_t most = mostSteps);
-    /// Instead of its own, the states of `other`, which may be this: those of `from` become states of `to`,
-    /// as Simulation::recordTakeOver makes them. Where there is less room for them, the oldest are forgotten;
-    /// while it lasts both are there. Waits. Throws vk::Error, and its own are then as they were.
+    /// Replaces its own states by those of `other`, which may be this: states of `from` become states of `to`
+    /// (see Simulation::recordTakeOver). Drops the oldest if fewer fit; meanwhile both exist. Waits. Throws
+    /// vk::Error; its own states are then unchanged.
     void bring(const History& other, const sim::Simulation& from, vk::Queue& giving, sim::Simulation& to,
                vk::Queue& taking);
 
-    /// Forgets the oldest to go back to, but for so many.
+    /// Drops the oldest states to undo until `states` are left.
     void limit(std::size_t states);
 
     std::size_t undos() const { return before_.size(); }
     std::size_t redos() const { return after_.size(); }
-    /// When the states are of, as Stage::played(): those to go back to from the oldest on, then those to go
-    /// forwards to from the nearest on.
+    /// Times of the states (see Stage::played()): those to undo, oldest first, then those to redo, nearest
+    /// first.
     std::vector<std::uint64_t> times() const;
-    /// Forgets all; the buffers serve again.
+    /// Drops all states; keeps the buffers for reuse.
     void recycle();
-    /// Frees them, too. Nothing of it may be in use on the device.
+    /// Frees the buffers too. The device must not use them.
     void clear();
 
 private:
     struct State {
         vk::Buffer buffer;
         sim::SavedState host;
-        std::uint64_t played = 0; ///< Stage::played()
+        std::uint64_t played = 0; ///< see Stage::played()
     };
     using States = std::deque<State>;
     struct Ferry;
@@ -70,7 +69,7 @@ private:
     const vk::Device& device_;
     std::size_t mostStates_;
     States before_, after_;
-    std::vector<vk::Buffer> spare_; // the device may still read them: commands that follow wait for that
+    std::vector<vk::Buffer> spare_; // the device may still read them; later commands wait for that
 };
 
 } // namespace sinew::viewer
