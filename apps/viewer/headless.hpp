@@ -1,4 +1,4 @@
-// Pictures without a window: stepped, not timed, so that they are the same at any speed.
+// Headless runs: pictures without a window, by steps instead of time, so that they do not depend on speed.
 #pragma once
 
 #include "viewer/options.hpp"
@@ -7,8 +7,8 @@
 
 namespace sinew::viewer {
 
-/// Simulates and draws what the options ask for; returns the exit code. `messages` counts validation messages
-/// and must outlive the call. Throws app::Failure and what scenes, devices and files throw.
+/// Simulates and draws as the options say; returns the exit code. `messages` counts validation messages and
+/// must outlive the call. Throws app::Failure and the exceptions of scenes, devices and files.
 int runHeadless(const Options& options, std::atomic<std::size_t>& messages);
 
 } // namespace sinew::viewer

@@ -1,4 +1,4 @@
-// What frames without a window cost: the same table as that of the window, as far as there is such a thing.
+// Times of frames without a window: the same table as in the window, as far as it applies.
 #pragma once
 
 #include "viewer/draw/stage.hpp"
@@ -15,10 +15,10 @@ namespace sinew::viewer {
 class HeadlessTimes {
 public:
     HeadlessTimes(const vk::Device& device, const Stage& stage);
-    /// After the stage has another simulation, of which no step was recorded yet.
+    /// Call after the stage changed its simulation, before its first step is recorded.
     void restart(const Stage& stage);
 
-    /// For the commands of a step, of which framesInFlight at most are on their way.
+    /// For the commands of a step; at most framesInFlight steps are in flight.
     vk::Timestamps* ofStep(std::uint64_t frame) { return &steps_[frame % steps_.size()]; }
     void stepFinished(std::uint64_t frame);
 
@@ -26,7 +26,7 @@ public:
     void endDrawing(VkCommandBuffer commands);
     void pictureFinished();
 
-    /// The next frame was given to the device.
+    /// Call after the next frame was submitted.
     void submitted();
 
     std::string table() const { return times_.table(); }

@@ -1,5 +1,4 @@
-// The scenes that can be opened beside the one on show, and the opening of them, which takes its time and may
-// fail, while the window goes on.
+// The list of scenes and their loader. Loading runs in another thread and may fail, while the window goes on.
 #pragma once
 
 #include "viewer/opening.hpp"
@@ -11,55 +10,56 @@
 
 namespace sinew::viewer {
 
-/// One thread uses it; it loads in another, and its destructor waits for that.
+/// Used by one thread; loads in another, which the destructor waits for.
 class Library {
 public:
-    /// What else there is to do for a scene that was loaded, in the thread that loads; throws what it likes.
+    /// Further work for a loaded scene, in the loading thread; may throw.
     using Prepare = std::function<void(Opening&, const Options&)>;
 
-    /// What a scene looks like, in the thread of the previews; likewise.
+    /// Draws the preview of a scene, in the thread of the previews; may throw.
     using Draw = std::function<std::optional<Picture>(const Options&, const std::stop_token&)>;
 
-    /// `options` as the program was started with. Offered are the scene files beside the one opened, or those
-    /// built in.
+    /// `options` as the program was started with. The list holds the scene files in the folder of the opened
+    /// one, or the built-in scenes.
     explicit Library(Options options, Prepare prepare = {}, Draw draw = {});
 
-    /// What the first scene is opened with.
+    /// Options of the first scene.
     const Options& options() const { return options_; }
-    /// What the one on show was opened with.
+    /// Options of the scene on show.
     const Options& shown() const { return shown_->options; }
     const std::vector<std::string>& names() const { return names_; }
-    /// Of the scene on show, or of none (-1).
+    /// Index of the scene on show, or -1 if it is not in the list.
     std::size_t current() const { return current_; }
-    /// Of names(), where there is a Draw.
+    /// Previews of names(), if there is a Draw.
     Previews& previews() { return previews_; }
 
-    /// Begins to open another scene for a picture `aspect` wide; nothing while one is being opened.
+    /// Starts to open another scene for a picture of aspect ratio `aspect`; ignored while a scene is being
+    /// opened.
     void open(std::size_t name, float aspect);
-    /// The one before (-1) or after (+1) in the list, round its ends.
+    /// Opens the one before (-1) or after (+1) in the list, cyclically.
     void openNext(int by, float aspect);
-    /// A scene or a mesh: as on the command line.
+    /// Opens a scene or a mesh, as on the command line.
     void openFile(const std::string& file, float aspect);
-    /// The scene on show once more, to take over from it: with another solver, other substeps or another
-    /// material, all else that was asked for as before.
+    /// Opens the scene on show again, to take over from it with another solver, other substeps or another
+    /// material; all other options stay.
     void reopen(const scenes::Overrides& overrides, const Again& again, float aspect);
 
-    /// The scene on show once more, and from then on all of them, on another device.
+    /// Opens the scene on show again on another device; later scenes also use that device.
     void reopenOn(const std::string& device, const Again& again, float aspect);
 
-    /// What is on show plays on that device from here on, and what is opened next is to, too.
+    /// Records that the scene on show, and all opened later, use that device.
     void moveTo(const std::string& device);
 
-    /// The state on show once more, to begin a log anew that begins from it.
+    /// Opens the state on show again, to start a log from it.
     void playAgain(const InputFile& input, float aspect);
 
     bool isOpening() const { return opening_.valid(); }
-    /// What was asked for, once it is there; until then nothing. Throws app::Failure and what scenes::load
-    /// and Prepare throw: the scene on show is then still the current one.
+    /// The requested scene once it is loaded, else null. Throws app::Failure and the exceptions of
+    /// scenes::load and Prepare; the scene on show then stays the current one.
     std::unique_ptr<Opening> take();
-    /// After take() of what was to take over: that is made once more, for what is to be taken over by now.
+    /// After take() of a scene that was to take over: makes it again, to take over the present state.
     void askAgain(const Again& again, float aspect);
-    /// After take(), where what it gave could not be shown: what was on show before is the current one again.
+    /// After take(), if the scene could not be shown: makes the one before current again.
     void putBack();
 
 private:
@@ -74,7 +74,7 @@ private:
 
     Options options_;
     Prepare prepare_;
-    std::vector<std::string> names_, files_; // no files: built in
+    std::vector<std::string> names_, files_; // files_ is empty for built-in scenes
     std::size_t current_;
     std::optional<Request> shown_, before_, asked_;
     std::future<std::unique_ptr<Opening>> opening_;

@@ -1,4 +1,4 @@
-// What a window and a headless run begin with: the scene, the first view of it, its light.
+// A loaded scene: the scene, its first view and its light, for a window or a headless run.
 #pragma once
 
 #include "app/state_file.hpp"
@@ -17,11 +17,11 @@ namespace sinew::viewer {
 struct Place;
 struct PreparedShow;
 
-/// Of the simulation on show, which another one of its scene is to take over from because something was
-/// turned that needs one.
+/// Parameters of a reload: another simulation of the scene on show is to take over from it, because a setting
+/// changed that needs one.
 struct Again {
-    sim::Material material; ///< that the other one is to have
-    sim::Settings settings; ///< with the room that there is
+    sim::Material material; ///< of the new simulation
+    sim::Settings settings; ///< with the present capacities
 };
 
 struct Opening {
@@ -32,35 +32,35 @@ struct Opening {
     scenes::LoadedScene loaded;
     Camera camera;
     StageLight light;
-    std::optional<float> bladeDepth; ///< to begin with, as CutTool::setDepth
+    std::optional<float> bladeDepth; ///< initial depth (see CutTool::setDepth)
     std::optional<Again> again;
-    std::optional<InputFile> input;   ///< to be played
-    std::optional<app::SavedRun> run; ///< to go on from
+    std::optional<InputFile> input;   ///< log to play
+    std::optional<app::SavedRun> run; ///< state to start from
 
-    std::unique_ptr<vk::Device> device; ///< for a window; the next two are on it
+    std::unique_ptr<vk::Device> device; ///< for a window; the next two use it
     std::unique_ptr<Place> place;
     std::unique_ptr<PreparedShow> prepared;
 };
 
-/// Loads the scene, or that of a saved state, prints its notes and warnings to stderr and looks at it: from
-/// where the file or the state says, or with every body in a picture `aspect` wide. Throws as scenes::load
+/// Loads the scene, or that of a saved state, and prints its notes and warnings to stderr. The camera is that
+/// of the file or the state, or has every body in a picture of aspect ratio `aspect`. Throws as scenes::load
 /// and app::readRun.
 Opening open(const Options& options, float aspect);
 
-/// The same without a word on stderr.
+/// Like open(), without output to stderr.
 Opening look(const Options& options, float aspect);
 
-/// What the scene is to be of from the start: of what it goes on from.
+/// The initial material: that of the reload or of the saved state, if there is one.
 sim::Material firstMaterial(const Opening& opening);
 
-/// Asks for a device that draws, and for validation where the options do; each message goes to stderr and is
-/// counted in `messages`, which must outlive the device and is counted up in any thread.
+/// Requests a device that can draw, with validation if the options ask for it. Each message goes to stderr
+/// and is counted in `messages`, which must outlive the device; any thread increments it.
 vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>& messages);
 
 /// "organ: 4,211 particles, solver split with 32 substeps, on llvmpipe (software)".
 std::string headline(const Opening& opening, const vk::Device& device);
 
-/// What every picture file says about itself.
+/// The text chunks of every picture file.
 PictureText pictureText(const Opening& opening, const vk::Device& device, std::uint64_t step);
 
 } // namespace sinew::viewer

@@ -1,5 +1,5 @@
-// All of a show that takes its time to make, on a device of its own: made in the thread that opens the scene
-// while another one is on show, so that nothing waits for it and the two share nothing.
+// A preloaded scene player on a device of its own. The thread that opens a scene makes it while another scene
+// is on show; the two share nothing, and the window waits for nothing.
 #pragma once
 
 #include "viewer/draw/canvas.hpp"
@@ -15,37 +15,37 @@
 
 namespace sinew::viewer {
 
-/// How a device reaches the window: without a swapchain until Screen makes one. Must not outlive its Device.
+/// Presenter and panel painter of a device, without a swapchain until Screen makes one. Must not outlive its
+/// Device.
 struct Place {
     Place(const vk::Device& device, const Window& window);
     Presenter presenter;
     PanelPainter painter;
 };
 
-/// Drawing of one quality into the swapchain's images.
+/// Renderer of one quality and its canvases for the swapchain's images.
 struct View {
     View(const vk::Device& device, VkFormat format, const Quality& quality, const StageLight& light);
     void dropCanvases();
     Renderer renderer;
-    /// By PictureBudget::scale(), of which there is 0 alone where quality has no mayEnlarge; made when they
-    /// are first needed.
+    /// By PictureBudget::scale(), only index 0 unless quality has mayEnlarge; made at the first use.
     std::array<std::optional<Canvas>, PictureBudget::scales.size()> canvases;
-    std::optional<Halves> halves; ///< of the same pictures, likewise
+    std::optional<Halves> halves; ///< of the same pictures; made at the first use
 };
 
 /// Must not outlive opening and device, which must not move.
 struct PreparedShow {
-    /// Throws std::invalid_argument and vk::Error, as sim::Simulation, and as Stage::load. `format` of the
-    /// window's pictures.
+    /// Throws std::invalid_argument and vk::Error like sim::Simulation, and like Stage::load. `format` is
+    /// that of the window's pictures.
     PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format);
 
-    Stage stage; ///< to be reset before its first step, unless it goes on from a state
+    Stage stage; ///< to be reset before its first step, unless it starts from a state
     SceneFacts facts;
     View moving;
-    std::optional<View> still; ///< where `moving` has less than full quality
+    std::optional<View> still; ///< set if `moving` has less than full quality
 };
 
-/// Gives an opening its place and its show. Any thread. Throws as they do.
+/// Makes the place and the player of an opening. Any thread. Throws like their constructors.
 void prepare(Opening& opening, const vk::Device& device, const Window& window);
 
 } // namespace sinew::viewer

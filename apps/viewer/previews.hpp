@@ -1,4 +1,4 @@
-// What scenes look like before anybody opens them: small pictures, made while other things go on.
+// Previews of scenes: small pictures, made in the background.
 #pragma once
 
 #include "viewer/draw/png.hpp"
@@ -16,38 +16,39 @@
 
 namespace sinew::viewer {
 
-/// A scene as it begins, seen as when it is opened; of PictureSheet::extent. Says nothing on stderr. Throws
-/// as open(), sim::Simulation and vk::Error. Ends early, without one, if it is asked to stop.
+/// Draws the start of a scene with the camera that opening it would use, of PictureSheet::extent. Prints
+/// nothing. Throws as open(), sim::Simulation and vk::Error. Returns early without a picture when asked to
+/// stop.
 std::optional<Picture> drawPreview(const vk::Device& device, const Options& options,
                                    const std::stop_token& stop = {});
 
-/// Pictures of numbered scenes, made one after another in a thread of its own, which gives way to others.
+/// Makes previews one after another in a thread of low priority.
 class Previews {
 public:
-    /// Called in that thread; of what throws there is no picture.
+    /// Called in that thread; a scene whose call throws has no preview.
     using Draw = std::function<std::optional<Picture>(std::size_t scene, const std::stop_token& stop)>;
 
     explicit Previews(Draw draw);
-    ~Previews(); ///< asks what is being made to stop, and waits for that
+    ~Previews(); ///< asks the drawing in progress to stop, and waits
     Previews(const Previews&) = delete;
     Previews& operator=(const Previews&) = delete;
 
-    /// These are wanted now, the first first, and no others; what has been made already, or failed, is not
+    /// Sets the previews to make, in this order, and no others; previews that were made, or failed, are not
     /// made again.
     void want(std::vector<std::size_t> scenes);
 
-    /// A picture that was made since, in order.
+    /// Takes the next preview that was made, in order of making.
     std::optional<std::pair<std::size_t, Picture>> take();
 
 private:
     void work(const std::stop_token& stop);
 
     Draw draw_;
-    std::mutex mutex_; // of the next three
+    std::mutex mutex_; // guards the next three
     std::condition_variable_any isWanted_;
     std::vector<std::size_t> wanted_, begun_;
     std::vector<std::pair<std::size_t, Picture>> made_;
-    std::jthread thread_; // begins with the first wish
+    std::jthread thread_; // starts at the first want()
 };
 
 } // namespace sinew::viewer

@@ -1,6 +1,6 @@
-// A scene playing in a window: input, steps in real time, one submission a frame. A paused picture is drawn
-// once and then left alone; on a software device that last one has full quality. The loop stands in show.cpp,
-// the rest beside it: show_input, show_flights, show_pictures, show_replay, show_shape, show_beside.
+// Scene player: a scene that plays in a window, with input, steps in real time, and one submission per frame.
+// A paused picture is drawn once and kept; on a software device that last one has full quality. The loop is
+// in show.cpp, the rest in show_input, show_flights, show_pictures, show_replay, show_shape, show_beside.
 #pragma once
 
 #include "viewer/backstage.hpp"
@@ -30,7 +30,7 @@
 namespace sinew::viewer {
 
 /// Main thread only. Screen, library, devices and the device that `opening` was prepared on must outlive it;
-/// the screen must be in that device's place before run().
+/// the screen must use that device's place before run().
 class Show {
 public:
     /// Throws vk::Error.
@@ -40,53 +40,52 @@ public:
     Show(const Show&) = delete;
     Show& operator=(const Show&) = delete;
 
-    /// Goes on where `before` stands, which shows the same scene and does not play: with all that hands do
-    /// there. Instead of the reset that a new show begins with. Throws vk::Error; `before` is then as it was.
+    /// Continues from `before`, which shows the same scene and does not run, with its tools and log. Instead
+    /// of the reset of a new player. Throws vk::Error; `before` is then unchanged.
     void takeOver(const Show& before);
 
-    /// Plays until the window is closed or the program is interrupted, or until another scene is there, which
+    /// Runs until the window is closed or the program is interrupted, or until another scene is loaded, which
     /// it returns; it may then be called again. Throws vk::Error.
     std::unique_ptr<Opening> run();
 
-    /// Where it is looked at from.
+    /// The present view.
     const Camera& camera() const { return controller_.camera; }
 
-    /// For when the program, or what hands did, ends before its user wants it to: writes what hands did since
-    /// the reset, as far as no file has it, to the current folder or else to `otherwise`, and says how to
-    /// have it again, for the end of a line. Empty where there is nothing to keep. Asks nothing of device and
-    /// window.
+    /// Saves the input when the program or a scene ends unexpectedly: writes the log since the reset, if no
+    /// file has it, to the current folder or else to `otherwise`. Returns the end of a line that says how to
+    /// replay it, or an empty text if there is nothing to save. Uses neither device nor window.
     std::string keepInput(const std::filesystem::path& otherwise) const;
-    /// Likewise: a film that is being made ends with the pictures that it has.
+    /// Ends a film in progress with the pictures that it has. Uses neither device nor window.
     void finishFilm();
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    // Where the camera is to look, once it is known what lies there.
+    // A pending camera move: the target depends on a pick.
     struct Look {
         enum class At { body, point } at;
         Ray ray;
     };
 
-    // What was recorded into a frame in flight and is looked at when it has finished.
+    // Work of a frame in flight, handled when it has finished.
     struct InFlight {
         std::uint64_t firstStep = 0;
         std::uint32_t steps = 0;
         std::vector<Sweep> sweeps; // of its first steps
-        bool isTimed = false;      // by drawingTimes_
-        bool isProbed = false;     // for the bounds
+        bool isTimed = false;      // drawingTimes_ times it
+        bool isProbed = false;     // copies positions for the bounds
         std::optional<Look> look;
-        bool isMeasured = false;          // for the strain
-        bool isCounted = false;           // by pieceProbe_
-        bool isRecorded = false;          // by cameras_
-        ColorMap map = ColorMap::none;    // of what is inspected
-        bool hasContacts = false;         // likewise
-        bool hasCells = false;            // likewise
-        bool isInspected = false;         // for the inspector
-        std::optional<Question> question; // of the tools
+        bool isMeasured = false;          // copies positions for the strain
+        bool isCounted = false;           // pieceProbe_ copies it
+        bool isRecorded = false;          // cameras_ copies it
+        ColorMap map = ColorMap::none;    // its distribution is read
+        bool hasContacts = false;         // contacts are counted
+        bool hasCells = false;            // cells are counted
+        bool isInspected = false;         // copies the state for the inspector
+        std::optional<Question> question; // asked by the tools
         std::unique_ptr<Shot> screenshot;
         std::uint64_t screenshotStep = 0;
-        /// Whether it brings a copy of the state.
+        /// Whether it copies the state.
         bool isAsked() const {
             return isProbed || look || question || isMeasured || isInspected || isCounted;
         }
@@ -139,7 +138,7 @@ private:
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
     void drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view);
-    /// `reduced` as Facts::reduced.
+    /// `reduced`: see Facts::reduced.
     void drawPanels(const Presenter::Frame& frame, std::optional<float> reduced);
     bool isOfCut(bool isCutting);
     std::size_t picturesOnTheirWay();
@@ -198,53 +197,53 @@ private:
     PreparedShow& prepared_;
     Controller controller_;
     Stage& stage_;
-    std::optional<StateProbe> probe_; // of the stage's simulation
+    std::optional<StateProbe> probe_; // for the stage's simulation
     PieceProbe pieceProbe_;
     Backstage backstage_;
-    Watched drawn_; // of what is wanted, what the newest picture has
+    Watched drawn_; // layers of the newest picture
     Inspector inspector_;
     std::unique_ptr<Beside> beside_;
-    std::optional<BesideShape> besideAsked_; // that it is, or is being made as
+    std::optional<BesideShape> besideAsked_; // settings of the comparison, made or in the making
     std::future<std::unique_ptr<Beside>> besideMaking_;
-    Vector2 pointer_ = Vector2::Zero(); // as Input::pointer
-    float fold_ = 0;                    // from its middle to that of the half that it is in, likewise
+    Vector2 pointer_ = Vector2::Zero(); // see Input::pointer
+    float fold_ = 0;                    // middle of the pointer's half, from the window's, in its heights
     std::optional<Look> wantsLook_;
-    std::optional<Look::At> armed_; // by a button: the next press says where
+    std::optional<Look::At> armed_; // set by a button: the next press points there
     MapRange mapRange_;
     std::uint32_t contactsFound_ = 0;
     std::vector<GridFacts> grids_; // of the newest picture with cells
     Tools tools_;
     std::optional<Replay> replay_;
-    std::optional<InputFile> replayed_;        // that has just come to its end
-    std::vector<vk::Timestamps> times_;        // of a step, one a slot
-    std::vector<vk::Timestamps> drawingTimes_; // of picture and panels, likewise
+    std::optional<InputFile> replayed_;        // has just ended
+    std::vector<vk::Timestamps> times_;        // of a step, one per slot
+    std::vector<vk::Timestamps> drawingTimes_; // of picture and panels, one per slot
     SceneFacts& sceneFacts_;
     Gauges gauges_;
     PictureBudget budget_;
     Wishes wishes_;              // of the newest picture
-    Knobs knobs_;                // as they were turned, also where that is still being worked out
-    std::optional<Knobs> asked_; // of the library
-    Shaped begun_;               // as the stage was at the reset
+    Knobs knobs_;                // values requested, including those still in preparation
+    std::optional<Knobs> asked_; // requested from the library
+    Shaped begun_;               // the stage's settings at the reset
     std::optional<Recording> recording_;
-    std::array<std::unique_ptr<Shot>, Presenter::framesInFlight> cameras_; // of the recording
+    std::array<std::unique_ptr<Shot>, Presenter::framesInFlight> cameras_; // for the recording
     std::array<InFlight, Presenter::framesInFlight> inFlight_;
     PictureWriter writer_{1};
     StatusLine status_;
     Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_, lastStrain_ = lastTurn_,
                       lastCount_ = lastTurn_;
     Shown shown_ = Shown::nothing;
-    std::size_t inputSaved_ = 0;       // events of the log that some file has, or a reset has made
-    std::uint32_t linksCut_ = 0;       // Status::linksCutInAll, likewise
-    std::uint32_t allPieces_ = 0;      // Status::pieces, likewise
-    std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
-    std::uint32_t panelsDue_ = 0;      // pictures until the panels look as they should
-    bool arePanelsDue_ = true;         // in the picture that is recorded
-    std::uint32_t cutFrames_ = 0;      // pictures that may still wait for a cut
-    std::optional<Clock::time_point> makingSince_; // nobody has been told
-    std::size_t pipelines_ = 0;                    // of this thread, that were counted
+    std::size_t inputSaved_ = 0;                   // events of the log that are in a file, or made by a reset
+    std::uint32_t linksCut_ = 0;                   // Status::linksCutInAll of the newest settled step
+    std::uint32_t allPieces_ = 0;                  // Status::pieces of the newest settled step
+    std::uint32_t surfaceMissing_ = 0;             // Status::cutSurfaceMissing of the newest settled step
+    std::uint32_t panelsDue_ = 0;                  // pictures until panels must be drawn anew
+    bool arePanelsDue_ = true;                     // for the picture being recorded
+    std::uint32_t cutFrames_ = 0;                  // pictures that may still wait for a cut
+    std::optional<Clock::time_point> makingSince_; // start of the present wait for layers
+    std::size_t pipelines_ = 0;                    // pipelines of the device that were counted
     std::optional<SavedOrigin> from_;              // until the reset
-    bool isDropped_ = false;                       // the replay, by hand
-    bool isBroken_ = false;                        // has diverged, likewise
+    bool isDropped_ = false;                       // the replay was ended by the user
+    bool isBroken_ = false;                        // has diverged or failed: no longer repeatable
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, wantsCount_ = false,
          isRefused_ = false, wantsScreenshot_ = false, wantsProbe_ = false, isInputDue_ = false,
          isMakingSaid_ = false, isSurfaceGrowing_ = false, isBesideOut_ = false, isButtonDown_ = false;

@@ -1,6 +1,6 @@
-// What hands did to a scene since its reset, or since a saved state, step by step, to be done again: camera,
-// pointer, presses, keys, and what was found under a press. The same events lead a simulation of the same
-// scene to the same bits.
+// A log of user input since a scene's reset, or since a saved state: camera, pointer, presses, keys, and what
+// was found under a press, step by step. The same events lead a simulation of the same scene to the same
+// bits.
 #pragma once
 
 #include "sim/material.hpp"
@@ -14,57 +14,57 @@
 
 namespace sinew::viewer {
 
-/// Where the pointer is, as Input::pointer.
+/// A position of the pointer (see Input::pointer).
 struct Pointed {
     Vector2 at = Vector2::Zero();
     bool operator==(const Pointed&) const = default;
 };
-/// The button that grabs, cuts or pokes went down or up.
+/// Press or release of the button that grabs, cuts or pokes.
 struct Pressed {
     bool isDown = false;
     Vector2 at = Vector2::Zero();
     bool operator==(const Pressed&) const = default;
 };
-/// What a tool's question met, as Tools::answer.
+/// The answer to a tool's question (see Tools::answer).
 struct Answered {
     Question::Asker asker = Question::Asker::hand;
     std::optional<Pick> pick;
     float radius = 0;
     bool operator==(const Answered&) const = default;
 };
-/// Downwards, from here on [m/s^2].
+/// Gravity downwards, from here on [m/s^2].
 struct Pulled {
     float gravity = 0;
     bool operator==(const Pulled&) const = default;
 };
-/// The scene has this material from here on.
+/// The material of the scene, from here on.
 struct Turned {
     sim::Material material;
     bool operator==(const Turned&) const = default;
 };
-/// Another simulation goes on from here, with this solver and so many substeps, and with the material that
-/// was turned last. There is no way back step by step from it.
+/// Another simulation continues from here, with this solver and number of substeps and the newest Turned
+/// material. Steps before it cannot be undone one by one.
 struct Shaped {
     sim::Solver solver = sim::Solver::split;
     std::uint32_t substeps = 0;
     bool operator==(const Shaped&) const = default;
 };
-/// The sphere that pokes has this radius from here on [m].
+/// Radius of the sphere that pokes, from here on [m].
 struct Sized {
     float radius = 0;
     bool operator==(const Sized&) const = default;
 };
-/// The blade goes this deep from here on [m]; nothing = through.
+/// Depth of the blade, from here on [m]; empty = through.
 struct Deepened {
     std::optional<float> depth;
     bool operator==(const Deepened&) const = default;
 };
-/// States to go back to were lost, or those to go back to step by step alone.
+/// Loss of all states to undo, or only of those of single steps.
 struct Forgot {
     bool areOfSteps = false;
     bool operator==(const Forgot&) const = default;
 };
-/// Steps with what came before them; none = something was undone or redone without one.
+/// Steps that use the events before this one; 0 = an undo or a redo without a step.
 struct Stepped {
     std::uint32_t count = 0;
     bool operator==(const Stepped&) const = default;
@@ -72,12 +72,12 @@ struct Stepped {
 using InputEvent = std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Turned, Shaped, Sized,
                                 Deepened, Forgot, Stepped>;
 
-/// Collects them; what changes nothing is left out.
+/// Collects events; skips those that change nothing.
 class InputLog {
 public:
-    /// Begins anew, at a reset.
+    /// Starts a new log, at a reset.
     void restart();
-    /// Begins where there is this material already.
+    /// Starts with this material.
     void begin(const sim::Material& material) { material_ = material; }
 
     void look(const Camera& camera);
@@ -91,51 +91,51 @@ public:
     void size(float radius);
     void deepen(const std::optional<float>& depth);
     void forget(const Forgot& forgot = {});
-    /// A step was recorded.
+    /// Call after a step was recorded.
     void step();
-    /// Something was undone or redone.
+    /// Call after an undo or a redo.
     void goBack();
-    /// The last so many steps were undone by the device, and will be taken again.
+    /// Removes the last `steps`, which the device undid and which will be repeated.
     void takeBack(std::uint64_t steps);
 
     const std::vector<InputEvent>& events() const { return events_; }
-    /// Whether there is more from that one on than steps and looks around.
+    /// Whether the events from `first` on include more than steps and camera moves.
     bool hasDeeds(std::size_t first) const;
 
 private:
     std::vector<InputEvent> events_;
     std::optional<Camera> camera_;
-    std::optional<Pointed> pointed_; // nothing: the next one counts, wherever it is
+    std::optional<Pointed> pointed_; // empty: the next position counts in any case
     std::optional<float> gravity_, radius_, depth_;
-    sim::Material material_; // as at a reset, the scene's own
+    sim::Material material_; // the scene's own after a reset
 };
 
-/// A saved state that a log begins from.
+/// The saved state from which a log starts.
 struct SavedOrigin {
-    std::string file;       ///< from the root
+    std::string file;       ///< absolute path
     std::uint64_t hash = 0; ///< app::SavedRun::fileHash
     bool operator==(const SavedOrigin&) const = default;
 };
 
-/// A log and what it is of.
+/// A log with the scene and the settings that it belongs to.
 struct InputFile {
-    std::string scene;               ///< as rememberedScene(); empty = not said
+    std::string scene;               ///< see rememberedScene(); empty = not known
     std::optional<SavedOrigin> from; ///< instead of the reset
     std::string solver;
-    std::uint32_t substeps = 0; ///< 0 = chosen
-    std::uint32_t room = 0;     ///< of contacts, at least; 0 = as the scene says
-    std::uint32_t surface = 0;  ///< triangles and vertices of the surface of cuts, likewise
+    std::uint32_t substeps = 0; ///< 0 = chosen by the program
+    std::uint32_t room = 0;     ///< least capacity for contacts; 0 = the scene's
+    std::uint32_t surface = 0;  ///< triangles and vertices of the surface of cuts; 0 = the scene's
     std::vector<InputEvent> events;
-    std::optional<std::uint64_t> hash; ///< of the state at the end, as stateHash()
+    std::optional<std::uint64_t> hash; ///< state at the end (see stateHash())
 
     std::uint64_t steps() const;
 };
 
-/// One event a line; numbers in as many digits as bring their bits back.
+/// One event per line; numbers have enough digits to restore their bits.
 std::string toText(const InputFile& file);
 /// Throws app::Failure (badInput) that names `name` and the line.
 InputFile parseInput(const std::string& text, const std::string& name);
-/// Likewise.
+/// Throws like parseInput().
 InputFile loadInput(const std::filesystem::path& file);
 
 } // namespace sinew::viewer

@@ -1,4 +1,4 @@
-// Pieces that cuts have left, counted as reports do, from copies that a picture brings along.
+// Counts the pieces that cuts have made, like reports do, from copies that a picture brings along.
 #pragma once
 
 #include "app/piece_count.hpp"
@@ -15,13 +15,13 @@ class PieceProbe {
 public:
     PieceProbe(const vk::Device& device, const Stage& stage) : device_(device), stage_(stage) {}
 
-    /// After the stage has another simulation: nothing is recorded.
+    /// Call after the stage changed its simulation: drops the copies.
     void restart() noexcept { copies_.clear(); }
-    /// After recordSkin() of the simulation with Overlap::none. Takes memory the first time; without any,
-    /// nothing is recorded.
+    /// Record after recordSkin() of the simulation with Overlap::none. Allocates at the first use; without
+    /// memory it records nothing.
     void record(VkCommandBuffer commands) noexcept;
     /// Counts the pieces in the last recorded copy, which must have finished. `all` is sim::Status::pieces of
-    /// its newest step. PieceCount::isCounted is false where nothing was recorded.
+    /// its newest step. PieceCount::isCounted is false if nothing was recorded.
     app::PieceCount count(std::size_t all) const;
 
 private:

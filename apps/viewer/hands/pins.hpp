@@ -1,4 +1,4 @@
-// Pins of the pointer: hands that stay where they were put, and hold what they held then.
+// Pins: grabs that stay where they were placed.
 #pragma once
 
 #include "sim/ranges.hpp"
@@ -13,22 +13,21 @@ namespace sinew::viewer {
 
 class Pins {
 public:
-    static constexpr std::size_t most = sim::ranges::mostGrabs - 1; ///< one hand is the pointer's
+    static constexpr std::size_t most = sim::ranges::mostGrabs - 1; ///< the pointer needs one grab
 
     Pins() { clear(); }
 
-    /// Holds what is around the particle of `hand` where that hand is, from the next step on. `radius` as
-    /// holdRadius(). False where all pins are in use.
+    /// Pins the particles around that of `hand` at the hand's place, from the next step on. `radius`: see
+    /// holdRadius(). False if all pins are in use.
     bool add(const Hand& hand, float radius);
-    /// Takes out the one nearest to the eye that the ray passes within `reach` [m]; false where it passes
-    /// none.
+    /// Removes the pin nearest to the eye that the ray passes within `reach` [m]; false if there is none.
     bool takeOut(const Ray& ray, float reach);
     void clear();
 
     std::size_t count() const { return shown_.size(); }
-    /// For sim::Step::grabs; a pin keeps its place, and those that are not in let go.
+    /// For sim::Step::grabs; a pin keeps its index, and unused entries hold nothing.
     const std::array<sim::Grab, most>& grabs() const { return grabs_; }
-    /// To be drawn.
+    /// The pins to draw.
     std::span<const Hand> shown() const { return shown_; }
 
 private:
@@ -39,7 +38,7 @@ private:
     std::vector<Hand> shown_;
 };
 
-/// A hand that holds nothing: for the places of Step::grabs before one that does.
+/// A grab that holds nothing: for entries of Step::grabs before one that holds.
 sim::Grab emptyHand();
 
 } // namespace sinew::viewer

@@ -1,5 +1,5 @@
-// The sphere of the pointer: while its button is down it is at the depth of what lay under the press, and
-// pushes what is in its way. What lies there is asked of the device, so it comes a frame or two after the
+// The sphere of the pointer: while its button is down it stays at the depth of the surface under the press
+// and pushes bodies aside. The device finds that surface, so the sphere appears one or two frames after the
 // press.
 #pragma once
 
@@ -12,8 +12,8 @@ namespace sinew::viewer {
 
 class PokeTool {
 public:
-    /// `size` of where bodies may be [m]: the sphere begins with a part of it. It stays on this side of
-    /// `planes`.
+    /// `size` is that of the box of the bodies [m]; the first radius is a part of it. The sphere stays on the
+    /// inner side of `planes`.
     PokeTool(float size, std::vector<sim::Plane> planes);
 
     bool isOn() const { return isOn_; }
@@ -21,25 +21,25 @@ public:
 
     void press(const Camera& camera, const Vector2& pointer);
     void move(const Camera& camera, const Vector2& pointer);
-    /// Lifts it.
+    /// Lifts the sphere.
     void release();
     bool isDown() const { return isDown_; }
 
-    /// The ray of a press that is still to be answered.
+    /// The ray of a press that is not answered yet.
     const std::optional<Ray>& question() const { return question_; }
-    /// What it meets; beside all bodies the sphere is as far away as what the camera looks at. Of a press
-    /// that is over by now, nothing comes.
+    /// Answers the question; on a miss the sphere is as far away as the camera's target. Ignored if the press
+    /// is over.
     void answer(const std::optional<Pick>& pick);
 
     float radius() const { return radius_; } ///< [m]
-    /// Within what makes sense.
+    /// Clamped to a sensible range.
     void setRadius(float radius);
-    /// By so many notches of the wheel, forwards larger.
+    /// Changes the radius by wheel notches; forwards is larger.
     void grow(float notches) { setRadius(radius_ * std::pow(1.1f, notches)); }
-    /// As it was at first.
+    /// Restores the first radius and turns the tool off.
     void putAway();
 
-    /// For sim::Step::pokes; nothing while it is lifted.
+    /// For sim::Step::pokes; empty while the sphere is lifted.
     std::optional<sim::Poke> poke() const;
 
 private:

@@ -1,5 +1,5 @@
-// Where particles and skins are now, asked of the device without waiting: recorded into a frame, read when
-// it has finished.
+// Positions of particles and skins, copied from the device without waiting: recorded into a frame, read when
+// that frame has finished.
 #pragma once
 
 #include "app/cut_links.hpp"
@@ -21,29 +21,29 @@ public:
     StateProbe(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
                const sim::Simulation& simulation);
 
-    /// Velocities too, in the same commands as record(), where the simulation has some.
+    /// Copies velocities too, if the simulation has any; in the same commands as record().
     void recordVelocities(VkCommandBuffer commands) const noexcept;
-    /// After recordSkin() of the simulation with Overlap::none, if there are skins and what is asked is what
-    /// a ray meets.
+    /// Record after recordSkin() of the simulation with Overlap::none, if there are skins and a ray is to be
+    /// cast.
     void record(VkCommandBuffer commands) noexcept;
 
-    /// The box around all finite positions of what is there [m]; empty where there is none. Of this and what
-    /// follows, the recorded frame must have finished.
+    /// The box around all finite positions of the scene [m]; empty if there are none. Here and below, the
+    /// recorded frame must have finished.
     Box bounds() const;
-    /// The same of one body.
+    /// The box of one body.
     Box bounds(const sim::Body& body) const;
-    /// Of every particle [m].
+    /// Position of every particle [m].
     std::span<const sim::layout::vec4> positions() const noexcept;
-    /// Of every particle [m/s]; empty where there are none.
+    /// Velocity of every particle [m/s]; empty if the simulation has none.
     std::span<const sim::layout::vec4> velocities() const noexcept;
-    /// Of every particle, sim::Simulation::pieces(); empty where nothing can be cut.
+    /// For every particle (see sim::Simulation::pieces()); empty if nothing can be cut.
     std::span<const std::uint32_t> pieces() const noexcept;
-    /// Whether a link of the scene, an index into Scene::distances, holds: it is not cut, and no end of it is
-    /// a crumb that was removed. Valid until the next recording.
+    /// Whether a link of the scene (index into Scene::distances) is live: it is not cut, and neither end is
+    /// in a removed fragment. Valid until the next recording.
     std::function<bool(std::size_t)> liveLinks();
-    /// What a ray can meet: those, vertices as they were drawn, and what cuts have laid open.
+    /// Everything that a ray can meet: particles, drawn vertices, and the surface of cuts.
     SeenState seen() const noexcept;
-    /// False where more has been cut since than was copied: what is asked has to be asked again.
+    /// False if more was cut since than was copied; the question must then be asked again.
     bool isComplete() const noexcept { return !cuts_ || cuts_->isComplete(); }
 
 private:
@@ -56,10 +56,10 @@ private:
     sim::Settings settings_;
     const sim::Simulation& simulation_;
     std::size_t particles_;
-    bool isWhole_ = false; // what was recorded
+    bool isWhole_ = false; // in the last recording
     Copy positions_;
     std::optional<Copy> velocities_, vertices_, pieces_, links_;
-    std::optional<app::CutLinks> cutLinks_; // made when something is cut first
+    std::optional<app::CutLinks> cutLinks_; // made at the first cut
     std::optional<CutProbe> cuts_;
 };
 

@@ -1,6 +1,5 @@
-// Places of a stroke that wait for what lies under them. The device says it of one place at a time, and some
-// pictures late; between two that it has answered, how far away the surface is goes evenly from one to the
-// other.
+// Points of a stroke that wait for the depth of the surface below them. The device answers for one point at a
+// time, some pictures late; the depth of points between two answers is interpolated linearly.
 #pragma once
 
 #include "viewer/draw/camera.hpp"
@@ -12,32 +11,32 @@ namespace sinew::viewer {
 
 class WaitingStroke {
 public:
-    /// Where the pointer was.
+    /// A point of the pointer's path.
     struct Place {
         Ray ray;
-        float near = 0, far = 0; ///< where the ray comes to the stage, and leaves it [m]
+        float near = 0, far = 0; ///< where the ray enters and leaves the stage [m]
         bool isFirst = false;    ///< of its stroke
     };
     struct Settled {
         Place place;
-        float surface = 0; ///< how far away it is, along the ray [m]
+        float surface = 0; ///< distance of the surface, along the ray [m]
     };
 
     void add(const Place& place);
-    /// No more of this stroke comes.
+    /// Ends the stroke; no more points are added.
     void end();
     void clear() { *this = {}; }
-    /// All that wait, in their order; none waits any more.
+    /// Removes all waiting points and returns them in order.
     std::deque<Place> takeUnsettled();
     bool isEmpty() const { return waiting_.empty() && settled_.empty(); }
 
-    /// It stays until it is answered.
+    /// The ray to cast next; it stays until it is answered.
     const std::optional<Ray>& question() const { return question_; }
-    /// How far away the surface is; nothing beside all bodies. There it is as far away as where the stroke
-    /// has met one last, or will first. Of a stroke that meets none nothing is left.
+    /// Answers with the distance of the surface; empty on a miss. Points that miss get the distance of the
+    /// stroke's last hit, or of its first. A stroke without a hit is dropped.
     void answer(const std::optional<float>& surface);
 
-    /// The oldest place whose surface is known, once.
+    /// Removes and returns the oldest point whose surface is known.
     std::optional<Settled> take();
 
 private:
@@ -51,10 +50,10 @@ private:
     std::deque<Settled> settled_;
     std::deque<Place> waiting_;
     std::optional<Ray> question_;
-    std::size_t asked_ = 0;          // place of the question
-    std::optional<float> surface_;   // of the newest place of the stroke that is settled
-    std::size_t beside_ = 0;         // the newest place beside all bodies, and all before it
-    std::size_t low_ = 0, high_ = 0; // of those, the places that may yet be on one
+    std::size_t asked_ = 0;          // point of the question
+    std::optional<float> surface_;   // of the newest settled point of the stroke
+    std::size_t beside_ = 0;         // number of points up to the newest known miss
+    std::size_t low_ = 0, high_ = 0; // among those, points that may still hit
     bool isStarted_ = false, isEnded_ = true;
 };
 

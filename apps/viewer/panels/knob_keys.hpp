@@ -1,4 +1,4 @@
-// Knobs that keys turn, as sliders of the panels do.
+// Keys that adjust the same parameters as the panels' sliders.
 #pragma once
 
 #include "viewer/hands/bindings.hpp"
@@ -8,13 +8,13 @@ namespace sinew::viewer {
 
 struct TurnedKnobs {
     Knobs knobs;
-    std::string said; ///< of the one that was turned
+    std::string said; ///< text on the changed parameter
 };
 
-/// By one notch of a key; nothing where the action is not of a knob.
+/// Changes a parameter by one notch; empty if the action changes none.
 std::optional<TurnedKnobs> turnedBy(Action action, Knobs knobs);
 
-/// Gravity and material within reason, whatever was typed.
+/// Clamp gravity and material to sensible ranges.
 void limitGravity(Knobs& knobs);
 void limitMaterial(Knobs& knobs);
 

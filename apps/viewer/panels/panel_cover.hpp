@@ -1,4 +1,4 @@
-// Where panels are in a picture, so that nobody looks for them elsewhere.
+// The areas of a picture that panels cover, so that only these are blended.
 #pragma once
 
 #include "vk/device.hpp"
@@ -9,14 +9,14 @@ struct ImDrawData;
 
 namespace sinew::viewer {
 
-/// As ImDrawCmd::TextureId: rectangles of two triangles that hide what is behind them, whatever their alpha,
-/// and are not mixed with it.
+/// Texture id (ImDrawCmd::TextureId) of opaque rectangles of two triangles: they replace what is behind them,
+/// whatever their alpha, without blending.
 inline constexpr std::size_t areaTexture = 2;
 
-/// Rectangles of pixels, none over another.
+/// Disjoint rectangles of pixels.
 struct PanelCover {
-    std::vector<VkRect2D> areas; ///< of which nothing is seen through
-    std::vector<VkRect2D> parts; ///< where else something is, or is close by
+    std::vector<VkRect2D> areas; ///< opaque areas
+    std::vector<VkRect2D> parts; ///< other areas with triangles, or near them
 };
 PanelCover coverOf(const ImDrawData& drawn, VkExtent2D extent);
 

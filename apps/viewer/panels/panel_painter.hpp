@@ -1,6 +1,6 @@
-// Draws what Dear ImGui made of the panels over a finished picture, with the viewer's own pipelines: ImGui's
-// Vulkan backend would link the loader, which this program opens at run time, and mixes colors without regard
-// to sRGB.
+// Draws the panels' Dear ImGui triangles over a finished picture, with the viewer's own pipelines. ImGui's
+// Vulkan backend would link the loader, which this program opens at run time, and blends colours without
+// regard to sRGB.
 #pragma once
 
 #include "viewer/draw/geometry.hpp"
@@ -19,39 +19,39 @@ struct ImDrawList;
 
 namespace sinew::viewer {
 
-/// One byte a texel: how much of it a glyph covers. Rows from the top.
+/// One byte per texel: coverage of a glyph. Rows from the top.
 struct GlyphAtlas {
     std::uint32_t width = 0, height = 0; ///< [texels]; width is a multiple of 4
-    Vector2 full = Vector2::Zero();      ///< a place that is covered whole: what is no glyph has it [texels]
+    Vector2 full = Vector2::Zero();      ///< a fully covered place, for triangles without glyphs [texels]
     std::vector<std::uint8_t> coverage;
 };
 
 /// Must not outlive its Device, which must not move.
 class PanelPainter {
 public:
-    /// Format and layout of the pictures as RenderPass::over(); `slots` of them may be recorded but not
-    /// finished. Throws vk::Error.
+    /// Format and layout of the pictures: see RenderPass::over(). At most `slots` pictures may be recorded
+    /// but not finished. Throws vk::Error.
     PanelPainter(const vk::Device& device, VkFormat format, VkImageLayout finalLayout, std::uint32_t slots);
 
-    /// Glyphs from now on. Nothing that was recorded may be unfinished.
+    /// Sets the glyphs. All recorded commands must have finished.
     void setAtlas(const GlyphAtlas& atlas);
 
-    /// Pictures from now on, likewise.
+    /// Sets the pictures. All recorded commands must have finished.
     void setSheet(const PictureSheet& sheet);
-    /// One more of the same sheet, which nothing that was recorded shows.
+    /// Copies picture `i` of the same sheet; no unfinished commands may show it.
     void addPicture(const PictureSheet& sheet, std::size_t i);
 
-    /// Framebuffers for pictures of a size. The views belong to the caller and must outlive them; what was
-    /// drawn into the old ones must be finished.
+    /// Makes framebuffers for pictures of one size. The views belong to the caller and must outlive them;
+    /// drawing into the old ones must have finished.
     void setPictures(VkExtent2D extent, std::span<const VkImageView> pictures);
 
     enum class Draw {
-        anew,  ///< as they are in `drawn`
-        asKept ///< as they were drawn last, where they were since setPictures(), setAtlas() and setSheet()
+        anew,  ///< draws the triangles of `drawn`
+        asKept ///< copies the last drawing, if it is newer than setPictures(), setAtlas() and setSheet()
     };
-    /// Draws over a picture in its final layout and leaves it there. `commands` must be recording,
-    /// outside a render pass; the slot's previous picture must be finished. Throws vk::Error where there is
-    /// no memory for more triangles than ever before.
+    /// Draws over a picture in its final layout and leaves it there. `commands` must be recording, outside a
+    /// render pass; the slot's previous picture must be finished. Throws vk::Error if there is no memory for
+    /// more triangles than ever before.
     void record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture, const ImDrawData& drawn,
                 Draw which = Draw::anew);
 
@@ -59,7 +59,7 @@ private:
     struct Slot {
         std::optional<vk::Buffer> vertices, indices;
     };
-    /// Where panels are drawn by themselves: most pictures show them as the one before did.
+    /// Image of the panels alone: most pictures show the same panels as the one before.
     struct Kept {
         Kept(const vk::Device& device, const RenderPass& pass, VkFormat format, VkExtent2D extent);
         Image image;

@@ -1,6 +1,5 @@
-// The panels of the window, by Dear ImGui: layout and style, what the pointer does in them, which parts there
-// are. Makes triangles and wishes out of facts; touches no device and no window. What a part shows stands in
-// panel_*.cpp.
+// The panels of the window, with Dear ImGui: layout, style, pointer handling and the list of parts, which are
+// in panel_*.cpp. Makes triangles and requests from facts; touches no device and no window.
 #pragma once
 
 #include "viewer/panels/facts.hpp"
@@ -16,17 +15,17 @@ struct ImGuiContext;
 
 namespace sinew::viewer {
 
-/// A path that is being typed.
+/// The text field for a path.
 struct PathField {
     bool isShown = false, wantsKeys = false;
-    int pictures = 0; ///< in which it has been waiting for keys
+    int pictures = 0; ///< pictures since it began to wait for keys
     std::array<char, 1024> text{};
 };
 
-/// One at a time (Dear ImGui's context is global); one thread.
+/// Only one may exist (Dear ImGui's context is global); one thread.
 class Panels {
 public:
-    /// `scale` of one = 96 pixels an inch.
+    /// `scale` 1 = 96 pixels per inch.
     explicit Panels(float scale);
     ~Panels();
     Panels(const Panels&) = delete;
@@ -37,35 +36,33 @@ public:
     /// Lays out everything for a picture of `extent`, `seconds` after the last one.
     Wishes build(const SceneFacts& scene, const Facts& facts, const PanelInput& input, VkExtent2D extent,
                  double seconds);
-    /// What the last build() made; valid until the next.
+    /// Triangles of the last build(); valid until the next.
     const ImDrawData& drawn() const;
 
-    /// Whether a place (pixels) belongs to a panel of the last build(): what is pressed there is not the
-    /// scene's.
+    /// Whether a place (pixels) belongs to a panel of the last build(), which then gets presses there.
     bool covers(const Vector2& pixels) const;
-    /// Whether keys are being typed into a panel, or will be: from askForFile() on.
+    /// Whether a panel takes keys, or will: from askForFile() on.
     bool takesKeys() const;
 
-    /// A line to type a path into, where there was none: Wishes::file. What is pasted there comes from
-    /// `paste`.
+    /// Opens a text field for a path (Wishes::file), unless it is open. `paste` provides the text to paste.
     void askForFile();
     void setPaste(std::function<std::string()> paste) { paste_ = std::move(paste); }
-    /// What is copied or cut out of a line goes to `copy`.
+    /// `copy` receives text that is copied or cut from a field.
     void setCopy(std::function<void(const std::string&)> copy) { copy_ = std::move(copy); }
 
-    /// As the constructor does. The atlas is another one then.
+    /// Sets the scale (see the constructor). The atlas changes.
     void rescale(float scale);
 
-    /// What somebody has said about whether panels are shown; nothing = nobody has.
+    /// The user's choice whether panels are shown; empty = no choice yet.
     const std::optional<bool>& choice() const { return isShown_; }
     void choose(std::optional<bool> isShown) { isShown_ = isShown; }
     void toggle() { isShown_ = !isShown(lastExtent_); }
     void toggleHelp() { isHelpShown_ = !isHelpShown_; }
     void closeHelp() { isHelpShown_ = false; }
     bool isHelpShown() const { return isHelpShown_; }
-    /// Before anybody has said otherwise, in windows that leave room beside them.
+    /// Without a choice, panels are shown if the window is large enough.
     bool isShown(VkExtent2D extent) const;
-    /// How much of a picture they stand in at the right [pixels].
+    /// Width that panels cover at the right of a picture [pixels].
     std::uint32_t sideWidth(VkExtent2D extent) const;
 
 private:
@@ -91,9 +88,9 @@ private:
     std::function<std::string()> paste_;
     std::string pasted_;
     std::function<void(const std::string&)> copy_;
-    std::vector<int> released_; // keys, in the next picture
-    PanelInput early_;          // typed, by what path_ waits for
-    std::array<int, 3> owed_{}; // presses that no picture has seen yet
+    std::vector<int> released_; // keys to release in the next picture
+    PanelInput early_;          // characters typed before the field of path_ opens
+    std::array<int, 3> owed_{}; // presses not yet passed to a picture
     VkExtent2D lastExtent_{};
     std::vector<Rectangle> covered_;
 };

@@ -1,4 +1,4 @@
-// Small pictures of scenes under each other, for panels to show.
+// Previews of scenes in one image, one below the other, for panels to show.
 #pragma once
 
 #include "viewer/draw/png.hpp"
@@ -13,22 +13,22 @@
 
 namespace sinew::viewer {
 
-/// What a panel's draw command says in place of a texture (ImTextureID): glyphs are 0.
+/// Texture id of the sheet in draw commands (ImTextureID); 0 is the glyphs.
 inline constexpr std::size_t sheetTexture = 1;
 
-/// Texels as those of Picture, a word each; what is not there yet is black.
+/// Texels like those of Picture, one word each; missing pictures are black.
 class PictureSheet {
 public:
-    static constexpr VkExtent2D extent{192, 120}; ///< of each [texels]
-    static constexpr std::size_t most = 64;       ///< in a sheet: 6 MB
+    static constexpr VkExtent2D extent{192, 120}; ///< of each picture [texels]
+    static constexpr std::size_t most = 64;       ///< pictures in a sheet: 6 MB
 
     explicit PictureSheet(std::size_t count) : has_(std::min(count, most)) {
         texels_.resize(has_.size() * wordsOfOne);
     }
 
-    /// Whether each is there.
+    /// Whether each picture has been set.
     const std::vector<bool>& has() const { return has_; }
-    /// One of this extent; false where it is of another, or beyond the sheet.
+    /// Sets picture `i`; false if its extent differs or `i` is beyond the sheet.
     bool set(std::size_t i, const Picture& picture) {
         if (i >= has_.size() || picture.width != extent.width || picture.height != extent.height)
             return false;
@@ -36,7 +36,7 @@ public:
         return has_[i] = true;
     }
     const std::vector<std::uint32_t>& texels() const { return texels_; }
-    /// Of one; of none beyond the sheet.
+    /// Texels of one picture; empty beyond the sheet.
     std::span<const std::uint32_t> texelsOf(std::size_t i) const {
         return i < has_.size() ? std::span(texels_).subspan(i * wordsOfOne, wordsOfOne)
                                : std::span<const std::uint32_t>();

@@ -1,4 +1,4 @@
-// Writes PNG files beside the simulation: encoding one takes longer than many steps.
+// Writes PNG files in other threads: encoding one takes longer than many steps.
 #pragma once
 
 #include "viewer/draw/png.hpp"
@@ -9,18 +9,18 @@
 
 namespace sinew::viewer {
 
-/// One thread uses it. The destructor waits for what is not yet written.
+/// Used by one thread. The destructor waits for unwritten files.
 class PictureWriter {
 public:
     explicit PictureWriter(std::size_t mostAtOnce);
 
-    /// Waits while as many files as allowed are being written; those are then not taken any more. Throws
+    /// Waits while `mostAtOnce` files are being written; take() does not return those. Throws
     /// mesh::ExportError of an earlier file.
     void add(const std::filesystem::path& file, Picture picture, PictureText text);
 
     enum class Wait { no, yes };
-    /// The oldest file not yet taken, written; empty where there is none, or where it is not done and `wait`
-    /// says no. Throws mesh::ExportError if it failed.
+    /// Returns the oldest written file not yet taken; empty if there is none, or if it is not done and `wait`
+    /// is no. Throws mesh::ExportError if it failed.
     std::optional<std::filesystem::path> take(Wait wait);
 
 private:

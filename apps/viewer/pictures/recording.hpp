@@ -1,5 +1,5 @@
-// Pictures of steps, one after another, to a file beside the program: MP4 where ffmpeg is installed, or else
-// a folder of PNG files. Stepped, not timed: the film has the scene's own pace whatever the machine's.
+// Records pictures of steps to a file: MP4 if ffmpeg is installed, else a folder of PNG files. Pictures
+// follow steps, not the clock: a film has the scene's own pace on any machine.
 #pragma once
 
 #include "viewer/pictures/picture_writer.hpp"
@@ -9,15 +9,15 @@
 
 namespace sinew::viewer {
 
-/// One thread. Without finish() a video is not there, and pictures are as far as they came.
+/// One thread. Without finish() there is no video; PNG files written so far stay.
 class Recording {
 public:
-    /// Named after the scene; what exists is never written over. Throws app::Failure (outputFailed).
+    /// Named after the scene; never overwrites a file. Throws app::Failure (outputFailed).
     Recording(const std::string& scene, std::uint32_t width, std::uint32_t height, double picturesPerSecond);
 
-    /// Throws app::Failure or mesh::ExportError where it cannot be written.
+    /// Throws app::Failure or mesh::ExportError if writing fails.
     void add(Picture picture, PictureText text);
-    /// Waits until all is written; without a picture nothing is kept. Throws likewise.
+    /// Waits until everything is written; without pictures no file is kept. Throws like add().
     void finish();
 
     const std::filesystem::path& target() const { return target_; }
@@ -25,13 +25,13 @@ public:
 
 private:
     std::filesystem::path target_;
-    std::unique_ptr<Video> video_; // none: pictures
+    std::unique_ptr<Video> video_; // null: PNG files
     PictureWriter writer_{2};
     std::size_t count_ = 0;
 };
 
-/// `name` and `extension` with what makes a file or folder of `folder`, or of the current one, out of them
-/// that is not there yet.
+/// A name for a file or folder in `folder`, or in the current folder, that does not exist yet: `name`, a
+/// suffix if needed, and `extension`.
 std::filesystem::path freeName(std::string name, const std::string& extension,
                                const std::filesystem::path& folder = {});
 

@@ -1,4 +1,4 @@
-// An MP4 made by ffmpeg, which gets raw pictures through a pipe.
+// An MP4 file made by ffmpeg, which gets raw pictures through a pipe.
 #pragma once
 
 #include "viewer/draw/png.hpp"
@@ -10,17 +10,17 @@ namespace sinew::viewer {
 /// Whether ffmpeg is on the PATH.
 bool hasFfmpeg();
 
-/// Runs ffmpeg while it lives. The file gets its name only when finish() has succeeded.
+/// ffmpeg runs during the object's lifetime. The file gets its name only after finish() has succeeded.
 class Video {
 public:
     /// Pictures are `width` x `height`; an odd column or row is left out. Throws app::Failure (outputFailed)
-    /// where ffmpeg is not on the PATH or cannot be started, or the file's folder is missing.
+    /// if ffmpeg is not on the PATH or cannot be started, or if the file's folder is missing.
     Video(std::filesystem::path file, std::uint32_t width, std::uint32_t height, double picturesPerSecond);
     ~Video(); ///< without finish(): stops ffmpeg and leaves no file
     Video(const Video&) = delete;
     Video& operator=(const Video&) = delete;
 
-    /// Throws app::Failure (outputFailed) where ffmpeg has ended.
+    /// Throws app::Failure (outputFailed) if ffmpeg has ended.
     void add(const Picture& picture);
     void finish();
 

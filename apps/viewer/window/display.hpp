@@ -1,4 +1,4 @@
-// The X server that the window is on, where there is one.
+// The X server of the window, if there is one.
 #pragma once
 
 #include <functional>
@@ -6,20 +6,20 @@
 
 namespace sinew::viewer {
 
-/// What is done before the program ends; what it returns ends the line that is said. Empty = nothing.
+/// Called before the program ends; returns the end of its last line, or an empty text.
 using Farewell = std::function<std::string()>;
 
-/// After GLFW was initialised: from now on the program ends when its X server goes away, with `farewell`, one
-/// line and app::noDevice. `farewell` is asked for in the thread that GLFW is used in, in the middle of a
-/// call of it: it must ask nothing of GLFW, and stay where it is until GLFW is terminated. Pictures are whole
-/// or not there, for they get their names when they are; a film's encoder sees the end of its pipe and closes
-/// its file, which keeps the name that it has while it is made. Before libX11 1.7 there is no farewell. Where
-/// GLFW has not loaded Xlib, nothing changes.
+/// Call after GLFW was initialised. From then on, when the X server goes away, the program ends with
+/// `farewell`, one line and app::noDevice. `farewell` runs in the thread that uses GLFW, inside one of its
+/// calls: it must not call GLFW, and must stay valid until GLFW is terminated. Picture files are whole or
+/// missing, since they are renamed when complete; a film's encoder sees the end of its pipe and closes its
+/// file, which keeps its temporary name. Before libX11 1.7 `farewell` is not called. If GLFW has not loaded
+/// Xlib, nothing changes.
 void watchDisplay(const Farewell& farewell);
 
-/// After GLFW was initialised: a software device hands its pictures to an X server without DRI3 through the
-/// connection's socket, and waits as often as that is full. From now on as much of one fits as the system
-/// lets it. Where GLFW has not loaded Xlib, nothing changes.
+/// Call after GLFW was initialised. Enlarges the send buffer of the X connection as far as the system allows:
+/// without DRI3 a software device sends its pictures through that socket and waits whenever it is full. If
+/// GLFW has not loaded Xlib, nothing changes.
 void widenDisplay();
 
 } // namespace sinew::viewer

@@ -1,5 +1,5 @@
-// How long pictures took: what each of them cost, gathered while they are drawn, and the table that --timing
-// and a key make of it.
+// Frame time statistics: the times of pictures, collected while they are drawn, and the table that --timing
+// and a key print.
 #pragma once
 
 #include <array>
@@ -16,32 +16,32 @@ public:
     static constexpr double tooLong = 100;        ///< [ms]
 
     enum class Kind {
-        frame,          ///< from one picture's submission to the next, while pictures follow each other [ms]
-        frameOfCut,     ///< likewise, of those in which something is cut
-        thread,         ///< processor time of the thread that looks at keys, between two looks [ms]
-        step,           ///< on the device [ms]
-        drawing,        ///< likewise: skins, maps, picture
-        panels,         ///< likewise
-        inputToPicture, ///< from the earliest that an event can have come until its picture is finished [ms]
-        picturesBefore, ///< how many pictures were finished after the event was taken and do not hold it
+        frame,          ///< from one picture's submission to the next, in an unbroken series [ms]
+        frameOfCut,     ///< the same, only pictures with a cut
+        thread,         ///< processor time of the input thread between two polls [ms]
+        step,           ///< GPU time of a step [ms]
+        drawing,        ///< GPU time of skins, maps and picture [ms]
+        panels,         ///< GPU time of panels [ms]
+        inputToPicture, ///< from the earliest possible time of an event until its picture is finished [ms]
+        picturesBefore, ///< pictures finished between an event and the picture that shows it
         count
     };
 
     void add(Kind kind, double value);
-    /// A picture that came `ms` after the last.
+    /// Adds a picture that came `ms` after the last.
     void addFrame(double ms, bool isOfCut);
-    /// By the thread that looks at keys, which waits for them meanwhile.
+    /// Counts pipelines that the input thread made, which delays input.
     void addPipelines(std::size_t count) { pipelines_ += count; }
     void clear();
 
     std::size_t count(Kind kind) const { return of(kind).total; }
-    /// The smallest value that at least `share` of the newest are not above; 0 of none.
+    /// The smallest value that at least `share` of the newest do not exceed; 0 without values.
     double quantile(Kind kind, double share) const;
     std::size_t slowFrames() const { return slow_; }           ///< longer than tooLong
-    std::size_t slowFramesOfCut() const { return slowOfCut_; } ///< those of them in which something was cut
+    std::size_t slowFramesOfCut() const { return slowOfCut_; } ///< of these, pictures with a cut
     double framesPerSecond() const;
 
-    /// Lines: pictures a second, a line for each kind of which there is any, and what took too long.
+    /// Lines of text: pictures per second, one line for each kind with values, and slow pictures.
     std::string table() const;
     /// "24.1 pictures a second, 41 ms each (p50), 120 ms at most".
     std::string summary() const;
@@ -49,7 +49,7 @@ public:
 private:
     struct Values {
         std::vector<float> newest; // a ring of `most`
-        std::size_t total = 0;     // that ever came
+        std::size_t total = 0;     // since the start
         double largest = 0, sum = 0;
     };
     const Values& of(Kind kind) const { return values_[static_cast<std::size_t>(kind)]; }

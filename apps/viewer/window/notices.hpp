@@ -1,4 +1,4 @@
-// Texts that the window shows for a while: one at a time, the others wait for it to go.
+// Queue of messages that the window shows for a while, one at a time.
 #pragma once
 
 #include <chrono>
@@ -20,18 +20,18 @@ public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::chrono::seconds warningStays{12}, notePasses{4};
 
-    /// Shows it at once, and after it again a warning or something announced that it replaces. A warning
-    /// waits for another warning to go. Nothing is shown that is shown or waits already.
+    /// Shows a message at once, and then again a warning or announced message that it replaces. A warning
+    /// waits until another warning has been shown. Ignores a message that is shown or waiting.
     void show(Notice notice, Clock::time_point now);
-    /// Shows notes one after the other, the first at once, in place of those announced before.
+    /// Shows the texts one after the other, the first at once; replaces those announced before.
     void announce(const std::vector<std::string>& texts, Clock::time_point now);
-    /// Takes away what was shown long enough, and shows the next.
+    /// Removes a message that was shown long enough, and shows the next.
     void pass(Clock::time_point now);
     /// True once after the text has changed.
     bool hasChanged();
-    /// To be drawn anew whatever it is.
+    /// Has the message drawn again in any case.
     void touch() { hasChanged_ = true; }
-    /// An empty text where there is nothing to say.
+    /// The present message; an empty text if there is none.
     const Notice& shown() const { return shown_; }
 
 private:

@@ -1,6 +1,6 @@
-// Pictures to a window: surface, swapchain and the frames in flight between them. Submits to the device's
+// Presentation of pictures in a window: surface, swapchain and frames in flight. Submits to the device's
 // queue 0 itself: a presented frame waits for an acquired image and signals a binary semaphore, which
-// vk::Queue does not know.
+// vk::Queue does not support.
 #pragma once
 
 #include "viewer/window/window.hpp"
@@ -23,43 +23,43 @@ public:
 
     struct Frame {
         VkCommandBuffer commands = VK_NULL_HANDLE; ///< recording
-        std::uint32_t slot = 0;  ///< < framesInFlight; what was submitted in it has finished
-        std::uint32_t image = 0; ///< of the swapchain
+        std::uint32_t slot = 0;                    ///< < framesInFlight; its previous commands have finished
+        std::uint32_t image = 0;                   ///< of the swapchain
     };
 
-    /// Throws vk::Error. `window` is needed by the constructor only.
+    /// Throws vk::Error. Uses `window` only in the constructor.
     Presenter(const vk::Device& device, const Window& window);
     ~Presenter(); ///< waits for the queue
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    /// 8 bits a channel; on a GPU sRGB where the surface has it, on a software device rather not.
+    /// 8 bits per channel; sRGB on a GPU if the surface has it, preferably not on a software device.
     VkFormat format() const noexcept { return format_.format; }
 
-    /// Makes the swapchain for a window of `pixels`. False where the surface has no size now: try again
-    /// later. Waits for the queue; views of the old images are gone afterwards.
+    /// Makes the swapchain for a window of `pixels`. False if the surface has no size now: try again later.
+    /// Waits for the queue; destroys the views of the old images.
     bool resize(VkExtent2D pixels, bool isVsync);
-    /// Gives the window to another presenter: it has no swapchain until resize(). Waits for the queue.
+    /// Releases the window for another presenter; no swapchain until resize(). Waits for the queue.
     void retire() noexcept;
     bool isOutdated() const noexcept { return isOutdated_; } ///< resize() is due
     VkExtent2D extent() const noexcept { return extent_; }
     std::span<const VkImageView> views() const noexcept { return views_; }
 
-    /// Slot of the next begin().
+    /// The slot of the next begin().
     std::uint32_t nextSlot() const noexcept { return slot_; }
-    /// Waits until what was submitted in the next slot has finished. Throws vk::Error and, where a signal has
-    /// asked the program to end and that takes its time, app::Failure (interrupted).
+    /// Waits until the commands of the next slot have finished. Throws vk::Error, and app::Failure
+    /// (interrupted) if a signal has asked the program to end and the wait is long.
     void waitForSlot();
-    /// Whether nothing that was submitted in that slot is on its way.
+    /// Whether no commands of that slot are in flight.
     bool isFinished(std::size_t slot) const;
-    /// After waitForSlot(): acquires an image and begins its commands. Empty where the swapchain became
+    /// Call after waitForSlot(): acquires an image and begins its commands. Empty if the swapchain became
     /// outdated.
     std::optional<Frame> begin();
     /// Submits and presents. The picture must be in PRESENT_SRC_KHR layout.
     void end(const Frame& frame);
-    /// Waits for all frames. Throws likewise.
+    /// Waits for all frames. Throws like waitForSlot().
     void waitIdle();
-    /// The same for destructors: waits however long it takes.
+    /// Waits for all frames without limit and exceptions, for destructors.
     void drain() noexcept;
 
 private:
@@ -67,7 +67,7 @@ private:
         VkCommandBuffer commands = VK_NULL_HANDLE;
         VkFence finished = VK_NULL_HANDLE;
         VkSemaphore acquired = VK_NULL_HANDLE;
-        bool isSubmitted = false; // since the last wait: the fence comes
+        bool isSubmitted = false; // since the last wait
     };
     void waitFor(Slot& slot);
     void chooseFormat();
@@ -89,7 +89,7 @@ private:
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
     VkExtent2D extent_{};
     std::vector<VkImageView> views_;
-    std::vector<VkSemaphore> drawn_; ///< one an image: free again when that image is acquired again
+    std::vector<VkSemaphore> drawn_; ///< one per image: free again when that image is acquired again
     std::uint32_t slot_ = 0;
     bool isOutdated_ = true;
 };

@@ -1,4 +1,4 @@
-// The window's title: what is shown, where it runs and how fast.
+// The title of the window: scene, device and speed.
 #pragma once
 
 #include "app/piece_count.hpp"
@@ -16,14 +16,14 @@ public:
     /// GPU time of one step [ms].
     void stepTimed(double milliseconds);
 
-    /// Particles that sleep.
+    /// Number of sleeping particles.
     void setSleeping(std::uint32_t sleeping) { sleeping_ = sleeping; }
-    /// Pieces of bodies that were cut, with a surface.
+    /// Number of pieces of cut bodies with a surface.
     void setPieces(const app::PieceCount& pieces);
     /// Sets the text for the tool in hand, such as " - holding".
     void setTool(const char* tool) { tool_ = tool; }
 
-    /// A new title, twice a second or when what it says about playing has changed.
+    /// A new title, twice a second or when the state of playing has changed; otherwise empty.
     std::optional<std::string> title(bool isPaused, bool isDiverged);
 
 private:

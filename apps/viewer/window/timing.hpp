@@ -1,5 +1,5 @@
-// For whoever wants to know (--timing, and a key): how long the first picture took to come, when hands had to
-// wait, and what each picture cost.
+// Timing report for --timing and a key: time to the first picture, delays of input, and the cost of each
+// picture.
 #pragma once
 
 #include "viewer/window/frame_times.hpp"
@@ -10,36 +10,36 @@
 
 namespace sinew::viewer {
 
-/// Prints on stdout, a line each, with the processor time in it: of all threads, or of the one that waits for
-/// input. Where it is off it prints nothing but the table that somebody asks for.
+/// Prints lines on stdout, with processor time: of all threads, or of the input thread. If off, it prints
+/// only a requested table.
 class Timing {
 public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::chrono::milliseconds tooLong{100};
-    static constexpr std::size_t slots = 2; ///< of pictures in flight, at most
+    static constexpr std::size_t slots = 2; ///< most pictures in flight
 
     /// `start` of the program.
     Timing(bool isOn, Clock::time_point start) : isOn_(isOn), start_(start), since_(start), before_(start) {}
 
     bool isOn() const { return isOn_; }
-    /// Whether the first picture is to be waited for.
+    /// Whether the first picture is still awaited.
     bool awaitsPicture() const { return isOn_ && !hasPicture_; }
-    /// That picture is there.
+    /// Call when the first picture has finished.
     void firstPicture();
 
-    /// Input is taken now: says so where the last time was long ago. `isIdle` where the thread may sleep
-    /// until there is some.
+    /// Call before input is polled: reports a long time since the last poll. `isIdle`: the thread may sleep
+    /// until there is input.
     void beforeInput(bool isIdle);
-    /// `isAny` input came, while so many pictures were on their way.
+    /// Call after the poll. `isAny`: there was input; `onTheirWay`: pictures in flight.
     void afterInput(bool isAny, std::size_t onTheirWay);
 
-    /// A picture with all input until now was submitted. `isOfCut` where a step before it cuts.
+    /// Call after a picture with all input so far was submitted. `isOfCut`: a step before it cuts.
     void pictureSubmitted(std::size_t slot, bool isOfCut);
-    /// It is there.
+    /// Call when that picture has finished.
     void pictureFinished(std::size_t slot);
 
     FrameTimes& times() { return times_; }
-    /// The table, and all begins anew.
+    /// Prints the table and starts new statistics.
     void printTable();
 
 private:
@@ -48,12 +48,12 @@ private:
         std::size_t picturesBefore = 0;
     };
     bool isOn_, hasPicture_ = false;
-    Clock::time_point start_, since_, before_; // since_ and before_: the last looks at input
+    Clock::time_point start_, since_, before_; // since_ and before_: the last polls
     double workedSince_ = 0;                   // [ms]
     FrameTimes times_;
-    std::optional<Clock::time_point> lastPicture_;  // none: nobody was waiting for the next
-    std::optional<Event> event_;                    // in no picture yet
-    std::array<std::optional<Event>, slots> shown_; // by a picture on its way
+    std::optional<Clock::time_point> lastPicture_;  // empty: no picture was due next
+    std::optional<Event> event_;                    // not in a picture yet
+    std::array<std::optional<Event>, slots> shown_; // in pictures in flight
 };
 
 } // namespace sinew::viewer

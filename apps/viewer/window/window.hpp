@@ -1,4 +1,4 @@
-// The window and what hands do in it, by GLFW. Knows no Vulkan device beyond making a surface for one.
+// The window and its input events, through GLFW. Its only use of Vulkan is to make a surface.
 #pragma once
 
 #include "viewer/hands/bindings.hpp"
@@ -15,69 +15,70 @@ struct GLFWwindow;
 
 namespace sinew::viewer {
 
-/// Since the last poll, as actions: GLFW's keys and buttons have been looked up in the table of bindings.
+/// Events since the last poll, as actions: keys and buttons are already looked up in the table of bindings.
 struct Input {
     struct Drag {
         Action action;
         Vector2 heights; ///< x right, y down, in window heights
     };
-    /// A button that drags went down or up.
+    /// A press or release of a button that drags.
     struct Press {
         Action action;
         bool isDown;
-        Vector2 pointer; ///< as below
+        Vector2 pointer; ///< see `pointer` below
     };
     std::vector<Action> actions;
     std::vector<Press> presses;
     std::vector<Drag> drags;
     std::vector<std::string> files; ///< dropped on the window
     float notches = 0;              ///< of the wheel, forwards positive
-    float growth = 0; ///< likewise of the wheel that sets the depth of the blade, or the size of the sphere
-    float slide = 0;  ///< likewise of the wheel that moves the section plane
+    float growth = 0; ///< of the wheel for the blade's depth or the sphere's size, forwards positive
+    float slide = 0;  ///< of the wheel for the section plane, forwards positive
     Vector2 pointer = Vector2::Zero(); ///< from the middle, x right, y down, in window heights
     std::optional<Action> held;        ///< by modifiers alone
     bool needsRedraw = false;          ///< resized or uncovered
-    PanelInput panels;                 ///< what is not in the others
+    PanelInput panels;                 ///< all other events
     bool isEmpty() const {
         return actions.empty() && presses.empty() && drags.empty() && files.empty() && notches == 0 &&
                growth == 0 && slide == 0 && !needsRedraw;
     }
 };
 
-/// One at a time; main thread only.
+/// Only one may exist; main thread only.
 class Window {
 public:
-    /// Throws app::Failure (noDevice) where there is no display.
+    /// Throws app::Failure (noDevice) if there is no display.
     explicit Window(VkExtent2D size);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// Instance extensions a device needs to draw here. Throws app::Failure (noDevice) where there are none.
+    /// Instance extensions that a device needs to draw here. Throws app::Failure (noDevice) if there are
+    /// none.
     std::vector<std::string> surfaceExtensions() const;
     static bool canPresent(VkInstance instance, VkPhysicalDevice device, std::uint32_t family);
     /// The caller destroys it. Throws vk::Error.
     VkSurfaceKHR createSurface(VkInstance instance) const;
 
-    /// From now on `cover` is asked first. What it refers to must outlive the last poll().
+    /// Asks `cover` first for each event from now on. Its references must outlive the last poll().
     void setCover(Cover cover);
 
-    /// Asked for should the display go away, as watchDisplay(); until then there is none.
+    /// Sets the function called if the display goes away (see watchDisplay()); none at first.
     void setFarewell(Farewell farewell);
 
-    /// Handles waiting events; waits for the first one at most `seconds`.
+    /// Handles pending events; waits at most `seconds` for the first one.
     Input poll(double seconds);
 
-    float scale() const;       ///< of texts, as the display wants them; 1 = 96 pixels an inch
+    float scale() const;       ///< of texts, as the display requests; 1 = 96 pixels per inch
     VkExtent2D pixels() const; ///< 0 x 0 while minimised
-    /// For another one of this size, as of the last poll; in full screen, as it was before. Asks nothing of
-    /// the display.
+    /// Size for another window like this one, at the last poll; in full screen, the size before it. Does not
+    /// query the display.
     VkExtent2D size() const;
     bool isClosing() const;
     void close();
-    std::string clipboard() const; ///< empty where it holds no text
+    std::string clipboard() const; ///< empty if it holds no text
     void setClipboard(const std::string& text);
-    void hide(); ///< before what takes its time to end
+    void hide(); ///< before a slow end of the program
     void setTitle(const std::string& title);
     void toggleFullScreen();
 
