@@ -1,4 +1,4 @@
-// A thread for one lot of layers after the other; a submission for each thing that is rehearsed.
+// Makes one set of layers after another in a thread, then rehearses them, one submission each.
 #include "viewer/backstage.hpp"
 
 #include "vk/check.hpp"
@@ -17,7 +17,7 @@ Backstage::~Backstage() {
     if (making_.valid()) making_.wait();
     try {
         queue_.waitIdle();
-    } catch (const vk::Error&) { // of a lost device there is nothing to wait for
+    } catch (const vk::Error&) { // a lost device finishes nothing
     }
 }
 
@@ -47,12 +47,12 @@ Watched Backstage::ready(const Watched& wanted) {
     return ready;
 }
 
-// In a thread of its own.
+// Runs in a thread of its own.
 Backstage::Made Backstage::make(const Watched& wanted, const sim::Scene& scene) const {
     const auto unseen = [this](const Renderer& renderer) {
         Image image(device_,
                     {.name = "unseen picture",
-                     .extent = {60, 44}, // no powers of two, as windows: drivers tell them apart
+                     .extent = {60, 44}, // no powers of two: some drivers treat those differently
                      .format = renderer.format(),
                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
         Canvas canvas = renderer.makeCopiedCanvas(image.extent(), std::array{image.view()});
@@ -85,7 +85,7 @@ bool Backstage::goOn() {
     return isRehearsed;
 }
 
-// One pipeline at a time: pictures come in between.
+// Rehearses one pipeline at a time, so that pictures can be drawn in between.
 void Backstage::rehearseNext() {
     rehearse([this](VkCommandBuffer commands) {
         const std::size_t next = made_->rehearsed++;

@@ -1,4 +1,4 @@
-// A stage, gauges of its own, and the words of both.
+// Runs a stage with gauges of its own, and formats settings as text.
 #include "viewer/beside.hpp"
 
 #include "scenes/recovery.hpp"
@@ -14,7 +14,7 @@ namespace sinew::viewer {
 
 namespace {
 
-// As the first has them but for the shape; forms that were fast for another solver say nothing here.
+// Settings of the first with another solver; kernel forms timed for the first solver do not apply here.
 sim::Settings settingsOf(sim::Settings settings, const BesideShape& shape) {
     settings.solver = shape.solver;
     settings.substeps = shape.substeps;

@@ -1,4 +1,4 @@
-// Every device is made with an instance of its own, so that no thread shares one with another.
+// Opens every device with an instance of its own, so that threads share none.
 #include "viewer/devices.hpp"
 
 #include "viewer/opening.hpp"
@@ -13,7 +13,7 @@ namespace sinew::viewer {
 std::string requestFor(std::span<const vk::DeviceDescription> devices, std::size_t index) {
     const std::string& name = devices[index].name;
     const auto isCalledSo = [&](const vk::DeviceDescription& other) {
-        return other.name.find(name) != std::string::npos; // as vk::DeviceRequest::device is understood
+        return other.name.find(name) != std::string::npos; // see vk::DeviceRequest::device
     };
     return std::ranges::count_if(devices, isCalledSo) == 1 ? name : std::to_string(devices[index].index);
 }
@@ -31,15 +31,15 @@ std::unique_ptr<vk::Device> Devices::open(const std::string& wanted) const {
     return std::make_unique<vk::Device>(vk::Device::create(loader_.getInstanceProcAddr(), request));
 }
 
-// Not before somebody asks, when a device is open: two threads that asked a display at once what it can do
-// ended one start of about a hundred, inside Mesa 22.3, which went without an answer.
+// Starts at the first request, when a device is already open: two threads that queried a display at once made
+// about one start in a hundred hang, inside Mesa 22.3.
 void Devices::search() const {
     vk::DeviceRequest search = request_;
-    search.hasValidation = false; // the layer has nothing to say of a list
+    search.hasValidation = false; // not needed for a list
     search_ = std::async(std::launch::async, [this, search] {
         try {
             return vk::listDevices(loader_.getInstanceProcAddr(), search);
-        } catch (const vk::Error&) { // whoever opens one is told
+        } catch (const vk::Error&) { // opening a device reports the error
             return std::vector<vk::DeviceDescription>{};
         }
     });

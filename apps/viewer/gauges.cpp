@@ -12,7 +12,7 @@ namespace sinew::viewer {
 
 namespace {
 
-// "32 of 50,000 links are clamped (0.1 %); the softest has 87 % of its stiffness".
+// Text such as "32 of 50,000 links are clamped (0.1 %); the softest has 87 % of its stiffness".
 std::string textOf(const sim::StiffnessReport& report) {
     if (report.elastic == 0) return "";
     char text[160];
@@ -40,7 +40,7 @@ Knobs knobsOf(const scenes::LoadedScene& loaded) {
             .bodies = std::vector<float>(scene.bodies.size(), 1)};
 }
 
-// "solve_distance[3]" is one of several that differ in their range only.
+// Removes the index: passes such as "solve_distance[3]" differ only in their range.
 std::string withoutNumber(const std::string& label) {
     return label.substr(0, label.find('['));
 }

@@ -1,5 +1,5 @@
-// The loop without a window. Steps are submitted ahead of the host; it waits only for pictures and for the
-// status of steps that are about to be overwritten.
+// The loop of a headless run. Submits steps ahead and waits only for pictures and for the status of steps
+// that are about to be overwritten.
 #include "viewer/headless.hpp"
 
 #include "app/drawn.hpp"
@@ -65,7 +65,7 @@ void checkSize(const vk::Device& device, VkExtent2D size) {
                                                 std::to_string(most) + " pixels a side: choose less");
 }
 
-// What is made of the frames: PNG files, a video, or both.
+// Writers of the frames: PNG files, a video, or both.
 class Outputs {
 public:
     Outputs(const Options& options, float dt) : options_(options), writer_(filesAtOnce) {
@@ -82,7 +82,7 @@ public:
             writer_.add(pictureFile(options_.folder, frame), std::move(picture), std::move(text));
     }
 
-    /// False for a replay that nobody looks at.
+    /// False for a replay without files.
     bool isAny() const { return video_ || !options_.folder.empty(); }
 
     void finish() {
@@ -123,17 +123,17 @@ public:
         print("beside: ", beside_->warnings(), beside_->notes());
     }
 
-    /// Submits a frame; with `isPictured`, waits for its picture.
+    /// Submits a frame; if `isPictured`, waits for its picture.
     std::optional<Picture> advance(std::uint64_t frame, bool isPictured) {
         while (submissions_.size() >= sim::Simulation::framesInFlight) settleOldest();
-        if (beside_ && beside_->stage().material() != stage_.material()) { // the replay has turned it
+        if (beside_ && beside_->stage().material() != stage_.material()) { // changed by the replay
             settle();
             goOnBeside();
         }
         if (frame > 0 && replay_ && playHistory() == Replay::Due::nothing) compareReplay();
         submit(frame);
         if (!isPictured) return std::nullopt;
-        settle(); // first: a step that is done again would show in no picture
+        settle(); // first: a repeated step would be in no picture
         VkCommandBuffer commands = queue_.begin();
         stage_.recordSkin(commands, layers_.overlap());
         const Overlay overlay = recordLayers(commands);
@@ -156,14 +156,14 @@ public:
         if (tools_) tools_->moveOn();
     }
 
-    /// Prints complaints of the simulation on stderr. All steps have finished.
+    /// Prints complaints of the simulation on stderr. Requires that all steps have finished.
     void printComplaints() {
         for (const std::string& complaint : stage_.complaints())
             std::fprintf(stderr, "warning: %s\n", complaint.c_str());
     }
 
-    /// Of a replay, what came after its last step, and the state in which it was left; likewise of what went
-    /// on from a saved one.
+    /// After a replay, or a run from a saved state: plays the rest of the log and prints the hash of the last
+    /// state.
     void finishReplay() {
         if (!replay_ && !opening_.run) return;
         const bool isWhole = playHistory() == Replay::Due::nothing;
@@ -172,7 +172,7 @@ public:
         std::printf("%s\n", hashText(stateHash(device_, stage_, queue_), stage_.steps()).c_str());
     }
 
-    /// Where another solver was asked for: what a step of each cost, and how wrong it is in the end.
+    /// Prints the errors of the two solvers of a comparison.
     void printBeside() {
         if (!beside_) return;
         StateProbe probe(device_, stage_.scene(), stage_.settings(), stage_.simulation());
@@ -192,7 +192,7 @@ public:
                     100 * double{other.strainRms.newest()}, 100 * double{other.strainMax.newest()});
     }
 
-    /// Once something is cut, what is left of it.
+    /// After a cut, prints the number of cut links and of pieces.
     void printCuts() {
         if (stage_.steps() == 0) return;
         const sim::Status status = stage_.simulation().status(stage_.steps());
@@ -206,7 +206,7 @@ public:
                     app::toText(app::countPieces(scene, drawn, status.pieces)).c_str());
     }
 
-    /// Where they were asked for; waits for nothing.
+    /// Prints the times, if requested; does not wait.
     void printTimes() const {
         if (times_) std::fputs(times_->table().c_str(), stdout);
     }
@@ -214,7 +214,7 @@ public:
     PictureText text(std::uint64_t frame) const { return pictureText(opening_, device_, frame); }
 
 private:
-    // As the first is now, but for its rooms.
+    // Makes the second simulation with the first one's present settings and capacities of at least `room`.
     std::unique_ptr<Beside> makeBeside(const sim::Settings& room) const {
         try {
             return std::make_unique<Beside>(device_, opening_.loaded,
@@ -227,8 +227,8 @@ private:
         }
     }
 
-    // Where the first stands, as it is now, in room for so many contacts at least: all steps of both have
-    // finished.
+    // Moves the second simulation to the present state of the first, with capacity for at least `contactRoom`
+    // contacts; all steps of both must have finished.
     void goOnBeside(std::uint32_t contactRoom = 0) {
         if (!beside_) return;
         const Stage& now = beside_->stage();
@@ -248,7 +248,7 @@ private:
                                 {{{stage_.simulation(), overlay}, {beside_->simulation(), other}}});
     }
 
-    // More room is made as for the first, but it goes on from where that stands.
+    // If contacts need more room, the second simulation is made anew and continues from the first.
     void checkBeside(std::uint32_t slot) {
         const auto trouble = beside_->settle(slot);
         if (!trouble) return;
@@ -258,7 +258,7 @@ private:
         std::fprintf(stderr, "note: beside: %s: it goes on where the first stands\n", trouble->why.c_str());
     }
 
-    // The range of a map is that of its own picture, whichever others are taken.
+    // A map's range is computed for each picture alone, so that it does not depend on which others are drawn.
     Overlay recordLayers(VkCommandBuffer& commands) {
         Overlay overlay = tools_ ? tools_->overlay() : Overlay{};
         overlay.layers = layers_;
@@ -278,7 +278,7 @@ private:
         return overlay;
     }
 
-    // Once, where there is nothing to be drawn.
+    // Reads the range of cells; notes once that there are none.
     void sayCells(float& range) {
         const std::vector<GridFacts> grids = inspection_->grids(0);
         range = cellRangeOf(grids);
@@ -292,7 +292,7 @@ private:
         sim::Vec3 gravity;
     };
 
-    // Where it ends, whether or not more steps follow.
+    // Compares the state at the end of the log, even if more steps follow.
     void compareReplay() {
         if (std::exchange(isCompared_, true)) return;
         settle();
@@ -300,7 +300,7 @@ private:
                     hashText(stateHash(device_, stage_, queue_), stage_.steps(), replay_->file()).c_str());
     }
 
-    // Up to the next step, or the end. What goes back to an earlier state has that of whole steps to save.
+    // Plays the log up to the next step or the end. Finishes all steps before an earlier state is restored.
     Replay::Due playHistory() {
         if (!replay_) return Replay::Due::nothing;
         for (;;) {
@@ -321,7 +321,7 @@ private:
         goOnBeside();
     }
 
-    // Another simulation goes on.
+    // Continues in another simulation.
     void reshape() {
         try {
             stage_.reshape(queue_, bring());
@@ -384,17 +384,17 @@ private:
         tools_->forgetUndone(stage_, sweeps);
     }
 
-    // All steps from `first` on were undone; hands do in them what they did.
+    // Repeats all steps from `first` on, which were undone, with the same input.
     void redoFrom(const Submission& first) {
         std::deque<Submission> undone = std::exchange(submissions_, {});
         undone.push_front(first);
-        if (stage_.lacksLists(first.frame)) { // no tools are there then
+        if (stage_.lacksLists(first.frame)) { // then there are no tools
             queue_.waitIdle();
             stage_.goBackBefore(first.frame);
         } else {
             if (!stage_.makeRoom(first.frame, queue_, bring()))
                 throw app::Failure(app::diverged, app::tooCrowded(first.frame));
-            inspection_.reset(); // there is another simulation now
+            inspection_.reset(); // made for the old simulation
             if (tools_) forgetUndone(undone);
         }
         goOnBeside(); // it has taken those steps
@@ -408,7 +408,7 @@ private:
         }
     }
 
-    // A step may take a software device minutes. Throws app::Failure (interrupted).
+    // Waits for a submission; a step may take a software device minutes. Throws app::Failure (interrupted).
     void waitFor(std::uint64_t value) {
         const VkSemaphore timeline = queue_.timeline();
         const VkSemaphoreWaitInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
@@ -444,13 +444,13 @@ private:
     Layers layers_;
     std::optional<Inspection> inspection_;
     std::optional<Replay> replay_;
-    bool isCompared_ = false; // with what was recorded
+    bool isCompared_ = false; // with the recorded hash
     bool isGridMissed_ = false;
     std::optional<Tools> tools_; // of the replay
     std::optional<BesideShape> besideShape_;
     std::unique_ptr<Beside> beside_;
     std::optional<HeadlessTimes> times_;
-    vk::Queue queue_; // last: waits for what still uses the others
+    vk::Queue queue_; // last: its destructor waits for work that uses the members above
     std::deque<Submission> submissions_;
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
 };
@@ -494,11 +494,11 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
     } catch (const app::Failure& failure) {
         const app::Writing writing;
         const bool isInterrupted = failure.code() == app::interrupted;
-        if (failure.code() == app::diverged || isInterrupted) // what was drawn before is whole and stays
+        if (failure.code() == app::diverged || isInterrupted) // earlier pictures are complete and stay
             outputs.finish();
         if (isInterrupted) app::leaveInterrupted(failure.what());
         throw;
-    } catch (const vk::Error&) { // likewise: encoders and files need no device
+    } catch (const vk::Error&) { // encoders and files need no device
         const app::Writing writing;
         outputs.finish();
         throw;

@@ -1,4 +1,4 @@
-// Opens window, device and show in the order in which they must go.
+// Opens window, device and player in the reverse order of their destruction.
 #include "viewer/interactive.hpp"
 
 #include "app/guard.hpp"
@@ -19,27 +19,27 @@ namespace sinew::viewer {
 
 namespace {
 
-// What is known of a scene before it plays: on the command line,
+// Prints the headline of a scene on the command line.
 void say(const Opening& opening, const vk::Device& device) {
     std::printf("%s\n", headline(opening, device).c_str());
     std::fflush(stdout);
 }
 
-// and in the window.
+// Shows its warnings and notes in the window.
 void tell(const Opening& opening, Screen& screen) {
     std::vector<std::string> texts = opening.loaded.warnings;
     texts.insert(texts.end(), opening.loaded.notes.begin(), opening.loaded.notes.end());
     screen.announce(texts);
 }
 
-// What plays, and the device that it plays on.
+// The player and its device.
 struct Playing {
     std::unique_ptr<vk::Device>& device;
     std::unique_ptr<Show>& show;
 };
 
-// On show next. Its device is another one, so that whatever is wrong with it, which is thrown, leaves what is
-// on show as it is.
+// Replaces the scene on show. The new scene has a device of its own, so that an exception leaves the old one
+// as it is.
 void put(std::unique_ptr<Opening> opening, const Playing& playing, Screen& screen, Library& library,
          const Devices& devices) {
     std::unique_ptr<vk::Device> device = std::move(opening->device);
@@ -50,13 +50,13 @@ void put(std::unique_ptr<Opening> opening, const Playing& playing, Screen& scree
     std::unique_ptr<Place> place = std::move(next->place);
     auto show = std::make_unique<Show>(screen, library, devices, *device, std::move(next));
     if (goesOn) show->takeOver(*playing.show);
-    place = screen.moveTo(std::move(place)); // on the device that goes now
+    place = screen.moveTo(std::move(place)); // on the old device
     place.reset();
     playing.show = std::move(show);
     playing.device = std::move(device);
 }
 
-// What cannot be shown leaves all as it is.
+// Replaces the scene on show; on an error everything stays as it is.
 void change(std::unique_ptr<Opening> opening, const Playing& playing, Screen& screen, Library& library,
             const Devices& devices) {
     const std::string name = opening->loaded.scene.name;
@@ -72,7 +72,7 @@ float aspectOf(VkExtent2D size) {
     return static_cast<float>(size.width) / static_cast<float>(size.height);
 }
 
-// What the command line says goes before what is remembered.
+// Applies the options of the command line over the remembered preferences.
 Preferences asAsked(Preferences preferences, const Options& options) {
     preferences.isVsync = options.isVsync.value_or(preferences.isVsync);
     if (options.arePanelsShown) preferences.arePanelsShown = options.arePanelsShown;
@@ -80,7 +80,7 @@ Preferences asAsked(Preferences preferences, const Options& options) {
     return preferences;
 }
 
-// Started without a scene, the window goes on with the last one, in the size in which it was left.
+// Options of a window without a scene argument: the last scene, in the last size.
 Options recalled(Options options, const Preferences& preferences) {
     if (!options.hasSize && preferences.width > 0 && preferences.height > 0)
         options.size = {preferences.width, preferences.height};
@@ -91,7 +91,7 @@ Options recalled(Options options, const Preferences& preferences) {
     return options;
 }
 
-// A last scene that is no more costs a line, and the one built in is shown.
+// If the last scene cannot be opened, prints a line and opens the built-in one.
 std::unique_ptr<Opening> openFirst(const Options& asked, Options& options) {
     try {
         return std::make_unique<Opening>(open(options, aspectOf(options.size)));
@@ -104,8 +104,8 @@ std::unique_ptr<Opening> openFirst(const Options& asked, Options& options) {
     return std::make_unique<Opening>(open(options, aspectOf(options.size)));
 }
 
-// A size that was asked for is of this run alone; so is all else that was, unless somebody has changed it
-// since.
+// Preferences to remember: options of the command line apply to this run only, unless the user changed them
+// in the window.
 Preferences leftBy(const Screen& screen, const Library& library, const Options& options,
                    const Preferences& before) {
     Preferences left = screen.preferences();
@@ -121,8 +121,7 @@ Preferences leftBy(const Screen& screen, const Library& library, const Options& 
     return left;
 }
 
-// What is kept when something else than its user ends the program, or what hands did in it, once, and what is
-// said of it.
+// Saves the input once if the program ends unexpectedly, and holds the line about it.
 class Keeping {
 public:
     Keeping(Window& window, std::function<std::string()> keep) : window_(window), keep_(std::move(keep)) {
@@ -138,7 +137,7 @@ public:
         if (!said_) said_ = keep_();
         return *said_;
     }
-    /// The program goes on: it may end another time.
+    /// Call when the program continues after an error: it may end again.
     void renew() { said_.reset(); }
 
 private:
@@ -147,7 +146,7 @@ private:
     std::optional<std::string> said_;
 };
 
-// The exception at hand, with `kept` at the end of its line.
+// Throws the present exception again, with `kept` at the end of its message.
 [[noreturn]] void throwAgain(const std::string& kept) {
     try {
         throw;
@@ -158,7 +157,7 @@ private:
     }
 }
 
-// Without a window, and made when the first preview is wanted, in their thread.
+// The device of the previews, without a window; made at the first preview, in their thread.
 class PreviewDevice {
 public:
     PreviewDevice(const Options& options, std::atomic<std::size_t>& messages)
@@ -173,22 +172,22 @@ public:
         try {
             return drawPreview(*device_, scene, stop);
         } catch (const vk::Error& error) {
-            if (error.failure() == vk::Failure::deviceLost) device_.reset(); // the next has another one
+            if (error.failure() == vk::Failure::deviceLost) device_.reset(); // the next preview uses another
             throw;
         }
     }
 
 private:
     vk::DeviceRequest request_;
-    std::shared_ptr<vk::Loader> loader_; // shared as std::function wants to be copied
+    std::shared_ptr<vk::Loader> loader_; // shared, since std::function must be copyable
     std::shared_ptr<vk::Device> device_;
 };
 
-// A device that is lost again as soon as that is no better than none.
+// A device lost twice within this time is not used again.
 constexpr std::chrono::seconds betweenLosses{10};
 
-// After the device was lost: what was on show from its beginning, on the same device opened anew or on
-// another one. Throws what is wrong with the last of them.
+// Restarts the scene on show after its device was lost: on the same device, opened again, or on another.
+// Throws the error of the last one.
 void beginAnew(const Options& shown, const Playing& playing, Screen& screen, Library& library,
                const Devices& devices) {
     const auto begin = [&](const std::string& request) {
@@ -208,7 +207,7 @@ void beginAnew(const Options& shown, const Playing& playing, Screen& screen, Lib
         }
 }
 
-// Plays until the window is closed, on another device where one is lost.
+// Runs until the window is closed; changes to another device if one is lost.
 class MainLoop {
 public:
     MainLoop(const Playing& playing, Screen& screen, Library& library, const Devices& devices,
@@ -243,7 +242,7 @@ private:
         if (error.failure() != vk::Failure::deviceLost || isAgain || isEnding) return false;
         try {
             beginAnew(Options(library_.shown()), playing_, screen_, library_, devices_);
-        } catch (const std::exception&) { // the first error is the one to be told
+        } catch (const std::exception&) { // the first error is reported
             return false;
         }
         lost_ = std::chrono::steady_clock::now();
@@ -261,7 +260,7 @@ private:
     std::optional<std::chrono::steady_clock::time_point> lost_; // the newest time
 };
 
-// Until the window is closed. What is declared later is gone earlier.
+// Runs until the window is closed. Objects declared later are destroyed earlier.
 void play(std::unique_ptr<Opening> opening, const Options& options, const Preferences& preferences,
           std::atomic<std::size_t>& messages) {
     Window window(options.size);
@@ -269,7 +268,7 @@ void play(std::unique_ptr<Opening> opening, const Options& options, const Prefer
     std::unique_ptr<vk::Device> device = devices.open(options.device);
     std::unique_ptr<Opening> first = std::move(opening);
     say(*first, *device);
-    window.setTitle("Sinew - preparing " + first->loaded.scene.name); // for seconds, if drivers compile
+    window.setTitle("Sinew - preparing " + first->loaded.scene.name); // takes seconds if drivers compile
     prepare(*first, *device, window);
     Screen screen(window, std::move(first->place), {options.isTimed, options.start},
                   asAsked(preferences, options));
@@ -302,7 +301,7 @@ void play(std::unique_ptr<Opening> opening, const Options& options, const Prefer
     MainLoop({device, show}, screen, library, devices, keeping).run();
     if (options.isTimed) screen.timing().printTable();
     keepSettings();
-    window.hide(); // threads end in their time
+    window.hide(); // threads may end slowly
 }
 
 } // namespace

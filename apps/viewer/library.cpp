@@ -1,4 +1,4 @@
-// Lists a folder, loads in a thread.
+// Lists a folder and loads in a thread.
 #include "viewer/library.hpp"
 
 #include "scenes/built_in.hpp"
@@ -14,9 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t none = static_cast<std::size_t>(-1);
-constexpr const char* frameOfMeshes = "drop_mesh"; // drops what it is given, and has no body of its own
+constexpr const char* frameOfMeshes = "drop_mesh"; // drops a given mesh, has no body of its own
 
-// Scene files in a folder, by name; none where it cannot be read.
+// Scene files in a folder, by name; empty if it cannot be read.
 std::vector<fs::path> sceneFiles(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code error;
@@ -67,7 +67,7 @@ Options Library::ofScene(Options options, std::size_t name) const {
 void Library::openNext(int by, float aspect) {
     if (names_.empty()) return;
     const std::size_t count = names_.size();
-    const std::size_t first = by > 0 ? 0 : count - 1; // where none is current
+    const std::size_t first = by > 0 ? 0 : count - 1; // if none is current
     open(current_ == none
              ? first
              : (current_ + count + static_cast<std::size_t>(by + static_cast<int>(count))) % count,

@@ -11,9 +11,9 @@ namespace {
 
 using namespace sinew;
 
-// One heap for all threads. Scenes are prepared in threads of their own, and what such a thread freed would
-// stay in its heap, where the next one does not look: 456 MB after six changes of scene.
-// Drawing allocates too little to wait.
+// One heap for all threads. Scenes are prepared in threads of their own; memory that such a thread frees
+// would stay in its own heap, unused by the next one: 456 MB after six changes of scene. Drawing allocates
+// too little for contention.
 void shareHeap() {
 #ifdef __GLIBC__
     mallopt(M_ARENA_MAX, 1);

@@ -1,4 +1,4 @@
-// The first view of a scene.
+// Loads scenes and chooses their first view.
 #include "viewer/opening.hpp"
 
 #include "sim/compile.hpp"
@@ -28,7 +28,7 @@ Camera firstView(const scenes::LoadedScene& loaded, float aspect) {
     return camera;
 }
 
-// As it was seen when it was saved.
+// The camera of a saved view.
 Camera seenAgain(Camera camera, const app::SavedView& view) {
     camera.target = toVector(view.target);
     camera.distance = view.distance;
@@ -38,7 +38,7 @@ Camera seenAgain(Camera camera, const app::SavedView& view) {
     return camera;
 }
 
-// Of a saved state, which was there with this solver and so many substeps.
+// Options for a saved state: its scene, solver and substeps.
 Options withScene(Options options, const app::SavedRun& run) {
     options.scene.clear();
     (run.scene.starts_with('/') ? options.scene : options.builtIn) = run.scene;
@@ -47,7 +47,7 @@ Options withScene(Options options, const app::SavedRun& run) {
     return options;
 }
 
-// "12,345".
+// A number with separators: "12,345".
 std::string grouped(std::size_t number) {
     std::string digits = std::to_string(number);
     for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, 1, ',');

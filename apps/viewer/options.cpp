@@ -1,4 +1,4 @@
-// Options and what may not be combined.
+// The options, and checks of their combinations.
 #include "viewer/options.hpp"
 
 #include "app/guard.hpp"
@@ -30,7 +30,7 @@ or out of memory, 6 output could not be written, 7 the simulation diverged, 70 a
     throw app::Failure(app::wrongUsage, "wrong usage: " + why + ": see `sinew-viewer --help`");
 }
 
-// "1280x720".
+// Parses "1280x720".
 VkExtent2D parseSize(const std::string& text) {
     VkExtent2D size{};
     const char* end = text.data() + text.size();
@@ -45,7 +45,7 @@ VkExtent2D parseSize(const std::string& text) {
     return size;
 }
 
-// X, Y, Z, OFFSET; the normal in any length.
+// Parses X, Y, Z, OFFSET; the normal may have any length.
 Section parseSection(const std::vector<float>& numbers) {
     const Vector3 normal(numbers[0], numbers[1], numbers[2]);
     if (!(normal.norm() > 0) || !std::isfinite(normal.norm()) || !std::isfinite(numbers[3]))
@@ -71,7 +71,7 @@ void addSceneOptions(CLI::App& app, Options& options) {
         "check every Vulkan call with the Khronos validation layer (slow); a message makes the exit code 70");
 }
 
-// What keys change in the window.
+// Adds the options that keys can change in the window.
 void addWindowOptions(CLI::App& app, Options& options) {
     constexpr const char* group = "In the window; what is not said is as it was left";
     const auto add = [&](const char* name, std::optional<bool>& value, const char* help) {
@@ -88,11 +88,11 @@ void addWindowOptions(CLI::App& app, Options& options) {
     app.add_option("--blade-depth", options.bladeDepth,
                    "how far below the surface the blade goes [m]; without it, through")
         ->check(CLI::PositiveNumber)
-        ->excludes("--replay") // which has its own
+        ->excludes("--replay") // the log has its own
         ->group(group);
 }
 
-// They would do nothing.
+// Rejects options that have no effect without a window.
 void checkWindow(const CLI::App& app, const Options& options) {
     if (!options.isHeadless) return;
     for (const char* name : {"--vsync", "--panels", "--scale", "--full-screen", "--blade-depth"})
@@ -117,7 +117,7 @@ void addHeadlessOptions(CLI::App& app, Options& options) {
         ->excludes(every);
 }
 
-// CLI11 takes nan for a number within any range.
+// Rejects nan, which CLI11 accepts within any range.
 void checkNumbers(const Options& options) {
     if (options.bladeDepth && std::isnan(*options.bladeDepth)) refuse("--blade-depth is no number");
     if (options.scale && std::isnan(*options.scale)) refuse("--scale is no number");

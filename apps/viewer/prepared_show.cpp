@@ -1,4 +1,4 @@
-// Simulation, pipelines and maps.
+// Makes the simulation, the renderers and the warm-up.
 #include "viewer/prepared_show.hpp"
 
 #include "sim/gpu_tune.hpp"
@@ -12,7 +12,7 @@ namespace sinew::viewer {
 
 namespace {
 
-// A state that was saved has forms of its own.
+// Settings with the fastest kernel forms; a saved state keeps its own.
 sim::Settings fastest(const vk::Device& device, const Opening& opening) {
     vk::Queue queue(device);
     sim::Settings settings = opening.loaded.settings;
@@ -52,7 +52,7 @@ PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkF
 }
 
 void prepare(Opening& opening, const vk::Device& device, const Window& window) {
-    const vk::KeptKernels kept(device); // what was tried for speed, and what is played
+    const vk::KeptKernels kept(device); // shared by the timing runs and the player
     opening.place = std::make_unique<Place>(device, window);
     opening.prepared = std::make_unique<PreparedShow>(device, opening, opening.place->presenter.format());
 }

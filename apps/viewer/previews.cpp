@@ -1,4 +1,4 @@
-// A thread that waits for wishes.
+// A thread that waits for wanted previews.
 #include "viewer/previews.hpp"
 
 #include "viewer/draw/offscreen.hpp"
@@ -16,16 +16,16 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr int patience = 10; // nice value: what plays goes before
+constexpr int patience = 10; // nice value: the player has priority
 
-// Of the calling thread alone, and of those that a device will start in it. It is no more than a favour.
+// Lowers the priority of the calling thread and of its future threads. Failure is harmless.
 void giveWay() {
     (void)setpriority(PRIO_PROCESS, 0, patience);
 }
 
 } // namespace
 
-// Each of the stages takes a second or so on a software device.
+// Checks for a stop between stages, each of which takes about a second on a software device.
 std::optional<Picture> drawPreview(const vk::Device& device, const Options& options,
                                    const std::stop_token& stop) {
     constexpr VkExtent2D extent = PictureSheet::extent;
@@ -77,7 +77,7 @@ void Previews::work(const std::stop_token& stop) {
         std::optional<Picture> picture;
         try {
             picture = draw_(scene, stop);
-        } catch (const std::exception&) { // whoever opens it is told
+        } catch (const std::exception&) { // opening the scene reports the error
         }
         lock.lock();
         if (picture) made_.emplace_back(scene, std::move(*picture));

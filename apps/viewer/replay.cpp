@@ -1,4 +1,4 @@
-// One event after another.
+// Plays one event after another.
 #include "viewer/replay.hpp"
 
 #include "app/guard.hpp"
@@ -16,7 +16,7 @@ namespace sinew::viewer {
 
 namespace {
 
-// To the tools as the window's input goes there.
+// Passes events to the tools, like the window's input.
 struct Player {
     Tools& tools;
     Camera& camera;
@@ -51,7 +51,7 @@ struct Player {
 Replay::Due Replay::next(Tools& tools, Camera& camera, Stage& stage) {
     for (; at_ < file_.events.size(); ++at_) {
         const InputEvent& event = file_.events[at_];
-        // With the material that stands before it, at once.
+        // Uses the material set before it.
         if (stage.wantsShape() && !std::holds_alternative<Shaped>(event)) return Due::shape;
         if (const auto* stepped = std::get_if<Stepped>(&event)) {
             if (tools.wantsHistory()) return Due::history;
@@ -78,7 +78,7 @@ std::uint64_t stateHash(const vk::Device& device, const Stage& stage, vk::Queue&
 
 namespace {
 
-// Where it was, or beside the log where both have moved.
+// The saved state's file, or one of that name beside the log if both were moved.
 std::string stateOf(const SavedOrigin& from, const std::filesystem::path& log) {
     std::error_code error;
     const std::filesystem::path beside = log.parent_path() / std::filesystem::path(from.file).filename();

@@ -1,4 +1,4 @@
-// Swapchain and panels change together.
+// Changes swapchain and panels together.
 #include "viewer/screen.hpp"
 
 #include "vk/check.hpp"
@@ -13,9 +13,9 @@ namespace sinew::viewer {
 namespace {
 
 constexpr std::chrono::milliseconds panelsStay{100};
-constexpr std::uint32_t picturesOfPanels = 5; // to draw them anew takes a software device four times as long
+constexpr std::uint32_t picturesOfPanels = 5; // drawing them anew takes a software device four times as long
 
-// What came in several polls before one picture.
+// Merges the input of several polls before one picture.
 void merge(PanelInput& all, const PanelInput& next) {
     PanelInput merged = next;
     for (std::size_t b = 0; b < merged.presses.size(); ++b) merged.presses[b] += all.presses[b];
@@ -63,7 +63,7 @@ std::unique_ptr<Place> Screen::moveTo(std::unique_ptr<Place> place) {
 }
 
 bool Screen::prepare(const std::function<void()>& beforehand) {
-    if (window_.scale() != windowScale_) rescale(); // it may have gone to another display
+    if (window_.scale() != windowScale_) rescale(); // the window may be on another display
     const VkExtent2D pixels = window_.pixels();
     const bool isSame = pixels.width == pixels_.width && pixels.height == pixels_.height;
     if (pixels.width > 0 && isSame && !place_->presenter.isOutdated()) return true;
@@ -77,7 +77,7 @@ bool Screen::prepare(const std::function<void()>& beforehand) {
 
 void Screen::toggleVsync() {
     isVsync_ = !isVsync_;
-    pixels_ = {}; // makes a new swapchain
+    pixels_ = {}; // requests a new swapchain
 }
 
 Preferences Screen::preferences() const {
@@ -96,7 +96,7 @@ Preferences Screen::preferences() const {
 void Screen::changeScale(int steps) {
     constexpr float step = 1.125f;
     const float scale = ownScale_ * std::pow(step, static_cast<float>(steps));
-    const float whole = std::abs(scale - 1) < 0.01f ? 1 : scale; // the way back ends where it began
+    const float whole = std::abs(scale - 1) < 0.01f ? 1 : scale; // returns to exactly 1
     ownScale_ = std::clamp(whole, Preferences::leastScale, Preferences::mostScale);
     rescale();
     char text[40];
@@ -109,12 +109,12 @@ void Screen::rescale() {
     place_->presenter.waitIdle(); // the atlas may be in use
     panels_.rescale(windowScale_ * ownScale_);
     place_->painter.setAtlas(panels_.atlas());
-    notices_.touch(); // what is shown is laid out anew
+    notices_.touch(); // the message needs a new layout
 }
 
 void Screen::expectPreviews(std::size_t count) {
     sheet_ = PictureSheet(count);
-    place_->presenter.waitIdle(); // the one before may be in use
+    place_->presenter.waitIdle(); // the old sheet may be in use
     place_->painter.setSheet(sheet_);
 }
 

@@ -14,14 +14,14 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr double idleWait = 0.1;                   // [s] at most between looks at signals while nothing moves
-constexpr double rehearsalWait = 0.005;            // [s] between looks at whether a rehearsal is over
-constexpr std::chrono::milliseconds patience{300}; // until hands are told that something is being made
-constexpr std::uint32_t picturesOfATouch = 3;      // until Dear ImGui shows what a press has changed
-constexpr double stillAfter = 0.25; // [s] without a change before a paused picture is the last one
+constexpr double idleWait = 0.1;                   // [s] longest wait between polls while nothing moves
+constexpr double rehearsalWait = 0.005;            // [s] between polls of a rehearsal
+constexpr std::chrono::milliseconds patience{300}; // delay of the message about preparation
+constexpr std::uint32_t picturesOfATouch = 3;      // until Dear ImGui shows the effect of a press
+constexpr double stillAfter = 0.25; // [s] without a change before a still picture in full quality
 
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
-static_assert(6 * Presenter::framesInFlight < Renderer::slots); // with films and files of pictures, of halves
+static_assert(6 * Presenter::framesInFlight < Renderer::slots); // films and files of halves
 static_assert(Presenter::framesInFlight <= Timing::slots);
 
 } // namespace
@@ -44,13 +44,13 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
     }
     pipelines_ = device.kernels().pipelinesMade(); // of the first scene, before there was a window
     if (!opening_.run || opening_.again)
-        controller_.playback.reset(); // fills the buffers
+        controller_.playback.reset(); // initialises the buffers
     else
         goOn(*opening_.run);
     if (opening_.input) replay_.emplace(*opening_.input);
 }
 
-// The stage is there already; what it was turned to is shown, and stays after a reset.
+// Continues from a loaded state: shows its parameters, which stay after a reset.
 void Show::goOn(const app::SavedRun& run) {
     const auto [x, y, z] = run.gravity;
     knobs_ = turnedTo(run.material, knobs_, sceneFacts_.fromFile);
@@ -65,7 +65,7 @@ Show::~Show() {
 }
 
 std::unique_ptr<Opening> Show::run() {
-    keepAsItWas(); // where what was asked for could not be shown
+    keepAsItWas(); // if the requested change failed
     std::unique_ptr<Opening> next;
     while (!next && !screen_.window().isClosing() && !app::isInterrupted()) {
         turn();
@@ -75,13 +75,13 @@ std::unique_ptr<Opening> Show::run() {
     const app::Writing writing;
     stopRecording();
     reportFiles(PictureWriter::Wait::yes);
-    if (next && !next->again) screen_.layers().section.reset(); // it was of this scene
-    shown_ = Shown::nothing;                                    // should it go on
+    if (next && !next->again) screen_.layers().section.reset(); // it belonged to this scene
+    shown_ = Shown::nothing;                                    // run() may be called again
     return next;
 }
 
-// What cannot be opened leaves all as it is. What is to go on with less room than there is by now would have
-// to make more in this thread: it is asked for again.
+// Returns a loaded scene; on an error everything stays as it is. A reload with less capacity than the present
+// simulation is requested again, since growing would block this thread.
 std::unique_ptr<Opening> Show::takeOpened() {
     if (stage_.isGrowing() || backstage_.isBusy() || besideMaking_.valid()) return nullptr;
     try {
@@ -113,8 +113,8 @@ float Show::wholeAspect() const {
 
 void Show::turn() {
     const bool isIdle = isHidden_ || (shown_ == Shown::still && panelsDue_ == 0);
-    const bool isBusy = backstage_.isBusy();        // pictures wait for it, hands do not
-    if (!isBusy) screen_.presenter().waitForSlot(); // the next picture has what came until it can be drawn
+    const bool isBusy = backstage_.isBusy();        // pictures wait for it, input does not
+    if (!isBusy) screen_.presenter().waitForSlot(); // the next picture then uses the newest input
     const bool isMaking =
         backstage_.isMaking() || stage_.isGrowing() || stage_.wantsShape() || besideMaking_.valid();
     screen_.timing().beforeInput(isIdle);
@@ -125,7 +125,7 @@ void Show::turn() {
     foldPointer(input);
     const bool hasMoved = input.pointer != std::exchange(pointer_, input.pointer);
     const bool isUsed = hasMoved || !input.presses.empty();
-    // Panels change over a still scene without taking its quality away.
+    // Changes of panels over a still scene keep its quality.
     const bool isBladeLent = !replay_ && tools_.lendBlade(input.held == Action::blade, isUsed);
     if (isBladeLent) input.needsRedraw = true;
     const bool areAsked = !input.actions.empty() || !input.presses.empty() || isBladeLent;
@@ -146,7 +146,7 @@ void Show::turn() {
         screen_.window().setTitle(*title);
 }
 
-// Steps and a picture, where there is something to be seen.
+// Takes steps and draws a picture, unless nothing has changed.
 void Show::play() {
     if (replayed_) compareReplay();
     takeGrowth();
@@ -157,7 +157,7 @@ void Show::play() {
     isHidden_ = !prepareSwapchain();
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - std::exchange(lastTurn_, now)).count();
-    if (isHidden_) return; // time stands still while nobody can look
+    if (isHidden_) return; // time stops while the window is hidden
     const Plan plan = this->plan(elapsed);
     const bool hasInput = std::exchange(isInputDue_, false);
     const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 || hasInput ||
@@ -177,7 +177,7 @@ void Show::play() {
     if (isLast) settleAll();
 }
 
-// What is made beside the pictures. Without memory for layers there are none.
+// Continues the preparation of layers; without memory they are turned off.
 void Show::goOn() {
     try {
         if (backstage_.goOn()) shown_ = Shown::nothing;
@@ -198,28 +198,28 @@ void Show::goOn() {
                                            : "what is to be shown is being prepared");
 }
 
-// Of this thread, which is not to make any.
+// Counts new pipelines, which this thread should not make.
 void Show::countPipelines() {
     const std::size_t made = device_.kernels().pipelinesMade();
     screen_.timing().times().addPipelines(made - std::exchange(pipelines_, made));
 }
 
-// A film has a picture of every step.
+// Plans steps; a film has a picture of every step.
 Plan Show::plan(double elapsed) {
     const bool isOneByOne = recording_ || replay_;
     const std::uint32_t most = isOneByOne ? 1 : budget_.steps(Playback::maxSteps);
-    const bool isWaiting = stage_.lacksContactRoom() || stage_.wantsShape(); // until that is there
+    const bool isWaiting = stage_.lacksContactRoom() || stage_.wantsShape(); // until it is ready
     const std::uint64_t undone = isDiverged_ ? 0 : stage_.undoneSteps();
     Plan plan = controller_.playback.plan(elapsed, isWaiting ? 0 : most, undone);
     if (recording_ && !isWaiting && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
-    if (plan.isReset && replay_ && from_) { // the state is put in anew, beside what plays
+    if (plan.isReset && replay_ && from_) { // loads the state again in the background
         if (mayOpen()) library_.playAgain(replay_->file(), pictureAspect());
         plan.isReset = false;
     }
     return plan;
 }
 
-// Says which have come meanwhile.
+// Number of pictures in flight; reports finished ones to the timing.
 std::size_t Show::picturesOnTheirWay() {
     std::size_t count = 0;
     for (std::size_t slot = 0; slot < Presenter::framesInFlight; ++slot)
@@ -260,7 +260,7 @@ void Show::draw(Plan plan, View& view) {
     drawPicture(*frame, overlay, view);
     screen_.presenter().end(*frame);
     screen_.timing().pictureSubmitted(frame->slot, isOfCut(isCutting));
-    picturesOnTheirWay(); // some are there when they have been presented
+    picturesOnTheirWay(); // some finish during presentation
     if (screen_.timing().awaitsPicture()) {
         screen_.presenter().waitIdle();
         countPipelines();
@@ -269,7 +269,7 @@ void Show::draw(Plan plan, View& view) {
     status_.frameDrawn();
 }
 
-// Timed where somebody wants to know: each look at the clock costs a software device a flush.
+// Timed only on request: each timestamp costs a software device a flush.
 void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
     const bool isReduced = prepared_.still && &view == &prepared_.moving;
     const std::size_t scale = isReduced && !beside_ ? budget_.scale() : 0;
@@ -295,7 +295,7 @@ void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, Vi
     if (isTimed) times.end(commands, 1);
 }
 
-// Also those that wait for a picture in which something was cut.
+// Includes pictures that wait for one with a cut.
 bool Show::isOfCut(bool isCutting) {
     if (isCutting) cutFrames_ = Presenter::framesInFlight + 1;
     return cutFrames_ > 0 && cutFrames_-- > 0;
@@ -306,7 +306,7 @@ void Show::drawPanels(const Presenter::Frame& frame, std::optional<float> reduce
     if (!wishes_.isEmpty()) panelsDue_ = picturesOfATouch;
 }
 
-// With what tools and playback have of them.
+// Adds the parameters of tools and playback.
 Knobs Show::shownKnobs() const {
     Knobs knobs = knobs_;
     knobs.bladeDepth = tools_.depth();

@@ -1,4 +1,4 @@
-// Another simulation beside the one on show: made in a thread, kept in step, drawn in the right half.
+// Comparison: another simulation is made in a thread, kept in step, and drawn in the right half.
 #include "viewer/show.hpp"
 
 #include "vk/check.hpp"
@@ -10,7 +10,7 @@ namespace sinew::viewer {
 
 namespace {
 
-// Of a complaint of several the first.
+// The first line of a message.
 std::string firstLine(const std::string& text) {
     return text.substr(0, text.find('\n'));
 }
@@ -26,7 +26,7 @@ void Show::toggleBeside() {
         wanted.reset();
 }
 
-// What was asked for is not there, or no more.
+// Makes or drops the second simulation when the request has changed.
 void Show::tendBeside() {
     const std::optional<BesideShape>& wanted = screen_.beside();
     if (besideMaking_.valid()) {
@@ -43,14 +43,14 @@ void Show::tendBeside() {
     }
 }
 
-// Of what the first has been turned to, and with the room to go on where that stands.
+// Whether it has the first one's material and, if it is to take over, the capacities.
 bool Show::isBesideFit() const {
     if (!beside_) return true;
     const Stage& beside = beside_->stage();
     return beside.material() == stage_.material() && (!isBesideOut_ || beside.hasRoomOf(stage_));
 }
 
-// With the rooms of the first, and no less than in `room`.
+// Starts to make the second simulation with the first one's capacities, and at least those of `room`.
 void Show::makeBeside(const BesideShape& shape, const sim::Settings& room) {
     besideAsked_ = shape;
     const sim::Settings settings = app::withRoomOf(stage_.settings(), room);
@@ -60,8 +60,8 @@ void Show::makeBeside(const BesideShape& shape, const sim::Settings& room) {
     });
 }
 
-// It goes on where the first stands; a step before that is its rehearsal. Where that has come to more room
-// meanwhile another one is made at once; where it has been turned, by tendBeside().
+// Takes over from the first simulation, after a rehearsal step. If the first has grown meanwhile, another one
+// is made at once; if its material has changed, tendBeside() makes another.
 void Show::takeBeside() {
     std::unique_ptr<Beside> made;
     try {
@@ -79,7 +79,7 @@ void Show::takeBeside() {
     if (!made->stage().hasRoomOf(stage_)) return makeBeside(*besideAsked_, made->stage().settings());
     const std::optional<BesideShape> asked = besideAsked_;
     dropBeside();
-    besideAsked_ = asked; // another one may be wanted by now: that is made then
+    besideAsked_ = asked; // for tendBeside(), if the request has changed
     beside_ = std::move(made);
     for (const std::string& warning : beside_->warnings()) screen_.warn("beside: " + warning);
     for (const std::string& note : beside_->notes()) screen_.note("beside: " + note);
@@ -93,7 +93,7 @@ void Show::takeBeside() {
 }
 
 void Show::dropBeside() {
-    isBesideOut_ = true; // what it finds out is of no use any more
+    isBesideOut_ = true; // its results are no longer needed
     settleAll();
     beside_.reset();
     besideAsked_.reset();
@@ -107,7 +107,7 @@ void Show::settleBeside(std::uint32_t slot) {
     screen_.presenter().waitIdle();
     sim::Settings room = beside_->stage().settings();
     beside_.reset();
-    if (trouble->room > 0) { // as the first does, but from where that stands
+    if (trouble->room > 0) { // made again, from the state of the first
         room.contactRoom = trouble->room;
         if (!besideMaking_.valid()) makeBeside(*besideAsked_, room);
         return;
@@ -116,15 +116,15 @@ void Show::settleBeside(std::uint32_t slot) {
     screen_.beside().reset();
 }
 
-// Beside the panels, where they leave room.
+// Width beside the panels, if that is at least half of the window.
 std::uint32_t Show::halvesWidth() const {
     const VkExtent2D extent = screen_.presenter().extent();
     const std::uint32_t side = screen_.panels().sideWidth(extent);
     return 2 * side < extent.width ? extent.width - side : extent.width;
 }
 
-// Both halves act on both: where the pointer is in the one that it was pressed in. Until it is released
-// nothing moves it but a hand, though halves come and go.
+// Maps the pointer from either half to the whole. A press selects the half until the release, even if halves
+// appear or vanish.
 void Show::foldPointer(Input& input) {
     const VkExtent2D extent = screen_.presenter().extent();
     const auto foldAt = [&](const Vector2& at) {

@@ -1,4 +1,4 @@
-// What a frame of the window takes along to the device, and what it has brought when it has finished.
+// Frames in flight: the work recorded into a frame, and its results when the frame has finished.
 #include "viewer/show.hpp"
 
 #include "app/guard.hpp"
@@ -30,22 +30,22 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         const sim::Settings& begun = replay_ ? stage_.madeWith() : stage_.settings();
         begun_ = {begun.solver, begun.substeps};
         if (replay_) replay_->restart();
-        if (std::exchange(from_, std::nullopt)) tools_.pull(stage_, knobs_.gravity); // from now on in the log
+        if (std::exchange(from_, std::nullopt)) tools_.pull(stage_, knobs_.gravity); // logged from now on
         forgetFlights();
         isDiverged_ = isBroken_ = false;
     }
-    const bool isWhole = stage_.undoneSteps() == 0 || isDiverged_; // else those steps are taken again first
+    const bool isWhole = stage_.undoneSteps() == 0 || isDiverged_; // otherwise those steps are repeated first
     if (!stage_.lacksContactRoom() && !stage_.wantsShape() && isWhole &&
-        tools_.recordHistory(frame.commands, stage_)) { // else later, from where steps go on
+        tools_.recordHistory(frame.commands, stage_)) { // otherwise later
         forgetFlights();
         isDiverged_ = false;
-        isBesideOut_ = true; // it goes on from there, too
+        isBesideOut_ = true; // it must take over the restored state
     }
     if (replay_ && plan.steps > 0 && !playInput(frame)) plan.steps = 0;
     stage_.setRepeats(!replay_); // a log has no such steps
     flight.firstStep = stage_.steps() + 1;
     if (const std::uint64_t undone = stage_.undoneSteps();
-        undone > 0) // alone: what waits for them comes later
+        undone > 0) // repeats them alone: new steps come in later frames
         plan.steps = static_cast<std::uint32_t>(std::min<std::uint64_t>(plan.steps, undone));
     else
         controller_.playback.taken(plan.steps);
@@ -62,16 +62,16 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
             beside_->recordStep(frame.commands, stage_, hands, frame.slot, step == 0);
     }
     drawn_ = backstage_.ready({screen_.layers(), inspector_.isOn()});
-    const bool isLooked = askProbe(flight); // what a ray meets is asked of all triangles, drawn or not
+    const bool isLooked = askProbe(flight); // a ray needs all triangles
     stage_.recordSkin(frame.commands, isLooked ? sim::Overlap::none : drawn_.layers.overlap());
     recordProbe(frame);
     if (beside_)
         beside_->recordPicture(frame.commands, frame.slot, flight.isMeasured, drawn_.layers.overlap());
 }
 
-// What is on its way belongs to a state that is no more: nobody need look at it, nor cut it again.
+// Drops the results of frames in flight, whose state was replaced; their cuts are not repeated.
 void Show::forgetFlights() {
-    if (recording_) screen_.presenter().waitIdle(); // the film keeps what has happened
+    if (recording_) screen_.presenter().waitIdle(); // the film keeps past pictures
     for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) {
         InFlight& flight = inFlight_[slot];
         if (std::exchange(flight.isRecorded, false)) settleCamera(slot, flight);
@@ -88,7 +88,7 @@ bool Show::isStrainDue(std::uint32_t steps) {
     return isDue;
 }
 
-// True where something was cut since the last count and a quarter of a second has passed.
+// True if something was cut since the last count and a quarter of a second has passed.
 bool Show::isCountDue() {
     const auto now = Clock::now();
     if (!wantsCount_ || now - lastCount_ < std::chrono::duration<double>(countEvery)) return false;
@@ -97,20 +97,19 @@ bool Show::isCountDue() {
     return true;
 }
 
-// One copy is enough for all that is in flight: a question is asked again until it is answered. True where it
-// is about what a ray meets.
+// One copy in flight is enough: a question is asked again until it is answered. True if a ray is to be cast.
 bool Show::askProbe(InFlight& flight) {
     if (std::ranges::any_of(inFlight_, &InFlight::isAsked)) return false;
     flight.isProbed = std::exchange(wantsProbe_, false);
     flight.look = std::exchange(wantsLook_, std::nullopt);
-    if (!replay_) flight.question = tools_.question(); // a replay has its answers
+    if (!replay_) flight.question = tools_.question(); // the log has the answers
     flight.isMeasured = isStrainDue(flight.steps);
     flight.isInspected = inspector_.isDue(rayThrough(controller_.camera, pointer_));
     flight.isCounted = isCountDue();
     return flight.look || flight.question || flight.isInspected || flight.isCounted;
 }
 
-// After skins were.
+// Record after the skins.
 void Show::recordProbe(const Presenter::Frame& frame) {
     const InFlight& flight = inFlight_[frame.slot];
     if (!flight.isAsked()) return;
@@ -124,7 +123,7 @@ void Show::inspect(const Presenter::Frame& frame, const Ray& ray) {
     inspector_.record(frame.commands, frame.slot, ray, backstage_.inspection().counter());
 }
 
-// What is there of what is wanted.
+// Records the layers that are ready.
 Overlay Show::recordLayers(const Presenter::Frame& frame) {
     Overlay overlay = tools_.overlay();
     const Layers& layers = overlay.layers = drawn_.layers;
@@ -138,7 +137,7 @@ Overlay Show::recordLayers(const Presenter::Frame& frame) {
     return overlay;
 }
 
-// Takes what a finished frame has brought.
+// Handles the results of a finished frame.
 void Show::settle(std::uint32_t slot) {
     InFlight flight = std::exchange(inFlight_[slot], {});
     settleTimes(slot, flight);
@@ -156,7 +155,7 @@ void Show::settle(std::uint32_t slot) {
         if (stage_.neededRoom(step) > 0) {
             makeRoom(step, flight);
             isUndone = true;
-            break; // what came after it was undone as well
+            break; // later steps were undone as well
         }
         if (stage_.lacksLists(step)) {
             repeatFrom(step, flight);
@@ -173,7 +172,7 @@ void Show::settle(std::uint32_t slot) {
     if (flight.screenshot) settleScreenshot(flight);
 }
 
-// How many pieces have a surface is counted from what is drawn, some pictures later.
+// Updates the counts of pieces; pieces with a surface are counted some pictures later, in a copy.
 void Show::showCounts(const sim::Status& status) {
     wantsCount_ = status.linksCutInAll > 0 && (wantsCount_ || status.linksCutInAll != linksCut_);
     linksCut_ = status.linksCutInAll;
@@ -184,7 +183,7 @@ void Show::showCounts(const sim::Status& status) {
 }
 
 void Show::settleCount() {
-    if (linksCut_ == 0) return; // somebody has gone back to before
+    if (linksCut_ == 0) return; // an earlier state was restored
     gauges_.piecesCounted(pieceProbe_.count(allPieces_));
     status_.setPieces(gauges_.pieces());
     panelsDue_ = std::max(panelsDue_, 1u);
@@ -203,13 +202,13 @@ void Show::settleTimes(std::uint32_t slot, const InFlight& flight) {
     }
     if (!flight.isTimed) return;
     const std::vector<double> drawing = drawingTimes_[slot].milliseconds();
-    if (drawing.size() < 2) return; // the device has no clock for it
+    if (drawing.size() < 2) return; // the device has no timestamps
     times.add(FrameTimes::Kind::drawing, drawing[0]);
     times.add(FrameTimes::Kind::panels, drawing[1]);
 }
 
 void Show::settleProbe(InFlight& flight) {
-    const bool isSeen = probe_->isComplete(); // else it is asked again
+    const bool isSeen = probe_->isComplete(); // otherwise asked again
     if (isSeen && flight.question && flight.question == tools_.question()) {
         const sim::Scene& scene = stage_.scene();
         const auto found = pick(scene, opening_.light.balls, flight.question->ray, probe_->seen(),
@@ -222,11 +221,11 @@ void Show::settleProbe(InFlight& flight) {
     if (!flight.isProbed) return;
     if (const Box bounds = probe_->bounds(); !bounds.isEmpty()) {
         controller_.camera = framing(controller_.camera, bounds, pictureAspect());
-        shown_ = Shown::nothing; // what is on screen was seen from elsewhere
+        shown_ = Shown::nothing; // the picture shows the old view
     }
 }
 
-// Beside all bodies there is everything to be looked at, and nothing to turn around.
+// Moves the camera. On a miss, frames the scene, or keeps the orbit target.
 void Show::settleLook(const Look& look) {
     const sim::Scene& scene = stage_.scene();
     const auto found = pick(scene, opening_.light.balls, look.ray, probe_->seen(), Among::all, opened());
@@ -244,7 +243,7 @@ std::optional<Opened> Show::opened() const {
     return Opened{*screen_.layers().section, opening_.light.isClosed};
 }
 
-// A picture whose colors have another range by now is drawn once more.
+// Draws a picture again if its colours have another range now.
 void Show::settleMap(std::uint32_t slot, const InFlight& flight) {
     if (flight.map == ColorMap::none || flight.map != screen_.layers().map) return;
     const float before = mapRange_.range();
@@ -258,19 +257,19 @@ void Show::settleCells(std::uint32_t slot) {
     if (cellRangeOf(grids_) != before) shown_ = Shown::nothing;
 }
 
-// All steps have been taken: only the picture lacks something, and they go on.
+// Grows the surface of cuts: only the picture is incomplete, and steps go on.
 void Show::makeSurfaceRoom() {
-    if (isSurfaceMissing_ || stage_.isGrowing()) return; // there is no such room, or it comes
+    if (isSurfaceMissing_ || stage_.isGrowing()) return; // impossible or already growing
     const std::uint32_t needed = std::exchange(surfaceMissing_, 0);
-    if (needed == 0) return; // somebody has gone back to before
+    if (needed == 0) return; // an earlier state was restored
     isSurfaceGrowing_ = stage_.beginSurfaceRoom(needed);
     if (!isSurfaceGrowing_) warnOfSurface();
 }
 
-// A simulation with more room goes on, once no picture is on its way any more.
+// Changes to a larger simulation once no picture is in flight.
 void Show::takeGrowth() {
-    if (!stage_.isGrowing() || backstage_.isMaking()) return; // layers that are being made first
-    if (stage_.wantsShape()) return;                          // which goes on without it
+    if (!stage_.isGrowing() || backstage_.isMaking()) return; // layers in the making come first
+    if (stage_.wantsShape()) return;                          // which replaces it
     const Stage::Growth growth = stage_.askGrowth();
     if (growth == Stage::Growth::none && std::exchange(isSurfaceGrowing_, false)) warnOfSurface();
     if (growth != Stage::Growth::made) return;
@@ -288,10 +287,10 @@ void Show::endGrowth() {
     isSurfaceGrowing_ = false;
     tools_.moveOn();
     if (surfaceMissing_ <= stage_.settings().cutSurfaceRoom)
-        surfaceMissing_ = 0; // else more was cut meanwhile
+        surfaceMissing_ = 0; // otherwise more was cut meanwhile
 }
 
-// Once: nothing but the picture suffers.
+// Warns once: only the picture is affected.
 void Show::warnOfSurface() {
     if (std::exchange(isSurfaceMissing_, true)) return;
     screen_.warn(
@@ -304,21 +303,21 @@ void Show::stop(const std::string& why) {
     screen_.warn(why);
 }
 
-// Later frames take the undone steps again, when there is a simulation with room for them.
+// Later frames repeat the undone steps, once a simulation with capacity for them is ready.
 void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
-    screen_.presenter().waitIdle(); // a picture on its way writes into what tools forget
+    screen_.presenter().waitIdle(); // pictures in flight write into what the tools drop
     const std::uint64_t newest = stage_.steps();
     if (!stage_.beginRoom(step)) return stop(app::tooCrowded(step));
     isBesideOut_ = true; // it has taken those steps
     if (std::exchange(replay_, std::nullopt)) {
-        isBroken_ = isBroken_ || stage_.wantsShape(); // which stands in the log already
+        isBroken_ = isBroken_ || stage_.wantsShape(); // already in the log
         stage_.keepShape();
         screen_.warn("the replay ends here: contacts need more room than when it was recorded");
     }
     tools_.restart(stage_, forgetUndone(undone), newest - stage_.steps());
 }
 
-// In the simulation that there is: the next frame takes the step again.
+// Repeats from a step in the same simulation, in the next frame.
 void Show::repeatFrom(std::uint64_t step, const InFlight& undone) {
     screen_.presenter().waitIdle();
     const std::uint64_t newest = stage_.steps();
@@ -328,8 +327,9 @@ void Show::repeatFrom(std::uint64_t step, const InFlight& undone) {
     tools_.takeBack(stage_, forgetUndone(undone), newest - stage_.steps());
 }
 
-// A step that lacked lists is to be repeated before anything that it must not go back behind. Nothing is
-// waited for while no such step is on its way, or while a material is there that no step asks for.
+// Handles the next frame's slot. Before an undo or a material change all frames are handled, since a step
+// without contact lists must be repeated first. Does not wait if no step is in flight, or if no step will use
+// the new material.
 void Show::settleNext(const Plan& plan) {
     const bool isTurning = tools_.wantsHistory() || (stage_.isTurnReady() && plan.steps > 0);
     const bool areOnTheirWay =
@@ -353,12 +353,12 @@ std::vector<Sweep> Show::forgetUndone(const InFlight& undone) {
 
 void Show::settleAll() {
     screen_.presenter().waitIdle();
-    for (std::uint32_t i = 0; i < Presenter::framesInFlight; ++i) // from the oldest on
+    for (std::uint32_t i = 0; i < Presenter::framesInFlight; ++i) // oldest first
         settle((screen_.presenter().nextSlot() + i) % Presenter::framesInFlight);
     warnOfMistakes();
 }
 
-// Steps without room are undone by then and done again: no mistake.
+// Warns of complaints, except while undone steps wait for capacity.
 void Show::warnOfMistakes() {
     if (stage_.lacksContactRoom() || isDiverged_) return;
     for (const std::string& complaint : stage_.complaints()) screen_.warn(complaint);

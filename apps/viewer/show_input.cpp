@@ -1,4 +1,4 @@
-// What keys, the pointer and the panels ask of a scene on show.
+// Input from keys, pointer and panels for the scene on show.
 #include "viewer/panels/knob_keys.hpp"
 #include "viewer/show.hpp"
 
@@ -8,11 +8,11 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr std::uint32_t picturesOfAFocus = 5; // until Dear ImGui takes keys for a line that it has just got
+constexpr std::uint32_t picturesOfAFocus = 5; // until Dear ImGui passes keys to a new text field
 
 } // namespace
 
-// A button has the pointer over the panel: what is to be pinned is pointed at next.
+// Handles requests of the panels. After a button for a pin or a view, the next press gives the point.
 void Show::grant(const Wishes& wishes, Input& input) {
     for (const Action action : wishes.actions)
         if (action == Action::pin && !replay_)
@@ -30,7 +30,7 @@ void Show::grant(const Wishes& wishes, Input& input) {
         input.needsRedraw = true;
     }
     if (wishes.beside) screen_.beside() = shapeOf(*wishes.beside);
-    if (wishes.knobs && !replay_) turnKnobs(*wishes.knobs); // a replay has the hands
+    if (wishes.knobs && !replay_) turnKnobs(*wishes.knobs); // the log controls the scene
 }
 
 void Show::turnKnobs(const Knobs& knobs) {
@@ -44,7 +44,7 @@ void Show::turnKnobs(const Knobs& knobs) {
     turnMaterial(knobs);
 }
 
-// Worked out beside what plays.
+// Requests a material in the background.
 void Show::turnMaterial(const Knobs& knobs) {
     const sim::Material before = materialOf(knobs_, sceneFacts_.fromFile);
     knobs_.stiffness = knobs.stiffness;
@@ -56,7 +56,7 @@ void Show::turnMaterial(const Knobs& knobs) {
     if (material != before) stage_.turn(material);
 }
 
-// What cannot be had leaves all as it is; what needs other passes needs another simulation.
+// Polls the material. On an error everything stays; a change of passes needs another simulation.
 void Show::takeTurn() {
     try {
         if (stage_.takeTurn(controller_.playback.isPaused()) == Stage::Turn::refused) isRefused_ = true;
@@ -65,7 +65,7 @@ void Show::takeTurn() {
     }
 }
 
-// One at a time.
+// Whether a scene may be opened: one at a time.
 bool Show::mayOpen() {
     if (library_.isOpening()) screen_.tell("another scene is still being opened");
     return !library_.isOpening();
@@ -198,16 +198,16 @@ void Show::switchLayer(Action action) {
         mapRange_ = {};
         break;
     default:
-        break; // drags, the wheel, and what the controller has done
+        break; // drags, the wheel, and actions of the controller
     }
 }
 
-// Where the pointer is.
+// Requests a camera move to the point under the pointer.
 void Show::lookAt(Look::At at) {
     wantsLook_ = Look{at, rayThrough(controller_.camera, pointer_)};
 }
 
-// What is turned while there is none begins with the first axis of all.
+// Changes the section; without one, turning starts with the first axis.
 void Show::changeSection(Action action) {
     std::optional<Section>& section = screen_.layers().section;
     const Camera& camera = controller_.camera;

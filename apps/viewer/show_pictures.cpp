@@ -1,4 +1,4 @@
-// Pictures and films of the scene on show, and what is said of their files.
+// Picture files and films of the scene on show, and the messages about them.
 #include "viewer/show.hpp"
 
 #include "app/guard.hpp"
@@ -10,14 +10,14 @@
 
 namespace sinew::viewer {
 
-// "organ-000120".
+// File name such as "organ-000120".
 std::string Show::nameAt(std::uint64_t step) const {
     char stem[40];
     std::snprintf(stem, sizeof stem, "-%06" PRIu64, step);
     return opening_.loaded.scene.name + stem;
 }
 
-// Its pipelines are there, and were used: files show what the window shows when it is still.
+// The renderer of full quality, already compiled: files look like the still window.
 Renderer& Show::wholeQuality() {
     return prepared_.still ? prepared_.still->renderer : prepared_.moving.renderer;
 }
@@ -34,7 +34,7 @@ void Show::recordScreenshot(const Presenter::Frame& frame, const Overlay& overla
     recordShot(*flight.screenshot, frame.commands, frame.slot + 2 * Presenter::framesInFlight, overlay);
 }
 
-// With what is beside, as the window shows it.
+// Includes the second simulation, like the window.
 void Show::recordShot(Shot& shot, VkCommandBuffer commands, std::uint32_t slot, const Overlay& overlay) {
     if (!beside_) return shot.record(commands, slot, controller_.camera, stage_.simulation(), overlay);
     const Overlay other = overlayBeside(overlay);
@@ -42,7 +42,7 @@ void Show::recordShot(Shot& shot, VkCommandBuffer commands, std::uint32_t slot, 
                       {{{stage_.simulation(), overlay}, {beside_->simulation(), other}}});
 }
 
-// The one before must be there: its name is taken only then.
+// Waits for the earlier file, since a free name needs it.
 void Show::settleScreenshot(const InFlight& flight) {
     reportFiles(PictureWriter::Wait::yes);
     writer_.add(freeName(nameAt(flight.screenshotStep), ".png"), flight.screenshot->read(),
@@ -52,7 +52,7 @@ void Show::settleScreenshot(const InFlight& flight) {
 void Show::toggleRecording() {
     if (recording_) return stopRecording();
     const VkExtent2D extent = screen_.presenter().extent();
-    screen_.presenter().waitIdle(); // frames may still use the cameras of a film that failed
+    screen_.presenter().waitIdle(); // frames may still use the images of a film that failed
     try {
         recording_.emplace(nameAt(stage_.steps()), extent.width, extent.height,
                            1 / double{stage_.scene().dt});
@@ -94,7 +94,7 @@ void Show::recordCamera(const Presenter::Frame& frame, const Overlay& overlay) {
     inFlight_[frame.slot].isRecorded = true;
 }
 
-// What goes wrong here ends the film, and nothing else.
+// An error ends only the film.
 void Show::settleCamera(std::uint32_t slot, const InFlight& flight) {
     if (!recording_) return;
     try {
@@ -109,7 +109,7 @@ void Show::settleCamera(std::uint32_t slot, const InFlight& flight) {
     }
 }
 
-// A picture that cannot be written is no reason to close the window.
+// An error of a picture file does not end the program.
 void Show::reportFiles(PictureWriter::Wait wait) {
     try {
         while (const auto file = writer_.take(wait)) {

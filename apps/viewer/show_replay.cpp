@@ -1,4 +1,4 @@
-// What hands did, saved and played again in the window; states that are saved.
+// Saves and replays input logs in the window, and saves states.
 #include "viewer/panels/knob_keys.hpp"
 #include "viewer/show.hpp"
 
@@ -27,7 +27,7 @@ app::SavedView viewOf(const Camera& camera) {
 
 } // namespace
 
-// Waits: nobody does this often.
+// Saves the log; waits, which is acceptable for a rare action.
 void Show::saveInput() {
     settleAll();
     if (isBroken_) return screen_.tell("a state that is no more cannot be reached again");
@@ -58,7 +58,7 @@ InputFile Show::inputFile() const {
             .events = tools_.log().events()};
 }
 
-// Without a hash of the state: steps may be on their way.
+// Writes no state hash: steps may be in flight.
 std::string Show::keepInput(const std::filesystem::path& otherwise) const {
     if (replay_ || (from_ && from_->file.empty()) || !tools_.log().hasDeeds(inputSaved_)) return {};
     const std::string text = toText(inputFile());
@@ -81,7 +81,7 @@ std::string Show::sceneName() const {
     return opening_.run ? opening_.run->scene : rememberedScene(options.scene, options.builtIn);
 }
 
-// Likewise.
+// Saves the state; waits.
 void Show::saveState() {
     settleAll();
     if (isDiverged_) return screen_.tell("a state that is no more cannot be saved");
@@ -105,22 +105,22 @@ void Show::saveState() {
     }
 }
 
-// What was done before the next step; false where there is none any more.
+// Plays the log before the next step; false if there is no step.
 bool Show::playInput(const Presenter::Frame& frame) {
     for (;;) {
         const Replay::Due due = replay_->next(tools_, controller_.camera, stage_);
         if (due == Replay::Due::step) return true;
         if (due == Replay::Due::nothing) break;
-        if (due == Replay::Due::shape) return false; // before the next picture
+        if (due == Replay::Due::shape) return false; // handled before the next picture
         if (!tools_.recordHistory(frame.commands, stage_)) continue;
         forgetFlights();
-        isBesideOut_ = true; // it goes on from there, too
+        isBesideOut_ = true; // it must take over the restored state
     }
     endReplay();
     return false;
 }
 
-// Where it ended is there to be looked at.
+// Ends the replay and pauses at its last state.
 void Show::endReplay() {
     replayed_ = replay_->file();
     inputSaved_ = tools_.log().events().size();
@@ -128,7 +128,7 @@ void Show::endReplay() {
     controller_.playback.pause();
 }
 
-// Once nothing of it is on its way any more.
+// Compares the hash once all frames have finished.
 void Show::compareReplay() {
     const InputFile file = *std::exchange(replayed_, std::nullopt);
     settleAll();
@@ -139,7 +139,7 @@ void Show::compareReplay() {
     screen_.tell("the replay is over: " + text);
 }
 
-// As soon as there is no simulation that is about to go, which hands must not reach.
+// Ends the replay, unless a simulation is about to be replaced.
 void Show::dropReplay() {
     if (!isDropped_ || stage_.wantsShape()) return;
     isDropped_ = false;
@@ -149,10 +149,10 @@ void Show::dropReplay() {
     screen_.tell("the replay was ended");
 }
 
-// While it plays, hands are those of the log.
+// During a replay most actions come from the log.
 bool Show::isOfReplay(Action action) {
     if (!replay_) return false;
-    if (turnedBy(action, knobs_)) { // a replay has the hands
+    if (turnedBy(action, knobs_)) { // the log controls the scene
         screen_.tell("a replay plays: " + std::string(keyOf(Action::drop)) + " ends it");
         return true;
     }

@@ -1,5 +1,5 @@
-// Another solver, other substeps, another device, a material that needs other passes: another simulation of
-// the scene takes over from the one on show.
+// Change of solver, substeps, device, or of a material that needs other passes: another simulation of the
+// scene takes over from the one on show.
 #include "viewer/show.hpp"
 
 #include "scenes/recovery.hpp"
@@ -20,7 +20,7 @@ bool areOfOneShape(const Knobs& a, const Knobs& b) {
 
 } // namespace
 
-// As the stage is, whatever was turned since.
+// The parameters that the stage was made with.
 Knobs Show::madeKnobs() const {
     const sim::Settings& settings = stage_.settings();
     const std::vector<std::string>& solvers = sceneFacts_.solvers;
@@ -35,7 +35,7 @@ Again Show::again() const {
     return {materialOf(knobs_, sceneFacts_.fromFile), stage_.settings()};
 }
 
-// What is turned while another one is being made is asked for when that is there.
+// Requests another simulation if the parameters need one; while one is being made, the request waits.
 void Show::reopenWhereTurned() {
     const bool isTurned = !areOfOneShape(knobs_, madeKnobs());
     if ((!isTurned && !isRefused_) || replay_ || library_.isOpening()) return;
@@ -55,7 +55,7 @@ void Show::changeDevice(std::size_t index) {
     library_.reopenOn(requestFor(devices_.list(), index), again(), pictureAspect());
 }
 
-// Where what was asked for cannot be had.
+// Resets the parameters after a failed request.
 void Show::keepAsItWas() {
     if (!std::exchange(asked_, std::nullopt)) return;
     knobs_ = turnedTo(stage_.material(), madeKnobs(), sceneFacts_.fromFile);
@@ -63,7 +63,7 @@ void Show::keepAsItWas() {
 
 void Show::takeOver(const Show& before) {
     stage_.takeOver(before.stage_, tools_.bringOf(before.tools_));
-    restartViews(); // it may have had to make room first
+    restartViews(); // the take-over may have changed its capacities
     controller_ = before.controller_;
     tools_.goOn(before.tools_, stage_);
     gauges_.goOn(before.gauges_);
@@ -83,13 +83,13 @@ void Show::takeOver(const Show& before) {
     knobs_ = before.knobs_;
     if (!before.asked_ || areOfOneShape(knobs_, *before.asked_)) knobs_ = madeKnobs(); // 0 is a number now
     const sim::Material material = materialOf(knobs_, sceneFacts_.fromFile);
-    if (material != stage_.material()) stage_.turn(material); // turned meanwhile
+    if (material != stage_.material()) stage_.turn(material); // changed meanwhile
 }
 
-// Of a replay, once the other simulation has been made.
+// Changes the simulation in a replay, once the new one is ready.
 void Show::reshape() {
     settleAll();
-    backstage_.forget(); // of the simulation that goes
+    backstage_.forget(); // made for the old simulation
     vk::Queue queue(device_);
     try {
         stage_.reshape(queue, tools_.bring());
@@ -114,12 +114,12 @@ void Show::reshape() {
         screen_.note(note);
 }
 
-// After the stage has another simulation.
+// Call after the stage changed its simulation.
 void Show::restartViews() {
     probe_.emplace(device_, stage_.scene(), stage_.settings(), stage_.simulation());
     pieceProbe_.restart();
-    wantsCount_ = linksCut_ > 0; // where it had been asked for, nobody answers
-    backstage_.forget();         // layers are made of the other one
+    wantsCount_ = linksCut_ > 0; // a pending count is lost
+    backstage_.forget();         // layers belong to the old one
     drawn_ = {};
     inspector_.restart();
     shown_ = Shown::nothing;

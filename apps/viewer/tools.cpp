@@ -1,4 +1,4 @@
-// One pointer, three tools: the left button belongs to the one that is out.
+// Three tools for one pointer: the left button belongs to the active one.
 #include "viewer/tools.hpp"
 
 #include "sim/compile.hpp"
@@ -65,7 +65,7 @@ void Tools::move(const Camera& camera, const Vector2& pointer) {
     if (std::exchange(wantsPin_, false)) pinAt(rayThrough(camera, pointer));
 }
 
-// What is held goes from hand to pin.
+// Pins the held point, or asks for the point under the pointer.
 void Tools::pinAt(const Ray& ray) {
     if (const std::optional<Hand> held = hand_.hand()) {
         pin(*held, hand_.radius());
@@ -175,7 +175,7 @@ app::Bring Tools::bringOf(const Tools& before) {
         } catch (const vk::Error&) {
             history_.clear();
             isLost_ = true;
-        } catch (const std::invalid_argument&) { // states with cuts, for a solver without
+        } catch (const std::invalid_argument&) { // cut states, and a solver without cutting
             history_.clear();
             isLost_ = true;
         }
@@ -214,7 +214,7 @@ void Tools::setDepth(const std::optional<float>& depth) {
     log_.deepen(blade_.depth());
 }
 
-// One tool is out at a time.
+// Turns the blade on or off; one tool is active at a time.
 void Tools::takeBlade() {
     if (!canCut_) return say("note: no body of this scene can be cut: cuttable = true makes it so");
     if (poke_.isOn()) poke_.toggle();
@@ -222,7 +222,7 @@ void Tools::takeBlade() {
 }
 
 bool Tools::lendBlade(bool isHeld, bool isUsed) {
-    isLent_ = isLent_ && blade_.isOn(); // or somebody has put it away
+    isLent_ = isLent_ && blade_.isOn(); // or the user put it away
     if (isHeld == isLent_) return false;
     if (isHeld) {
         if (!isUsed || !canCut_ || blade_.isOn() || poke_.isDown() || hand_.isDown()) return false;

@@ -1,4 +1,4 @@
-// What tools do in steps, and the way back from them.
+// The tools' part in steps, and undo of steps.
 #include "viewer/tools.hpp"
 
 #include "vk/check.hpp"
@@ -18,10 +18,10 @@ void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
     stage.recordStep(commands, timestamps, hands.grabs, blade, pokes);
 }
 
-// What hands hold stays behind, as after an undo. A cut that has not been yet cannot be undone.
+// Undoes steps and releases all grabs, like undo of cuts; drops cuts of a later time.
 bool Tools::goBack(VkCommandBuffer commands, Stage& stage) {
     const std::uint32_t wanted = std::exchange(stepsBack_, 0);
-    steps_.limit(keptSteps_); // as many as where none was taken back
+    steps_.limit(keptSteps_); // as many as without repeated steps
     if (steps_.undos() == 0) {
         note_ = "there is no earlier step to go back to";
         return false;
@@ -38,14 +38,14 @@ bool Tools::recordHistory(VkCommandBuffer commands, Stage& stage) {
     if (stepsBack_ > 0) return goBack(commands, stage);
     const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
     if (!isUndo && !isRedo) return false;
-    if ((isUndo ? history_.undos() : history_.redos()) == 0) return false; // hands and pins stay
+    if ((isUndo ? history_.undos() : history_.redos()) == 0) return false; // grabs and pins stay
     log_.goBack();
     clear();
-    steps_.recycle(); // they lead elsewhere
+    steps_.recycle(); // they belong to another past
     return isUndo ? history_.recordUndo(commands, stage) : history_.recordRedo(commands, stage);
 }
 
-// Without memory for a way back there is a cut all the same.
+// Saves a state before a cut; without memory the cut happens all the same.
 void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
     try {
         history_.recordBefore(commands, stage);
@@ -55,14 +55,14 @@ void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
     }
 }
 
-// A state so large that few would have room is not copied in every step.
+// Saves a state before a step, unless states are so large that few fit.
 void Tools::rememberStep(VkCommandBuffer commands, const Stage& stage) {
     constexpr std::size_t worthIt = 8;
     if (isForgetfulOfSteps_ || steps_.room(stage) < worthIt) return;
     keptSteps_ = steps_.room(stage);
     try {
         steps_.recordBefore(commands, stage, stage.repeats() ? mostTakenBack : 0);
-    } catch (const vk::Error&) { // no memory: those that there are stay
+    } catch (const vk::Error&) { // no memory: the present ones stay
         isForgetfulOfSteps_ = true;
     }
 }

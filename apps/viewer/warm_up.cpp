@@ -1,4 +1,4 @@
-// A step, a blade through the middle, pictures of every size.
+// Takes a step and a cut through the middle, and draws pictures of every size.
 #include "viewer/warm_up.hpp"
 
 #include "viewer/draw/image.hpp"
@@ -11,7 +11,7 @@ namespace sinew::viewer {
 
 namespace {
 
-// Upright, through all that there is.
+// An upright blade through the whole box.
 struct Through {
     explicit Through(const Box& box) {
         const Vector3 middle = box.center(), half = box.sizes();

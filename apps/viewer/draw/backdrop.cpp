@@ -1,4 +1,4 @@
-// Made in the second picture that would show the same, so that a moving camera pays nothing for it.
+// Draws the image at the second picture with the same view, so that a moving camera costs nothing.
 #include "viewer/draw/backdrop.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ Backdrop::Backdrop(const vk::Device& device, const RenderPass& pass, VkFormat co
 
 Backdrop::Use Backdrop::next(const layout::FrameParams& params) noexcept {
     layout::FrameParams seen = params;
-    seen.section = {}; // opens bodies alone
+    seen.section = {}; // affects only bodies
     const bool isSame = last_ && std::memcmp(&*last_, &seen, sizeof(seen)) == 0;
     last_ = seen;
     const bool wasMade = std::exchange(isMade_, isSame);

@@ -1,4 +1,4 @@
-// Fewer triangles a ball where there are many, which are small in a picture then.
+// Uses fewer triangles per ball if there are many balls, which are then small in the picture.
 #include "viewer/draw/balls.hpp"
 
 #include "viewer/draw/geometry.hpp"
@@ -14,7 +14,7 @@ namespace sinew::viewer {
 
 namespace {
 
-// Of every particle, of the skin that it carries.
+// Colour of each particle's skin, if it has one.
 using Color = std::optional<sim::Vec3>;
 std::vector<Color> skinColors(const sim::Scene& scene) {
     std::vector<Color> colors(scene.particles.size());
@@ -26,14 +26,14 @@ std::vector<Color> skinColors(const sim::Scene& scene) {
     return colors;
 }
 
-// Of one of its particles; none where it has no skin.
+// Skin colour of one of the body's particles, if there is one.
 Color skinColor(const sim::Body& body, const std::vector<Color>& colors) {
     const auto first = colors.begin() + body.firstParticle, end = first + body.particleCount;
     const auto found = std::find_if(first, end, [](const Color& color) { return color.has_value(); });
     return found == end ? std::nullopt : *found;
 }
 
-// Of each particle's links [m]; `none` where it has none.
+// Length of each particle's shortest link [m]; `none` without links.
 constexpr float none = std::numeric_limits<float>::max();
 std::vector<float> shortestLinks(const sim::Scene& scene) {
     std::vector<float> shortest(scene.particles.size(), none);
@@ -45,8 +45,7 @@ std::vector<float> shortestLinks(const sim::Scene& scene) {
     return shortest;
 }
 
-// How large a body's particles are that touch nothing: where linked `share` of the shortest link, else
-// `speck`.
+// Radius of a body's particles without contacts: `share` of the shortest link, or `speck` without links.
 float quietRadius(const sim::Body& body, const std::vector<float>& shortest, float share, float speck) {
     const auto first = shortest.begin() + body.firstParticle;
     const float length =
@@ -85,7 +84,7 @@ std::size_t countOf(const BallList& list) {
 }
 
 BallMesh icosahedron() {
-    const float a = 0.52573111f, b = 0.85065081f; // 1 and the golden ratio, on the unit ball
+    const float a = 0.52573111f, b = 0.85065081f; // icosahedron: 1 and the golden ratio, normalised
     BallMesh ball;
     for (int axis = 0; axis < 3; ++axis)
         for (const float first : {-a, a})
@@ -102,7 +101,7 @@ Vector3 cornerOf(const BallMesh& ball, std::uint32_t i) {
     return Vector3(ball.corners[i][0], ball.corners[i][1], ball.corners[i][2]);
 }
 
-// Every three corners an edge apart, turned outwards.
+// Adds a face for every three corners that are mutual neighbours, facing outwards.
 void addFaces(BallMesh& ball) {
     const auto count = static_cast<std::uint32_t>(ball.corners.size());
     const auto areNear = [&](std::uint32_t i, std::uint32_t j) {

@@ -1,4 +1,4 @@
-// Camera motions as pure functions from camera to camera.
+// Camera motions, as pure functions from camera to camera.
 #include "viewer/draw/camera.hpp"
 
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace sinew::viewer {
 namespace {
 
 constexpr float pi = 3.14159265f;
-constexpr float steepest = 1.55f;     // [rad]; straight down would leave "up" undefined
-constexpr float turnPerHeight = 3.5f; // [rad]: dragging across a window turns a little more than half round
+constexpr float steepest = 1.55f;     // [rad]; at pi / 2 "up" would be undefined
+constexpr float turnPerHeight = 3.5f; // [rad]: a drag across the window turns a little more than half round
 constexpr float smallestDistance = 1e-3f, largestDistance = 1e5f; // [m]
 
 Vector3 fromTarget(const Camera& camera) {
@@ -18,7 +18,7 @@ Vector3 fromTarget(const Camera& camera) {
     return {level * std::sin(camera.azimuth), std::sin(camera.elevation), level * std::cos(camera.azimuth)};
 }
 
-// Raises the eye to its lowest height; where the distance does not reach that far, the target rises with it.
+// Raises the eye to its lowest height; the target rises with it if the distance is too short.
 Camera settled(Camera camera) {
     camera.azimuth = std::remainder(camera.azimuth, 2 * pi);
     camera.distance = std::clamp(camera.distance, smallestDistance, largestDistance);
@@ -29,7 +29,7 @@ Camera settled(Camera camera) {
     return camera;
 }
 
-// Rows: the camera's right, up and back in world coordinates.
+// The camera's right, up and back in world coordinates, as rows.
 Eigen::Matrix3f axes(const Camera& camera) {
     return viewMatrix(camera).block<3, 3>(0, 0);
 }

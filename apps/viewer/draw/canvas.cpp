@@ -1,4 +1,4 @@
-// Images in the order that RenderPass::picture lists its attachments.
+// Images are in the order of the attachments of RenderPass::picture.
 #include "viewer/draw/canvas.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
-// All shapes are a box grown by a radius: an eighth of a sphere at each corner, strips along the edges and
-// rectangles between, of which those without area are left out.
+// Every shape is a box grown by a radius: an eighth of a sphere at each corner, strips along the edges and
+// rectangles between them; degenerate parts are omitted.
 #include "viewer/draw/collider_meshes.hpp"
 
 #include "viewer/draw/geometry.hpp"
@@ -66,7 +66,7 @@ private:
         }
     }
 
-    // The four rounded edges along an axis.
+    // Adds the four rounded edges along an axis.
     void addStrips(std::uint32_t axis) {
         const std::uint32_t u = (axis + 1) % 3, v = (axis + 2) % 3, far = 1u << axis;
         for (const std::uint32_t corner : {0u, 1u << u, 1u << v, 1u << u | 1u << v}) {
@@ -85,7 +85,7 @@ private:
         }
     }
 
-    // The two flat sides across an axis.
+    // Adds the two flat sides across an axis.
     void addSides(std::uint32_t axis) {
         const std::uint32_t u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
         const auto direction = Vector3(Vector3::Unit(axis));

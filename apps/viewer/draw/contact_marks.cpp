@@ -1,5 +1,5 @@
-// A kernel over all particles and one over all edges; walls are written by the host, since their poses are
-// there.
+// One kernel runs over all particles, one over all edges. The host writes planes and colliders, since it has
+// their poses.
 #include "viewer/draw/contact_marks.hpp"
 
 #include "layout.h"
@@ -89,7 +89,7 @@ ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, co
       kernel_(device.kernels().get(device, shaders::markContacts, {})),
       ofEdges_(device.kernels().get(device, shaders::markEdges, {})), sets_(bindingSets()) {}
 
-// What a scene has no lists of is never read.
+// Lists that a scene lacks are bound as empty buffers and never read.
 vk::BindingSets ContactMarks::bindingSets() const {
     const sim::ContactBuffers& lists = simulation_.program().contacts;
     const auto viewOf = [&](sim::BufferId id, std::uint32_t stride) {

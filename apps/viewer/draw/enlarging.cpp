@@ -1,4 +1,4 @@
-// At least a pixel is drawn.
+// The small image has at least one pixel a side.
 #include "viewer/draw/enlarging.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Matrices in Vulkan's conventions, and the boxes that camera and shadow are fitted to.
+// Matrices in Vulkan's conventions, and the boxes that camera and shadow map are fitted to.
 #include "viewer/draw/geometry.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ Vector3 toVector(const sim::Vec3& v) {
     return {v.x, v.y, v.z};
 }
 
-// How far down a body can hang from its fixed particles; empty where it has none.
+// The box that a body can reach when it hangs from its fixed particles; empty without fixed particles.
 Box swingBounds(const sim::Scene& scene, const sim::Body& body) {
     Box pins;
     for (const sim::FixedConstraint& fixed : scene.fixed)
@@ -37,7 +37,7 @@ Box boundsOf(const sim::Collider& collider, const sim::Pose& pose) {
     return Box(Vector3(middle - reach), Vector3(middle + reach));
 }
 
-// Where a collider stands or its path leads, but for places so far from the bodies that they would be specks.
+// The box of a collider and its path, without places so far away that the bodies would look tiny.
 Box boundsNear(const sim::Collider& collider, const Box& bodies) {
     const float far = 3 * std::max(bodies.diagonal().norm(), collider.radius);
     Box box;
@@ -112,7 +112,7 @@ Box stageBounds(const sim::Scene& scene) {
         box.extend(boundsNear(collider, particleBounds(scene)));
     const std::optional<float> ground = groundHeight(scene);
     const float size = std::max(box.sizes().maxCoeff(), 1e-3f);
-    // A body far above the ground is framed where it is: the ground would make it a speck.
+    // A body far above the ground is framed without it: otherwise the body would look tiny.
     if (ground && *ground < box.min().y() && box.min().y() - *ground < 6 * size)
         box.extend(Vector3(box.center().x(), *ground, box.center().z()));
     if (ground) // nothing hangs below it

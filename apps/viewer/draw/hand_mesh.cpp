@@ -1,4 +1,4 @@
-// A tube of twelve sides and a ball in one list.
+// Makes a tube and a ball as one list of triangles.
 #include "viewer/draw/hand_mesh.hpp"
 
 #include "viewer/draw/balls.hpp"

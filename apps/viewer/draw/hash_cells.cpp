@@ -1,4 +1,4 @@
-// A kernel a grid; its marks stand behind those of the grid before.
+// One kernel per grid; the marks of a grid follow those of the one before.
 #include "viewer/draw/hash_cells.hpp"
 
 #include "layout.h"
@@ -20,7 +20,7 @@ std::string shownName(const std::string& name) {
 }
 
 VkDeviceSize roomOf(const sim::StepProgram& program) {
-    VkDeviceSize room = 1; // no buffer is empty
+    VkDeviceSize room = 1; // buffers must not be empty
     for (const sim::GridBuffers& grid : program.grids) room += grid.count;
     return room;
 }

@@ -1,4 +1,4 @@
-// Images come straight from the driver: src/vk hands out buffers only.
+// Allocates images directly from the driver: src/vk provides only buffers.
 #include "viewer/draw/image.hpp"
 
 #include "vk/allocator.hpp"

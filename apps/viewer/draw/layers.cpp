@@ -1,4 +1,4 @@
-// Names and colors of layers.
+// Names and colours of layers.
 #include "viewer/draw/layers.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr std::array names{Name{"glass", [](Layers& layers) { layers.skin = Skin
                            Name{"contacts", [](Layers& layers) { layers.hasContacts = true; }},
                            Name{"cells", [](Layers& layers) { layers.hasCells = true; }}};
 
-// Linear sRGB of a color in OKLab: lightness 0 to 1, and two that are 0 for grey.
+// Linear sRGB of an OKLab colour: lightness 0 to 1, and two axes that are 0 for grey.
 std::array<float, 3> fromLab(double lightness, double a, double b) {
     const auto cube = [](double root) { return root * root * root; };
     const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b),
@@ -58,8 +58,8 @@ bool addLayer(const std::string& name, Layers& layers) {
 }
 
 std::array<std::array<float, 3>, mapColorCount> mapColors() {
-    constexpr double dark = 0.30, light = 0.92, chroma = 0.09; // as colorful as sRGB is all the way
-    constexpr double from = 4.887, to = 1.745;                 // blue, and the long way down to yellow [rad]
+    constexpr double dark = 0.30, light = 0.92, chroma = 0.09; // chroma: the largest that stays within sRGB
+    constexpr double from = 4.887, to = 1.745;                 // hues: blue, and the long way to yellow [rad]
     std::array<std::array<float, 3>, mapColorCount> colors{};
     for (std::size_t i = 0; i < mapColorCount; ++i) {
         const double t = static_cast<double>(i) / (mapColorCount - 1), hue = from + (to - from) * t;

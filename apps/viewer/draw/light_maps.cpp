@@ -1,4 +1,4 @@
-// Makes the maps. Outside all of them there is light: their samplers' border is 1.
+// Makes the maps. Everything outside a map is lit: the border of the samplers is 1.
 #include "viewer/draw/light_maps.hpp"
 
 #include <array>
@@ -28,7 +28,7 @@ LightMap makeMap(const vk::Device& device, VkFormat format, std::uint32_t size, 
     return {std::move(image), std::move(pass), std::move(framebuffer)};
 }
 
-// Filtering compared depths is optional in Vulkan; without it the taps alone soften the edge.
+// Filtering of compared depths is optional in Vulkan; without it only the taps soften the edge.
 VkFilter comparingFilter(const vk::Device& device, VkFormat depth) {
     const bool isFiltered =
         findFormat(device, std::array{depth}, VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) == depth;

@@ -1,4 +1,4 @@
-// Classes are the solver's own: the coloring is a pure function of the scene.
+// Uses the solver's own classes: colouring is a pure function of the scene.
 #include "viewer/draw/link_lines.hpp"
 
 #include "layout.h"
@@ -17,8 +17,8 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr std::array<float, 3> still{0.22f, 0.22f, 0.22f};  // of links that nobody corrects
-constexpr std::array<float, 3> atOnce{0.03f, 0.05f, 0.10f}; // where there are no classes
+constexpr std::array<float, 3> still{0.22f, 0.22f, 0.22f};  // links without a class
+constexpr std::array<float, 3> atOnce{0.03f, 0.05f, 0.10f}; // solvers without classes
 
 std::string noteOf(sim::Solver solver, std::size_t classes) {
     if (solver == sim::Solver::gaussSeidel)
@@ -42,7 +42,7 @@ layout::LineLink lineOf(const sim::Scene& scene, std::uint32_t d, std::span<cons
             bits.ofOver};
 }
 
-// Class by class, then the rest; `slots` of the particles in the solver's state.
+// Links class by class, then the others; `slots` of the particles in the solver's state.
 std::vector<layout::LineLink> lineLinks(const sim::Scene& scene, const LinkClasses& classes,
                                         std::span<const std::uint32_t> slots) {
     std::vector<std::uint32_t> order = classes.order;
@@ -53,7 +53,7 @@ std::vector<layout::LineLink> lineLinks(const sim::Scene& scene, const LinkClass
     std::vector<layout::LineLink> links;
     links.reserve(order.size());
     for (const std::uint32_t d : order) links.push_back(lineOf(scene, d, slots));
-    if (links.empty()) links.emplace_back(); // no buffer is empty
+    if (links.empty()) links.emplace_back(); // buffers must not be empty
     return links;
 }
 

@@ -1,4 +1,4 @@
-// Written once.
+// Writes the fixed descriptors once, at construction.
 #include "viewer/draw/picture_sets.hpp"
 
 #include <array>

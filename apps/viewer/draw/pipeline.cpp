@@ -1,4 +1,4 @@
-// Fills in the long Vulkan structs of a graphics pipeline.
+// Fills in Vulkan's structs for a graphics pipeline.
 #include "viewer/draw/pipeline.hpp"
 
 #include "layout.h"
@@ -66,7 +66,7 @@ constexpr std::array cutAttributes{skinAttributes[0], skinAttributes[1],
                                    VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
                                                                      offsetof(sim::layout::CutVertex, rest)}};
 
-// The same with a value each.
+// Bindings with a value for each vertex or instance.
 constexpr VkVertexInputBindingDescription valueBinding(std::uint32_t binding, VkVertexInputRate rate) {
     return {binding, sizeof(float), rate};
 }
@@ -105,7 +105,7 @@ constexpr std::array panelAttributes{
     VkVertexInputAttributeDescription{1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(PanelVertex, atlas)},
     VkVertexInputAttributeDescription{2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(PanelVertex, color)}};
 
-// What a vertex consists of, in the order of PipelineRequest::Input.
+// Layout of a vertex, in the order of PipelineRequest::Input.
 struct VertexForm {
     std::span<const VkVertexInputBindingDescription> bindings;
     std::span<const VkVertexInputAttributeDescription> attributes;

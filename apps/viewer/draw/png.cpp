@@ -1,4 +1,4 @@
-// PNG by stb_image_write, which knows no text chunks: they are put between the header and the rest.
+// PNG by stb_image_write, which writes no text chunks: they are inserted after the header.
 #include "viewer/draw/png.hpp"
 
 #include "mesh/export.hpp"
@@ -21,7 +21,7 @@ void appendBigEndian(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
-// CRC-32 of ISO 3309, as the PNG specification asks.
+// CRC-32 of ISO 3309, as the PNG specification requires.
 std::uint32_t checksum(const std::vector<std::uint8_t>& bytes, std::size_t first) {
     std::uint32_t crc = 0xffffffffu;
     for (std::size_t i = first; i < bytes.size(); ++i) {

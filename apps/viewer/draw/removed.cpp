@@ -1,11 +1,12 @@
-// Names of pieces, where there are some.
+// Uses the simulation's piece labels, if it has them.
 #include "viewer/draw/removed.hpp"
 
 namespace sinew::viewer {
 
 vk::BufferView removedParticles(const sim::Simulation& simulation) {
     vk::BufferView words = simulation.pieces();
-    // Where nothing can be cut, as many words of positions: those bits are of no number, which they all are.
+    // If nothing can be cut, positions stand for labels: the bits of a finite number never equal
+    // REMOVED_PIECE.
     if (words.size == 0) words = simulation.positions();
     words.stride = sizeof(std::uint32_t);
     return words;

@@ -1,5 +1,5 @@
-// Render passes with the dependencies that order them among each other and against earlier pictures, which
-// use the same maps and multisampled images.
+// Render passes with their dependencies on each other and on earlier pictures, which use the same maps and
+// multisampled images.
 #include "viewer/draw/render_pass.hpp"
 
 #include "vk/check.hpp"
@@ -30,19 +30,19 @@ VkAttachmentDescription attachment(VkFormat format, VkSampleCountFlagBits sample
             .finalLayout = finalLayout};
 }
 
-// Who reads a picture in its final layout: a copy, or a presentation, which a semaphore holds back.
+// The use of a picture after drawing: a copy, or a presentation, which waits for a semaphore.
 struct Reader {
     VkPipelineStageFlags stage;
     VkAccessFlags access;
 };
-// Of pictures that pipelines of one pass are used for: the same for all, or the passes would not be
-// compatible.
+// Union of all uses of pictures: passes that share pipelines need the same dependencies to be compatible.
 constexpr Reader anyReader{colorStage | VK_PIPELINE_STAGE_TRANSFER_BIT |
                                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
                            VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT};
 constexpr Reader sampling{VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT};
 
-// Of a pass that draws in `stages`: after whoever reads what it draws into, and before whoever reads it then.
+// Stages and accesses of a pass that draws: it waits for earlier readers of its images, and later readers
+// wait for it.
 struct Drawing {
     VkPipelineStageFlags stages;
     VkAccessFlags access, writes;

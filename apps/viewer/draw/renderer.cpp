@@ -1,5 +1,5 @@
-// Recording of a picture: shadow map, plan map, floor map, then skins and colliders, ground and sky in one
-// pass, which is multisampled where quality says so.
+// Records a picture: shadow map, plan map and floor map, then skins, colliders, ground and sky in one pass,
+// which is multisampled if the quality asks for it.
 #include "viewer/draw/renderer.hpp"
 
 #include "viewer/draw/mesh_buffer.hpp"
@@ -24,14 +24,14 @@ std::array<vk::SpecialisationConstant, 3> lookOf(const Renderer::Target& target,
             vk::SpecialisationConstant{2, quality.skyTaps}};
 }
 
-// Marks of what is held are many, small and without penumbras: a few taps are enough.
+// Marks of held particles are many, small and without penumbras: a few taps are enough.
 std::array<vk::SpecialisationConstant, 3> heldLookOf(const Renderer::Target& target, Quality quality) {
     quality.shadowTaps = std::max(quality.shadowTaps / 8, 1u);
     return lookOf(target, quality);
 }
 
 VkFormat canvasDepthFormat(const vk::Device& device) {
-    // The specification promises one of the first two.
+    // Vulkan guarantees one of these two.
     constexpr std::array formats{VK_FORMAT_D32_SFLOAT, VK_FORMAT_X8_D24_UNORM_PACK32};
     return findFormat(device, formats, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT);
 }
@@ -112,7 +112,7 @@ Canvas Renderer::makeCopiedCanvas(VkExtent2D extent, std::span<const VkImageView
     return canvas;
 }
 
-// They differ in what becomes of the picture, which pipelines do not ask for.
+// The passes differ only in the picture's final layout, which pipelines do not depend on.
 const RenderPass& Renderer::passOf(const Canvas& canvas) const noexcept {
     return canvas.enlarging() ? *readablePass_ : canvas.isCopied() ? copiedPass_ : pass_;
 }
@@ -124,7 +124,7 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
     sets_.write(slot, params);
     leavesBacks_ = quality_.leavesBacks && !overlay.layers.section && !light_.bounds.contains(eye(camera));
     const bool isOpened = overlay.layers.section && canvas.hasCounts() && has(capPipeline);
-    // Else something that is there: drivers look at a set as a whole.
+    // Without counts another image is bound: drivers validate a set as a whole.
     sets_.writeCounts(slot, isOpened ? canvas.counts() : maps_.floor.image.view(), maps_.nearest());
     const Sheet sheet{canvas, picture, slot};
     const Backdrop::Use backdrop = prepareBackdrop(sheet, params);
@@ -133,7 +133,7 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
     sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
     labels.beginLabel("light maps");
-    const bool isPart = enlarging && !enlarging->isWhole(); // the other has other bodies
+    const bool isPart = enlarging && !enlarging->isWhole(); // other halves show other bodies
     recordMaps(commands, simulation, overlay, isPart || pictures_++ % quality_.floorEvery == 0);
     labels.endLabel();
     if (isOpened) {
@@ -152,8 +152,8 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
     labels.endLabel();
 }
 
-// Under a translucent skin balls throw the shadows, where there are some. A ray of light that meets a solid
-// meets a face first that looks towards the light: the others change nothing, and are half of what is drawn.
+// If a translucent skin shows balls, only the balls cast shadows. Light enters a closed body through a face
+// towards the light, so the other half of its faces is not drawn.
 void Renderer::drawShades(VkCommandBuffer commands, const Shades& shades, const sim::Simulation& simulation,
                           const Overlay& overlay) const noexcept {
     const Layers& layers = overlay.layers;
@@ -181,7 +181,7 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
     drawShades(commands, {shadowPipeline, shadowFacingPipeline, ballShadowPipeline}, simulation, overlay);
     functions.vkCmdEndRenderPass(commands);
     if (!isFloorDue) return;
-    // Without a ground the other two are only cleared: the shaders' bindings stay readable.
+    // Without a ground the other two maps are only cleared: the shaders' bindings must be readable.
     beginMap(maps_.plan, far);
     if (light_.ground)
         drawShades(commands, {planPipeline, planFacingPipeline, ballPlanPipeline}, simulation, overlay);

@@ -1,4 +1,4 @@
-// Draws of what there is in a scene, with the pipeline that is asked for.
+// Draw calls for the parts of a scene, with a given pipeline.
 #include "viewer/draw/renderer.hpp"
 
 #include "viewer/draw/removed.hpp"
@@ -9,8 +9,8 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr float ballGloss = 0.6f;      // of a skin's: balls are hard and dry
-constexpr float colliderGloss = 0.15f; // dull beside tissue
+constexpr float ballGloss = 0.6f;      // times that of skins: balls are hard and dry
+constexpr float colliderGloss = 0.15f; // less than tissue
 
 bool isAnyOf(std::size_t pipeline, std::initializer_list<std::size_t> those) {
     return std::ranges::count(those, pipeline) > 0;
@@ -18,8 +18,8 @@ bool isAnyOf(std::size_t pipeline, std::initializer_list<std::size_t> those) {
 
 } // namespace
 
-// What a mesh bounds, in one draw for fronts and one for backs: of what is solid the backs are hidden then,
-// and no light is reckoned for what the next triangle covers.
+// Draws closed meshes, once for front faces and once for back faces: backs of closed bodies are then hidden
+// by depth, and no hidden fragment is shaded.
 void Renderer::drawThings(VkCommandBuffer commands, const sim::Simulation& simulation, const Layers& layers,
                           std::size_t pipeline) const noexcept {
     drawColliders(commands, pipeline, simulation);
@@ -40,7 +40,7 @@ void Renderer::bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
 }
 
-// What there is of it, the device alone knows.
+// Draws with a count that only the device knows.
 void Renderer::drawIndirect(VkCommandBuffer commands, const vk::BufferView& draws,
                             std::size_t which) const noexcept {
     device_.functions().vkCmdDrawIndexedIndirect(commands, draws.buffer, draws.offset + which * draws.stride,
@@ -68,7 +68,7 @@ void Renderer::drawScreen(VkCommandBuffer commands, std::size_t pipeline) const 
     device_.functions().vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-// Up to the haze, or as far as bodies darken it.
+// Draws the ground up to the haze, or only the square that bodies can darken.
 void Renderer::drawGround(VkCommandBuffer commands, const layout::FrameParams& params,
                           bool isLitAlone) const noexcept {
     bind(commands, groundPipeline);
@@ -92,7 +92,7 @@ void Renderer::drawColliders(VkCommandBuffer commands, std::size_t pipeline,
     }
 }
 
-// Where the simulation has them, which may be behind the pointer.
+// Draws the spheres at the simulation's positions, which may lag behind the pointer.
 void Renderer::drawPokes(VkCommandBuffer commands, std::size_t pipeline,
                          const sim::Simulation& simulation) const noexcept {
     const ColliderMeshes::Range& sphere = poke_.ranges().front();
@@ -122,7 +122,7 @@ void Renderer::drawSkins(VkCommandBuffer commands, OfSkins pipelines, const sim:
     if (values.size > 0) functions.vkCmdBindVertexBuffers(commands, 1, 1, &values.buffer, &values.offset);
     const vk::BufferView pieces = simulation.pieceDraws();
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
-        if (pipeline == skinCountPipeline && !light_.isClosed[i]) continue; // it encloses nothing
+        if (pipeline == skinCountPipeline && !light_.isClosed[i]) continue; // not closed
         if (pipeline == skinBacksPipeline && leavesBacks_ && light_.isOutward[i]) continue;
         const std::size_t own = light_.isOutward[i] ? pipelines.solids : pipelines.any;
         if (own != bound) bind(commands, bound = own);
@@ -151,7 +151,7 @@ void Renderer::drawBalls(VkCommandBuffer commands, std::size_t pipeline, const s
     }
 }
 
-// No shadows: they show what the scene does, as pins show what a hand does.
+// Marks cast no shadows: they show constraints of the scene, like pins show those of the user.
 void Renderer::drawMarks(VkCommandBuffer commands, const sim::Simulation& simulation,
                          const Layers& layers) const noexcept {
     if (marks_.ranges().empty()) return;

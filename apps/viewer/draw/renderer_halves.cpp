@@ -1,4 +1,4 @@
-// Pictures of two simulations beside each other: drawn one after the other, with the same maps.
+// Pictures of two simulations side by side, drawn one after the other with the same maps.
 #include "viewer/draw/renderer.hpp"
 
 namespace sinew::viewer {

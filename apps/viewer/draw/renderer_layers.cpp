@@ -1,4 +1,4 @@
-// Layers over the bodies or in their stead: pipelines that are made when they are first wanted, and draws.
+// Layers over or instead of the bodies: their draw calls, and pipelines that are made at the first use.
 #include "viewer/draw/renderer.hpp"
 
 #include "viewer/draw/contact_marks.hpp"
@@ -14,7 +14,7 @@ constexpr float markSize = 0.004f; // of the ball of a mark, in radii of the sta
 
 } // namespace
 
-// What the device can do, vk::Device::create has asked for.
+// vk::Device::create enables the feature if the device has it.
 bool drawsEdges(const vk::Device& device) {
     VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     device.instanceFunctions().vkGetPhysicalDeviceFeatures2(device.physical(), &features);
@@ -44,7 +44,7 @@ Renderer::Additions Renderer::make(const Layers& layers) const {
     Additions to;
     for (const Feature& feature : features())
         if (isDrawn(feature, layers) && !has(feature.first)) (this->*feature.make)(to);
-    if (layers.section) makeSection(to); // last: of those that there are by now
+    if (layers.section) makeSection(to); // last: it also needs the pipelines made above
     return to;
 }
 
@@ -57,7 +57,7 @@ void Renderer::prepareCanvas(const Layers& layers, Canvas& canvas) const {
     if (layers.section) canvas.addCounts(device_, *countsPass_, format_.samples);
 }
 
-// In the colors of a map: skins where they are solid, and all balls.
+// Draws in the colours of a map: solid skins, and all balls.
 void Renderer::drawValues(VkCommandBuffer commands, const sim::Simulation& simulation,
                           const Overlay& overlay) const noexcept {
     const LayerBuffers& buffers = overlay.buffers;
@@ -82,7 +82,7 @@ void Renderer::drawLinks(VkCommandBuffer commands, const sim::Simulation& simula
     }
 }
 
-// Over all that hides what is behind it.
+// Draws layers over everything else.
 void Renderer::recordLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
                             const Overlay& overlay) const noexcept {
     const Layers& layers = overlay.layers;

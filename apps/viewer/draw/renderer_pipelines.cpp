@@ -1,4 +1,4 @@
-// What each pipeline consists of.
+// The state of each pipeline.
 #include "viewer/draw/renderer.hpp"
 
 #include "viewer_shaders.hpp"
@@ -41,7 +41,7 @@ void Renderer::addDepths(Additions& to, std::size_t ofShadow, std::size_t ofPlan
     each.pass = maps_.shadow.pass.handle();
     addPipeline(to, ofShadow, each);
     each.name = "picture.plan." + request.name;
-    if (request.faces == Faces::fronts) each.faces = Faces::backs; // its picture is seen in a mirror
+    if (request.faces == Faces::fronts) each.faces = Faces::backs; // the plan map is mirrored
     each.pass = maps_.plan.pass.handle();
     each.constants = plan;
     addPipeline(to, ofPlan, each);
@@ -211,7 +211,7 @@ void Renderer::makeCells(Additions& to) const {
             .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST});
 }
 
-// What touches is hidden by what touches it, so marks are seen through everything.
+// Contact points are hidden between the bodies, so marks are drawn through everything.
 void Renderer::makeContacts(Additions& to) const {
     addLit(to, contactPipeline,
            {.name = "contacts",

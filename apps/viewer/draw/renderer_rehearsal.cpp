@@ -1,16 +1,16 @@
-// A pipeline used once before any picture needs it: three corners that are one, into what is drawn over
-// anyway.
+// Uses a pipeline once before a picture needs it: draws a degenerate triangle into an image that is drawn
+// over anyway.
 #include "viewer/draw/renderer.hpp"
 
 namespace sinew::viewer {
 
 namespace {
 
-constexpr std::uint32_t mostBindings = 5; // of vertices, of any pipeline
+constexpr std::uint32_t mostBindings = 5; // vertex bindings of any pipeline
 
 } // namespace
 
-// Drivers compile for the numbers on which a shader branches: they are those of pictures.
+// Drivers compile for the values that a shader branches on: this uses those of pictures.
 void Renderer::recordRehearsal(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas,
                                const Camera& camera, const Layers& layers, const Additions& additions,
                                std::size_t which) const {

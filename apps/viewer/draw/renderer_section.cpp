@@ -1,8 +1,8 @@
-// Pictures with a section: bodies in forms of their pipelines that leave away what lies before the plane, and
-// a cap where the plane passes through them. Whether it does is counted, not guessed from what is seen behind
-// it: how often closed surfaces wind around a place of the plane is the number of backs less that of fronts
-// that a ray from there passes, in front of whatever else, for any number of bodies, for pieces that were cut
-// and for triangles that lie turned over.
+// Pictures with a section: bodies use forms of their pipelines that omit the hidden side, and a cap is drawn
+// where the plane passes through a body. Winding numbers decide where that is: along a ray from a point of
+// the plane, the number of back faces minus the number of front faces tells how often closed surfaces enclose
+// the point. This holds behind any occluder, for any number of bodies, for cut pieces and for inverted
+// triangles.
 #include "viewer/draw/renderer.hpp"
 
 #include "viewer_shaders.hpp"
@@ -14,9 +14,9 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr float capGloss = 0.4f; // of balls
+constexpr float capGloss = 0.4f; // times that of balls
 
-// A shader and its form with a section.
+// A shader and its form for a section.
 using Form = std::pair<const vk::ShaderCode*, const vk::ShaderCode*>;
 constexpr std::array forms{Form{&shaders::depthVert, &shaders::depthSectionVert},
                            Form{&shaders::ballDepthVert, &shaders::ballDepthSectionVert},
@@ -57,7 +57,7 @@ bool Renderer::has(const Layers& layers) const noexcept {
     return has(capPipeline);
 }
 
-// Hands reach through the plane.
+// Grabs are drawn through the plane.
 bool Renderer::isOpened(std::size_t index) const noexcept {
     const PipelineRequest& request = requests_[index];
     return index != handPipeline &&
@@ -82,7 +82,7 @@ void Renderer::makeOpened(Additions& to, std::size_t index, const PipelineReques
 
 void Renderer::makeSection(Additions& to) const {
     for (std::size_t i = 0, made = to.made_.size(); i < made; ++i) {
-        const PipelineRequest request = to.made_[i].request; // a copy: more are made
+        const PipelineRequest request = to.made_[i].request; // a copy: the vector grows
         makeOpened(to, to.made_[i].index, request);
     }
     for (std::size_t i = 0; i < pipelineCount; ++i)
@@ -118,7 +118,7 @@ void Renderer::makeCounts(Additions& to) const {
             .depth = PipelineRequest::Depth::testAndWrite});
 }
 
-// Only what is drawn as a solid. Particles inside a solid skin are hidden by its cap.
+// Counts only solid layers. A solid skin's cap hides the particles inside it.
 void Renderer::recordCounts(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,
                             const Overlay& overlay) const noexcept {
     const Layers& layers = overlay.layers;

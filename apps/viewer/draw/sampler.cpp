@@ -1,4 +1,4 @@
-// One filter for both directions.
+// Uses the same filter for magnification and minification.
 #include "viewer/draw/sampler.hpp"
 
 #include "vk/check.hpp"

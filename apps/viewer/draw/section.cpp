@@ -1,4 +1,4 @@
-// Planes, and what encloses something.
+// Section planes, and tests for closed skins.
 #include "viewer/draw/section.hpp"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::vector<Place> placesOf(const sim::Scene& scene, const sim::Skin& skin) {
     return places;
 }
 
-// Vertices at one place have one number.
+// One number for each place: vertices at the same place share it.
 std::vector<std::uint32_t> weldedVertices(const std::vector<Place>& places) {
     std::vector<std::uint32_t> order(places.size()), welded(places.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -71,7 +71,7 @@ bool isClosed(const sim::Scene& scene, const sim::Skin& skin) {
     return !forwards.empty() && forwards == backwards;
 }
 
-// Six times it: of the tetrahedra between the triangles and the first vertex.
+// Six times the signed volume: the sum of the tetrahedra between the triangles and the first vertex.
 double volumeOf(const sim::Scene& scene, const sim::Skin& skin) {
     const std::vector<Place> places = placesOf(scene, skin);
     const auto at = [&](std::uint32_t vertex) {

@@ -1,4 +1,4 @@
-// The public constructor delegates: what it has made by the time it throws is destroyed with the object.
+// The public constructor delegates, so that the destructor frees what was made before an exception.
 #include "viewer/draw/set_layout.hpp"
 
 #include "vk/check.hpp"

@@ -1,4 +1,4 @@
-// Draws into an image, copies it to a mapped buffer.
+// Draws into an image and copies it to a mapped buffer.
 #include "viewer/draw/shot.hpp"
 
 #include "vk/commands.hpp"

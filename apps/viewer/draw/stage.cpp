@@ -1,4 +1,4 @@
-// Counts steps and turns status words into sentences.
+// Counts steps and converts status words to sentences.
 #include "viewer/draw/stage.hpp"
 
 #include "scenes/recovery.hpp"
@@ -88,7 +88,7 @@ sim::Scene Stage::sceneOf(const sim::Material& material, const sim::Settings& se
     return scene;
 }
 
-// Of the step program only what does not change meanwhile is read: recordTurn() waits for this.
+// Reads only the constant part of the step program: recordTurn() runs after it.
 Stage::Turned Stage::prepare(const sim::Material& material) const {
     Turned turned{material, sceneOf(material, settings()), {}, std::nullopt};
     turned.change = simulation().prepareChange(turned.scene);
@@ -97,7 +97,7 @@ Stage::Turned Stage::prepare(const sim::Material& material) const {
 }
 
 void Stage::beginTurn() {
-    if (!wanted_ || turning_.valid() || ready_ || growth_) return; // for the simulation that comes
+    if (!wanted_ || turning_.valid() || ready_ || growth_) return; // growth: prepared after it
     turning_ = std::async(std::launch::async, [this, material = *std::exchange(wanted_, std::nullopt)] {
         return prepare(material);
     });
@@ -153,14 +153,14 @@ bool Stage::isShapeMade() {
 
 void Stage::reshape(vk::Queue& queue, const app::Bring& bring) {
     if (!wantsShape()) return;
-    growth_.reset(); // of the other solver: what still lacks room says so again
+    growth_.reset(); // made with the old solver; a lack of capacity is reported again
     wantedRoom_.reset();
     if (!reshaping_) beginShape();
     Reshaping next = *std::exchange(reshaping_, std::nullopt);
     shape_.reset();
     refused_.reset();
     ready_.reset();
-    awaitTurn(); // it is prepared for the simulation that goes
+    awaitTurn(); // it is prepared for the old simulation
     std::unique_ptr<sim::Simulation> made = next.making.get();
     sim::Scene before = std::exchange(scene_, sceneOf(next.material, next.settings));
     try {
@@ -195,7 +195,7 @@ void Stage::recordTakeOver(VkCommandBuffer commands, const Stage& from) {
     played_ = from.played_;
 }
 
-// While nothing is recorded, what is ready makes way for what was asked for later.
+// While no steps are recorded, a later request replaces a prepared material.
 Stage::Turn Stage::takeTurn(bool isPaused) {
     if (isPaused && wanted_) ready_.reset();
     beginTurn();
@@ -220,7 +220,7 @@ std::optional<sim::Material> Stage::recordTurn(VkCommandBuffer commands) noexcep
     return material_;
 }
 
-// Before the simulation makes way for another one: what is prepared is of this one, and prepared again.
+// Before the simulation is replaced: the prepared material refers to the old one and must be prepared again.
 void Stage::awaitTurn() {
     if (ready_ && !wanted_) wanted_ = ready_->material;
     ready_.reset();
@@ -228,7 +228,7 @@ void Stage::awaitTurn() {
     try {
         const Turned turned = turning_.get();
         if (!wanted_) wanted_ = turned.material;
-    } catch (const std::exception&) { // there is no such material to be had: nobody waits for it
+    } catch (const std::exception&) { // the material is invalid, and no longer wanted
     }
 }
 
@@ -256,7 +256,7 @@ bool Stage::lacksLists(std::uint64_t step) const {
     return status.frame == static_cast<std::uint32_t>(step) && status.lacksLists;
 }
 
-// Of the steps that were undone.
+// Undoes the counts of those steps.
 void Stage::goBackBefore(std::uint64_t step) noexcept {
     played_ -= steps_ - (step - 1);
     steps_ = step - 1;
@@ -275,7 +275,7 @@ bool Stage::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::B
     return growing_.growSurface(needed, queue, bring);
 }
 
-// Of the scene as it was given, which never changes: what is on show may be turned meanwhile.
+// Uses the scene as given, which is constant: the present scene may change meanwhile.
 void Stage::beginGrowth(const sim::Settings& settings, bool isOfContacts) {
     growth_.emplace(Growing{settings, isOfContacts, material_, make(settings, material_), nullptr});
 }
@@ -313,7 +313,7 @@ Stage::Growth Stage::askGrowth() {
         beginWanted();
         return Growth::none;
     }
-    if (growth.material != material_) { // turned meanwhile
+    if (growth.material != material_) { // changed meanwhile
         beginGrowth(growth.settings, growth.isOfContacts);
         return Growth::making;
     }
@@ -331,7 +331,7 @@ void Stage::recordGrowth(VkCommandBuffer commands) noexcept {
 
 void Stage::endGrowth() {
     Growing growth = *std::exchange(growth_, std::nullopt);
-    if (ready_ && !wanted_) wanted_ = ready_->material; // what is prepared is of the other one
+    if (ready_ && !wanted_) wanted_ = ready_->material; // it was prepared for the old simulation
     ready_.reset();
     growing_.goOnIn(std::move(growth.made), growth.settings);
     beginWanted();

@@ -11,9 +11,9 @@ namespace sinew::viewer {
 namespace {
 
 constexpr float keyAzimuth =
-    -1.30f; // of the key light, from the camera's [rad]: from the left, a little in front
+    -1.30f; // azimuth of the key light from the camera's [rad]: from the left, a little in front
 constexpr float keyElevation = 0.80f; // [rad]
-constexpr float hazeRadii = 30;       // radii of the stage from its centre to where the ground has faded
+constexpr float hazeRadii = 30;       // radius at which the ground has faded, in radii of the stage
 
 layout::vec4 packed(const Vector3& v, float w) {
     return {v.x(), v.y(), v.z(), w};
@@ -25,7 +25,7 @@ layout::mat4 packed(const Matrix4& matrix) {
     return result;
 }
 
-// Sheets enclose no volume; their threads scatter light where tissue mirrors it.
+// Sheets enclose no volume; their threads scatter light that wet tissue reflects.
 float glossOf(const sim::Scene& scene, const sim::Skin& skin) {
     constexpr float ofTissue = 1, ofCloth = 0.2f;
     if (skin.particles.empty()) return ofTissue;
@@ -36,8 +36,8 @@ float glossOf(const sim::Scene& scene, const sim::Skin& skin) {
     return body != scene.bodies.end() && body->restVolume == 0 ? ofCloth : ofTissue;
 }
 
-// The square of floor that bodies in `bounds` darken: below them, where their shadows fall, and a little
-// around.
+// The square of floor that bodies in `bounds` can darken: below them, where their shadows fall, with a small
+// margin.
 layout::vec4 floorSquare(const Box& bounds, float ground, const Vector3& toLight) {
     const float height = std::max(bounds.max().y() - ground, 1e-3f);
     const Vector3 fall = height / toLight.y() * toLight;
@@ -47,7 +47,7 @@ layout::vec4 floorSquare(const Box& bounds, float ground, const Vector3& toLight
     return {shaded.center().x(), shaded.center().z(), width, height};
 }
 
-// From below: x and z become the map's x and y, depth grows with the height above the floor.
+// Plan view from below: x and z become the map's x and y, depth grows with the height above the floor.
 Matrix4 planMatrix(const layout::vec4& floor, float ground) {
     Matrix4 clip = Matrix4::Zero();
     clip(0, 0) = clip(1, 2) = 2 / floor.z;

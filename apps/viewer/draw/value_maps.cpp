@@ -1,4 +1,4 @@
-// Tables on the host, once; kernels for every picture.
+// Tables are made on the host, once; kernels run for every picture.
 #include "viewer/draw/value_maps.hpp"
 
 #include "layout.h"
@@ -19,7 +19,7 @@ namespace sinew::viewer {
 
 namespace {
 
-// Cuts and sheets have theirs after these.
+// Sets of cuts and sheets follow these.
 enum SetIndex : std::size_t { strainSet, speedSet, sleepSet, skinSet, firstOther };
 
 template <typename T> std::vector<T> atLeastOne(std::vector<T> elements) {
@@ -131,7 +131,7 @@ struct ValueMaps::Tables {
 
 namespace {
 
-// The skins of sheets that may be cut.
+// The skins of sheets that can be cut.
 template <typename Sheet> std::vector<Sheet> sheetsOf(const sim::Simulation& simulation) {
     std::vector<Sheet> sheets;
     for (const sim::PieceVertices& pieces : simulation.program().pieceSkins)
@@ -208,7 +208,7 @@ void ValueMaps::record(VkCommandBuffer handle, ColorMap map, std::uint32_t slot)
     commands.beginLabel("color map");
     commands.beginStep();
     commands.fill(spread_.view(), 0);
-    commands.fill(skinValues_.view(), none); // vertices that nobody is known to hold
+    commands.fill(skinValues_.view(), none); // vertices without a known holder
     if (map == ColorMap::speed && !hasSpeeds_) commands.fill(values_.view(), none);
     commands.barrier();
     if (map == ColorMap::strain) dispatch(commands, *strain_, strainSet, particleCount_);

@@ -16,7 +16,7 @@ using enum Action;
 constexpr auto key = Trigger::Kind::key, drag = Trigger::Kind::drag, wheel = Trigger::Kind::wheel,
                doubleClick = Trigger::Kind::doubleClick, held = Trigger::Kind::held;
 
-// Bindings of one action stand together; the first one's help is the one that is shown.
+// Bindings of one action are adjacent; the help shows the text of the first one.
 constexpr std::array table{
     Binding{{drag, GLFW_MOUSE_BUTTON_LEFT}, grab, "left drag", "on a body: grab and pull; beside: orbit"},
     Binding{{drag, GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_CONTROL},
@@ -141,7 +141,7 @@ constexpr std::array table{
     Binding{{key, GLFW_KEY_V}, vsync, "V", "wait for the screen (vsync) or not", "Vsync"},
     Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL}, largerTexts, "Ctrl + plus", "larger texts", "Larger"},
     Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, largerTexts, "", "larger texts"},
-    Binding{{key, '+', GLFW_MOD_CONTROL}, largerTexts, "", "larger texts"}, // where it is a key of its own
+    Binding{{key, '+', GLFW_MOD_CONTROL}, largerTexts, "", "larger texts"}, // on layouts with a key for +
     Binding{
         {key, GLFW_KEY_MINUS, GLFW_MOD_CONTROL}, smallerTexts, "Ctrl + minus", "smaller texts", "Smaller"},
     Binding{{key, GLFW_KEY_TAB}, panels, "Tab", "show or hide the panels", "Hide"},

@@ -1,4 +1,4 @@
-// The state behind the bindings.
+// The state that actions change.
 #include "viewer/hands/controller.hpp"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ bool Controller::act(Action action) {
         return true;
     case Action::stepBack:
         playback.pause();
-        return false; // where to is for others to know
+        return false; // handled elsewhere
     case Action::slowMotion:
         playback.slowDown();
         return true;

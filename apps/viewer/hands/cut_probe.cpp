@@ -1,4 +1,4 @@
-// Copies in mapped memory, which grow.
+// Copies into mapped memory, which grows.
 #include "viewer/hands/cut_probe.hpp"
 
 #include "vk/check.hpp"
@@ -10,7 +10,7 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr VkDeviceSize some = 4096; // vertices, triangles: more than a picture's cut adds, mostly
+constexpr VkDeviceSize some = 4096; // vertices, triangles: more than most cuts add in a picture
 
 using Triangle = SeenCuts::Triangle;
 
@@ -18,7 +18,7 @@ vk::Buffer readback(const vk::Device& device, const char* name, VkDeviceSize cou
     return {device, {.name = name, .count = count, .stride = stride, .kind = vk::MemoryKind::readback}};
 }
 
-// Whose pieces are not in the surface of cuts.
+// Sheets: their pieces are not in the surface of cuts.
 bool isSheet(const sim::Scene& scene, const sim::Skin& skin) {
     if (skin.particles.empty()) return false;
     const std::uint32_t one = skin.particles.front();
@@ -69,7 +69,7 @@ sim::layout::SurfaceState CutProbe::counts() const noexcept {
     return counts;
 }
 
-// For a half more than the last time.
+// Allocates for half as much again as the last time.
 void CutProbe::makeRoom() {
     const sim::CutSurface surface = simulation_.cutSurface();
     const sim::layout::SurfaceState last = counts();

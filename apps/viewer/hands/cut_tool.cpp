@@ -1,5 +1,5 @@
-// Moves shorter than a pixel or two wait for more; a stroke that steps cannot keep up with is cut by longer
-// pieces.
+// Moves shorter than a pixel or two are collected; if steps cannot keep up with a stroke, its pieces get
+// longer.
 #include "viewer/hands/cut_tool.hpp"
 
 #include <algorithm>
@@ -10,11 +10,11 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr float shortest = 0.003f;      // move of the pointer that makes an edge [window heights]
+constexpr float shortest = 0.003f;      // move of the pointer that adds an edge [window heights]
 constexpr std::size_t mostWaiting = 16; // sweeps
-constexpr float drawnAt = 0.3f;         // of the way from the eye to the stage
-constexpr float leastDepth = 0.01f, mostDepth = 0.5f, deeper = 1.15f; // of the stage's radius; by a notch
-constexpr std::uint32_t stepsUnseen = 6; // until what lies under the pointer is looked at again
+constexpr float drawnAt = 0.3f;         // share of the distance from the eye to the stage
+constexpr float leastDepth = 0.01f, mostDepth = 0.5f, deeper = 1.15f; // of the stage's radius; notch factor
+constexpr std::uint32_t stepsUnseen = 6; // until the surface under the pointer is queried again
 
 sim::Vec3 toVec3(const Vector3& v) {
     return {v.x(), v.y(), v.z()};
@@ -39,7 +39,7 @@ CutTool::Depths CutTool::depths() const {
     return {leastDepth * radius_, mostDepth * radius_};
 }
 
-// What waits for a depth that is no more is cut as far as the blade goes now.
+// Points that still wait for the old depth are cut with the new one.
 void CutTool::setDepth(const std::optional<float>& depth) {
     const auto [least, most] = depths();
     depth_ = depth ? std::optional(std::clamp(*depth, least, most)) : std::nullopt;
@@ -62,7 +62,7 @@ void CutTool::deepen(float notches) {
     setDepth(depth > 1.001f * most ? std::nullopt : std::optional(depth));
 }
 
-// Where the ray passes the ball around the stage; beside it there is nothing to cut.
+// Where the ray passes the ball around the stage; empty if it misses the ball.
 std::optional<CutTool::Place> CutTool::placeAt(const Ray& ray, float nearest) const {
     const float middle = (center_ - ray.origin).dot(ray.direction);
     const float apart = (ray.origin + middle * ray.direction - center_).norm();
@@ -88,7 +88,7 @@ void CutTool::move(const Camera& camera, const Vector2& pointer) {
     if (const auto place = placeAt(hovered_, 0.02f * camera.distance))
         add(camera, *place);
     else
-        isBeside_ = true; // another stroke where it comes back
+        isBeside_ = true; // a new stroke starts if the pointer returns
 }
 
 void CutTool::add(const Camera& camera, Place place) {
@@ -107,7 +107,7 @@ void CutTool::cut(const Place& place, float far) {
     const Edge edge{at(place.near), at(far)};
     if (place.isFirst || !last_) {
         isFirst_ = true;
-    } else if (sweeps_.size() >= mostWaiting && !isFirst_) { // the last piece goes on to here
+    } else if (sweeps_.size() >= mostWaiting && !isFirst_) { // the last piece is extended to here
         sweeps_.back().to = {toVec3(edge.near), toVec3(edge.far)};
     } else {
         sweeps_.push_back({{toVec3(last_->near), toVec3(last_->far)},
@@ -124,7 +124,7 @@ void CutTool::cutSettled() {
         if (far > place.near)
             cut(place, std::min(far, place.far));
         else
-            last_.reset(); // a body so near the eye
+            last_.reset(); // the surface is too near the eye
     }
 }
 
@@ -138,7 +138,7 @@ void CutTool::answer(const std::optional<Pick>& pick) {
     showDepth();
 }
 
-// One at a time, of the newest place.
+// Asks for one preview at a time, of the newest point.
 void CutTool::hover(const Camera& camera, const Vector2& pointer) {
     camera_ = camera;
     hovered_ = rayThrough(camera, pointer);
@@ -158,7 +158,7 @@ void CutTool::stepTaken() {
     if (++stepsSince_ > stepsUnseen) previewed_.reset();
 }
 
-// Downwards on the picture: along the ray, where it goes, nobody would see how far.
+// Draws the gauge downwards on the picture: along the ray itself it would have no length.
 void CutTool::showDepth() {
     gauge_.clear();
     if (!isOn_ || !depth_ || !surface_ || !(*surface_ > 0)) return;

@@ -1,4 +1,4 @@
-// Down, asked, answered, up.
+// States of a grab: pressed, asked, answered, released.
 #include "viewer/hands/grab_tool.hpp"
 
 #include <utility>

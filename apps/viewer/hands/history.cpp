@@ -1,4 +1,4 @@
-// Buffers go around: what is forgotten serves the next state.
+// Buffers are recycled: a dropped state's buffer serves the next state.
 #include "viewer/hands/history.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace sinew::viewer {
 
-// What goes from one simulation to another, by way of the host where their devices differ.
+// Moves states from one simulation to another, through the host if their devices differ.
 struct History::Ferry {
     Ferry(const vk::Device& givingDevice, const sim::Simulation& given, vk::Queue& givingQueue,
           const vk::Device& takingDevice, sim::Simulation& taken, vk::Queue& takingQueue)
@@ -19,7 +19,7 @@ struct History::Ferry {
             landed.emplace(bufferFor(takingDevice, given.handOverSize(), vk::MemoryKind::upload));
     }
 
-    // `to` is then in that state.
+    // Leaves `to` in that state.
     void carry(const State& state) const {
         VkCommandBuffer commands = giving.begin();
         from.recordHandOver(commands, loaded.view(), state.buffer.view());

@@ -1,4 +1,4 @@
-// Logs of input as text: what it is of, then a line an event.
+// Input logs as text: a head, then one event per line.
 #include "viewer/hands/input_log.hpp"
 
 #include "app/guard.hpp"
@@ -21,7 +21,7 @@ constexpr std::string_view title = "sinew input 2";
 constexpr std::string_view titleBefore = "sinew input 1"; // where "solve" lost all states to go back to
 static_assert(title.size() == titleBefore.size());
 
-// A line in the making: words with blanks between them.
+// Builds a line of words with blanks between them.
 class Line {
 public:
     explicit Line(std::string_view name) : text_(name) {}
@@ -85,7 +85,7 @@ std::string text(const Pulled& pulled) {
     return Line("gravity").add(pulled.gravity).end();
 }
 
-// What is left to the scene is a dash.
+// A dash stands for the scene's own value.
 std::string text(const Turned& turned) {
     const sim::Material& material = turned.material;
     Line line("material");
@@ -118,7 +118,7 @@ std::string text(const Stepped& stepped) {
     return Line("steps").add(stepped.count).end();
 }
 
-// The rest of a line, word by word.
+// Reads the rest of a line, word by word.
 class Words {
 public:
     explicit Words(const std::string& line) : words_(line) {}
@@ -144,7 +144,7 @@ public:
         if (!std::isfinite(value)) throw std::runtime_error("not a finite number");
         return value;
     }
-    // Where there is one, not a dash.
+    // A number, or empty for a dash.
     std::optional<float> finiteOrNone() {
         const std::string next = word();
         return next == "-" ? std::nullopt : std::optional(Words(next).finite());
@@ -330,7 +330,7 @@ InputFile loadInput(const std::filesystem::path& file) {
     std::ostringstream text;
     if (std::filesystem::is_regular_file(file, error)) {
         std::ifstream stream(file, std::ios::binary);
-        std::string head(title.size(), ' '); // what is something else, however large, is not read
+        std::string head(title.size(), ' '); // other files, which may be large, are not read
         stream.read(head.data(), static_cast<std::streamsize>(head.size()));
         text << head;
         if (head == title || head == titleBefore) text << stream.rdbuf();

@@ -1,4 +1,4 @@
-// Events as they come, one after another.
+// Events in the order in which they came.
 #include "viewer/hands/input_log.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ void InputLog::restart() {
 void InputLog::look(const Camera& camera) {
     if (camera_ == camera) return;
     camera_ = camera;
-    pointed_.reset(); // points elsewhere now
+    pointed_.reset(); // the pointer now points elsewhere
     events_.emplace_back(camera);
 }
 
@@ -39,7 +39,7 @@ void InputLog::key(Action action) {
     pointed_.reset();
 }
 
-// How far away it was is of no use to anybody.
+// Drops the distance of a pick, which nobody uses.
 void InputLog::answer(Answered answer) {
     if (answer.pick) answer.pick->distance = 0;
     events_.emplace_back(std::move(answer));
@@ -85,13 +85,13 @@ void InputLog::step() {
     ++last->count;
 }
 
-// A line of its own even after steps: it came after them.
+// Adds a line of its own even after steps: the undo followed them.
 void InputLog::goBack() {
     events_.emplace_back(Stepped{});
     pointed_.reset();
 }
 
-// Their lines stay: what was undone between them is as it was.
+// Keeps the lines of undone steps, so that events between them stay in place.
 void InputLog::takeBack(std::uint64_t steps) {
     for (auto event = events_.rbegin(); event != events_.rend() && steps > 0; ++event)
         if (auto* stepped = std::get_if<Stepped>(&*event)) {

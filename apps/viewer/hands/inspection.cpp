@@ -1,4 +1,4 @@
-// One layer's buffers after the other.
+// Makes the buffers layer by layer.
 #include "viewer/hands/inspection.hpp"
 
 #include "viewer/draw/stage.hpp"

@@ -1,4 +1,4 @@
-// Picks on the host; contacts are counted on the device, of what was found the time before.
+// Picks on the host; the device counts the contacts of the particle that was picked last.
 #include "viewer/hands/inspector.hpp"
 
 #include "sim/compile.hpp"

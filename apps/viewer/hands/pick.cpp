@@ -1,4 +1,4 @@
-// Every triangle and every ball in turn: a click is rare, and a hundred thousand triangles take a millisecond
+// Tests every triangle and every ball: a click is rare, and a hundred thousand triangles take a millisecond
 // or two.
 #include "viewer/hands/pick.hpp"
 
@@ -18,7 +18,7 @@ Vector3 placeOf(const sim::layout::vec4& v) {
     return {v.x, v.y, v.z};
 }
 
-// Where along a ray something is seen; from `from` on, what a section has opened.
+// The visible range of a ray; `isOpened`: from `from` on it is behind a section plane.
 struct Seen {
     float from = 0, to = none;
     bool isOpened = false;
@@ -33,8 +33,8 @@ Seen seenOf(const Ray& ray, const std::optional<Opened>& opened) {
     return {.from = approach > 0 ? height / approach : none, .isOpened = true};
 }
 
-// Along the ray, from in front or behind (Moller and Trumbore 1997); `none` where it misses. `isBack`: from
-// behind.
+// Distance along the ray at which it meets the triangle from either side (Moller and Trumbore 1997); `none`
+// on a miss. `isBack`: met from behind.
 float meetsTriangle(const Ray& ray, const Vector3& a, const Vector3& b, const Vector3& c, bool& isBack) {
     const Vector3 ab = b - a, ac = c - a, p = ray.direction.cross(ac);
     const float volume = ab.dot(p);
@@ -55,8 +55,8 @@ float meetsBall(const Ray& ray, const Vector3& center, float radius, const Seen&
     return t > seen.from && t <= seen.to ? t : none;
 }
 
-// Of a skin's triangle, all particles that hold its corners; where something is cut, those that go with it
-// alone, since the cell of a corner may be parted.
+// Adds all particles that hold the corners of a skin triangle; in a cut state only the anchors of the
+// corners, since the cell of a corner may be cut apart.
 void addHolders(const sim::Skin& skin, const SeenCuts::Triangle& triangle, bool isCut,
                 std::vector<std::uint32_t>& holders) {
     for (const std::uint32_t corner : triangle)
@@ -74,7 +74,7 @@ struct Nearest {
     std::vector<std::uint32_t> holders;
 };
 
-// Of the body that a skin is of: what is laid open lies between them.
+// Adds all particles of the skin's body: the opened inside lies between them.
 void addBody(const sim::Scene& scene, const sim::Skin& skin, std::vector<std::uint32_t>& holders) {
     const std::uint32_t one = skin.cells.empty() ? skin.particles[0] : skin.cells[0].particles[0];
     for (const sim::Body& body : scene.bodies)
@@ -82,7 +82,7 @@ void addBody(const sim::Scene& scene, const sim::Skin& skin, std::vector<std::ui
             for (std::uint32_t i = 0; i < body.particleCount; ++i) holders.push_back(body.firstParticle + i);
 }
 
-// Skins, and the surface of cuts in them: both together are closed where a skin is.
+// Tests skins and the surface of cuts, which are closed together if the skin is closed.
 class SkinPicker {
 public:
     SkinPicker(const sim::Scene& scene, const Ray& ray, const SeenState& state, const Seen& seen)
@@ -107,7 +107,7 @@ public:
         if (state_.cuts) lookAtCuts(*state_.cuts, nearest);
     }
 
-    // Where the ray enters what a section has left, inside of something.
+    // Hit at the section plane, if the ray enters a body there.
     void lookInside(const std::vector<bool>& isClosed, Nearest& nearest) const {
         for (std::size_t s = 0; s < windings_.size(); ++s) {
             if (windings_[s] == 0 || !isClosed[s]) continue;
@@ -119,7 +119,7 @@ public:
 private:
     struct Place {
         std::uint32_t skin = 0, firstVertex = 0;
-        bool areOfAll = false; // corners of triangles: vertices of all skins, or of this one
+        bool areOfAll = false; // indices refer to vertices of all skins, not of this one
     };
     void lookAt(const Place& place, std::span<const SeenCuts::Triangle> triangles, Nearest& nearest) {
         const std::uint32_t own = place.areOfAll ? place.firstVertex : 0, all = place.firstVertex - own;
@@ -132,8 +132,8 @@ private:
         }
     }
 
-    // One that is clipped goes with its anchors, one that stretches over cuts with whatever it hangs on
-    // (sim/cutting/crumb_skins).
+    // Whether a triangle is removed: a clipped skin follows its anchors, a stretched one every particle it
+    // depends on (sim/cutting/crumb_skins).
     bool isGone(const sim::Skin& skin, const SeenCuts::Triangle& triangle) const {
         if (!hasCrumbs_) return false;
         return std::ranges::any_of(triangle, [&](std::uint32_t corner) {
@@ -155,7 +155,7 @@ private:
         }
     }
 
-    // Of a vertex of the surface of cuts.
+    // Adds the holders of a vertex of the surface of cuts.
     void addHoldersOf(std::uint32_t s, const SeenCuts& cuts, std::uint32_t vertex,
                       std::vector<std::uint32_t>& holders) const {
         const std::uint32_t point = cuts.rest[vertex].point;
@@ -177,7 +177,7 @@ private:
         return static_cast<std::uint32_t>(first);
     }
 
-    // True where it is the nearest until now; that has no holders yet then.
+    // Whether the triangle is the nearest hit so far; `nearest` then has no holders yet.
     bool meets(std::uint32_t s, const Vector3& a, const Vector3& b, const Vector3& c, Nearest& nearest) {
         bool isBack = false;
         const float distance = meetsTriangle(ray_, a, b, c, isBack);
@@ -192,7 +192,7 @@ private:
     const Ray& ray_;
     const SeenState& state_;
     const Seen& seen_;
-    std::vector<int> windings_; // by skin, around where the ray enters what is left
+    std::vector<int> windings_; // by skin: winding number around the entry point at the section
     bool hasCrumbs_;
 };
 
@@ -249,7 +249,7 @@ float holdRadius(const sim::Scene& scene, std::uint32_t particle) {
     for (const sim::DistanceConstraint& link : scene.distances)
         if ((link.a == particle || link.b == particle) && link.restLength > 0)
             next = std::min(next, link.restLength);
-    if (next == none) return 0; // it alone
+    if (next == none) return 0; // a single particle
     Box box;
     for (const sim::Body& body : scene.bodies)
         if (particle - body.firstParticle < body.particleCount)

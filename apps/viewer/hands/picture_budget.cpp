@@ -1,4 +1,4 @@
-// Running means.
+// Estimates by running means.
 #include "viewer/hands/picture_budget.hpp"
 
 #include <algorithm>
@@ -8,11 +8,11 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr double newest = 0.25; // share of the newest value in a mean
+constexpr double newest = 0.25; // weight of the newest value in a mean
 constexpr std::uint32_t fewestPictures =
-    6;                          // between changes of scale: the first of a scale is not like the others
-constexpr double cheap = 0.02;  // [s] for all but the steps: fewer pixels would save little
-constexpr double reserve = 0.8; // of either limit, before there are more pixels
+    6;                          // between changes of scale: the first picture of a scale is untypical
+constexpr double cheap = 0.02;  // [s] besides steps: fewer pixels would save little
+constexpr double reserve = 0.8; // of either limit, before pixels increase again
 
 double mean(double before, double value) {
     return before == 0 ? value : before + newest * (value - before);
@@ -36,7 +36,7 @@ std::uint32_t PictureBudget::steps(std::uint32_t most) const {
     return static_cast<std::uint32_t>(std::clamp(affordable, 1.0, static_cast<double>(std::max(most, 1u))));
 }
 
-// Of four times the pixels the rest of a picture takes four times as long at most.
+// With four times the pixels, the rest of a picture takes at most four times as long.
 void PictureBudget::chooseScale() {
     const std::size_t before = scale_;
     const double larger = 4 * rest_;

@@ -1,4 +1,4 @@
-// Copies whole buffers: how much of them is in use only the device knows, and cuts are rare.
+// Copies whole buffers: only the device knows how much of them is in use, and cuts are rare.
 #include "viewer/hands/piece_probe.hpp"
 
 #include "app/drawn.hpp"

@@ -1,4 +1,4 @@
-// A place of Step::grabs each.
+// Each pin has one entry of Step::grabs.
 #include "viewer/hands/pins.hpp"
 
 #include <algorithm>
@@ -6,13 +6,13 @@
 
 namespace sinew::viewer {
 
-// A hand without a place lets go.
+// A grab with a NaN target holds nothing.
 sim::Grab emptyHand() {
     constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
     return {.target = {nowhere, nowhere, nowhere}};
 }
 
-// Harder than the pointer's hand, and critically damped: gravity moves what it holds by a millimetre.
+// Stiffer than the pointer's grab and critically damped: gravity moves the held point by a millimetre.
 bool Pins::add(const Hand& hand, float radius) {
     const auto free = std::ranges::find_if(hands_, [](const std::optional<Hand>& one) { return !one; });
     if (free == hands_.end()) return false;

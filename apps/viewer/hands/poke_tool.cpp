@@ -1,4 +1,4 @@
-// Down, asked, answered, up.
+// States of a poke: pressed, asked, answered, released.
 #include "viewer/hands/poke_tool.hpp"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ void PokeTool::putAway() {
     radius_ = ofSize * size_;
 }
 
-// What a plane and the sphere both push would be put where neither wants it.
+// Moves the sphere off the planes: a particle pushed by both would be placed wrongly.
 std::optional<sim::Poke> PokeTool::poke() const {
     if (!center_) return std::nullopt;
     Vector3 at = *center_;

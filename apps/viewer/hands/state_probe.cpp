@@ -1,4 +1,4 @@
-// Copies in mapped memory.
+// Copies into mapped memory.
 #include "viewer/hands/state_probe.hpp"
 
 #include "sim/compile.hpp"

@@ -1,6 +1,5 @@
-// Asked are the first place of a stroke and then always the newest; where that lies beside all bodies, by
-// halves, where the stroke has left one or come to it. What a stroke crosses between two such questions it
-// does not see.
+// Asks for the first point of a stroke, and then for the newest one. If that one misses, bisection finds
+// where the stroke has left or met a body. A body crossed entirely between two such points is missed.
 #include "viewer/hands/waiting_stroke.hpp"
 
 #include <algorithm>
@@ -26,7 +25,7 @@ std::deque<WaitingStroke::Place> WaitingStroke::takeUnsettled() {
     return places;
 }
 
-// Of the oldest stroke, as far as it has come.
+// Number of waiting points of the oldest stroke.
 std::size_t WaitingStroke::length() const {
     std::size_t count = waiting_.empty() ? 0 : 1;
     while (count < waiting_.size() && !waiting_[count].isFirst) ++count;
@@ -47,7 +46,7 @@ void WaitingStroke::ask() {
             askAt(low_ + (high_ - low_) / 2);
         } else if (beside_ > 0 && surface_) {
             settle(beside_, *surface_);
-        } else if (beside_ > 1) { // the way to the bodies
+        } else if (beside_ > 1) { // points before the first hit
             drop(beside_ - 1);
             waiting_.front().isFirst = true;
         } else if (length() > beside_) {
@@ -81,7 +80,7 @@ void WaitingStroke::answer(const std::optional<float>& surface) {
     ask();
 }
 
-// Evenly from the last one; all that are before the first are as far away.
+// Interpolates linearly from the last settled point; points before the first hit get its distance.
 void WaitingStroke::settle(std::size_t count, float to) {
     const float from = surface_.value_or(to);
     for (std::size_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// Notches: two double the stiffness, the others are a twentieth to a fortieth of what their sliders reach.
+// Sizes of a notch: two double the stiffness; others are a twentieth to a fortieth of the slider's range.
 #include "viewer/panels/knob_keys.hpp"
 
 #include <algorithm>
@@ -17,12 +17,12 @@ std::string textOf(const char* format, float value) {
     return text;
 }
 
-// By whole notches, so that the way back ends where it began.
+// Changes a value by whole notches, so that the way back ends at the start.
 float notched(float value, float notch, int by) {
     return notch * (std::round(value / notch) + static_cast<float>(by));
 }
 
-// By the square root of two, likewise.
+// Changes a factor by the square root of two, in whole notches.
 float multiplied(float factor, int by) {
     return std::exp2((std::round(2 * std::log2(factor)) + static_cast<float>(by)) / 2);
 }

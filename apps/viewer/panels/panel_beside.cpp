@@ -1,4 +1,4 @@
-// Two solvers side by side: what a step of each costs, and how wrong it is.
+// Comparison of two solvers: time of a step, and error.
 #include "viewer/panels/panel_parts.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Curve sumOfPhases(const std::vector<PhaseCurve>& phases) {
     return sums;
 }
 
-// Two lines on one scale, which `largest` is of; a slow step is cut off.
+// Plots two curves on one scale, for which `largest` is shown; outliers are clipped.
 void bothPlot(const Curve& left, const Curve& right, const char* format, double factor) {
     const float most = std::max({1.2f * left.quantile(0.9f), 1.2f * right.quantile(0.9f), 1e-9f});
     ImGui::Spacing();

@@ -1,4 +1,4 @@
-// Boxes of triangles, joined where they are close and taken apart where they lie over each other.
+// Computes boxes of triangles, joins near ones, and splits overlapping ones.
 #include "viewer/panels/panel_cover.hpp"
 
 #include "viewer/draw/geometry.hpp"
@@ -12,7 +12,7 @@ namespace sinew::viewer {
 
 namespace {
 
-// From the upper left corner on [pixels]; nothing where `low` is not below `high`.
+// From the upper left corner [pixels]; empty unless `low` is below `high`.
 struct Part {
     Vector2 low = Vector2::Constant(1e9f), high = Vector2::Constant(-1e9f);
 
@@ -27,7 +27,7 @@ struct Part {
     bool isEmpty() const { return (low.array() >= high.array()).any(); }
 };
 
-// Joins those that are close to each other until none are.
+// Joins parts closer than `apart` until none are left.
 void join(std::vector<Part>& parts, float apart) {
     for (bool isJoined = true; std::exchange(isJoined, false);)
         for (std::size_t a = 0; a < parts.size(); ++a)
@@ -39,7 +39,7 @@ void join(std::vector<Part>& parts, float apart) {
                 }
 }
 
-// Of `count` indices from `first` on.
+// The box of `count` indices from `first` on.
 Part partOf(const ImDrawList& list, const ImDrawCmd& command, unsigned first, unsigned count) {
     Part part;
     for (unsigned n = first; n < first + count; ++n) {
@@ -53,7 +53,7 @@ Part partOf(const ImDrawList& list, const ImDrawCmd& command, unsigned first, un
     return part;
 }
 
-// Calls `visit(command, part)` for every `count` indices in which something is.
+// Calls `visit(command, part)` for every `count` indices whose box is not empty.
 template <typename Visit> void eachPart(const ImDrawData& drawn, unsigned count, const Visit& visit) {
     for (int i = 0; i < drawn.CmdListsCount; ++i)
         for (const ImDrawCmd& command : drawn.CmdLists[i]->CmdBuffer)
@@ -63,7 +63,7 @@ template <typename Visit> void eachPart(const ImDrawData& drawn, unsigned count,
             }
 }
 
-// Where triangles are. Those that are drawn one after another are mostly of one panel.
+// Boxes of the triangles. Consecutive triangles mostly belong to one panel.
 std::vector<Part> partsOf(const ImDrawData& drawn, float apart) {
     std::vector<Part> parts;
     eachPart(drawn, 3, [&](const ImDrawCmd&, const Part& part) {
@@ -78,13 +78,13 @@ std::vector<Part> partsOf(const ImDrawData& drawn, float apart) {
     return parts;
 }
 
-// Whole pixels: all that it touches, or those that are in it.
+// Rounds to whole pixels: inwards or outwards.
 Part rounded(const Part& part, bool isInner) {
     if (isInner) return {part.low.array().ceil(), part.high.array().floor()};
     return {part.low.array().floor(), part.high.array().ceil()};
 }
 
-// What is left of `parts` beside an area, above and below it, and at its sides.
+// Subtracts an area from `parts`: the rests above, below, left and right of it.
 std::vector<Part> without(const std::vector<Part>& parts, const Part& area) {
     std::vector<Part> left;
     for (const Part& part : parts) {
@@ -118,9 +118,9 @@ std::vector<VkRect2D> within(const std::vector<Part>& parts, VkExtent2D extent) 
 
 } // namespace
 
-// An area is two triangles, so what they cover is it.
+// An area consists of two triangles, so it is their box.
 PanelCover coverOf(const ImDrawData& drawn, VkExtent2D extent) {
-    constexpr float apart = 8; // [pixels]: closer parts are one
+    constexpr float apart = 8; // [pixels]: closer parts are joined
     std::vector<Part> areas, parts = partsOf(drawn, apart);
     for (Part& part : parts) part = rounded(part, false);
     join(parts, 0);

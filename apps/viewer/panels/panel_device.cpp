@@ -1,4 +1,4 @@
-// What everything runs on, and what else it could run on.
+// The present device, and the other devices to choose from.
 #include "viewer/panels/panel_parts.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ bool isUsable(const vk::DeviceDescription& device) {
     return device.missing.empty();
 }
 
-// Two lines: its name, then its type and driver; of one that cannot be used, why. True where it was chosen.
+// Draws two lines for a device: name, then type and driver, or why it cannot be used. True if chosen.
 bool entry(const vk::DeviceDescription& device, bool isCurrent) {
     const bool isSoftware = device.type == "software";
     const ImVec2 at = ImGui::GetCursorPos();

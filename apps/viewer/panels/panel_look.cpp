@@ -1,4 +1,4 @@
-// What is drawn of the bodies, and the legend of its colors.
+// The layers of the bodies, and the legends of their colours.
 #include "viewer/panels/panel_parts.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ constexpr std::array skinNames{"Skin", "Glass", "No skin"};
 constexpr std::array<float, 3> sharedColor{0.79f, 0.0f, 0.21f}; // cell.vert
 constexpr std::array mapNames{"Colors", "Strain", "Speed", "Sleep"};
 
-// "2 %", "0.5 m/s".
+// A value with its unit: "2 %", "0.5 m/s".
 std::string valueText(ColorMap map, float value) {
     char text[32];
     std::snprintf(text, sizeof text, map == ColorMap::strain ? "%.3g %%" : "%.3g m/s",
@@ -21,7 +21,7 @@ std::string valueText(ColorMap map, float value) {
     return text;
 }
 
-// As the screen shows it.
+// Converts linear RGB to sRGB.
 ImU32 shown(const std::array<float, 3>& linear) {
     const auto encoded = [](float x) {
         return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
@@ -53,7 +53,7 @@ void colorSwatch(const std::array<float, 3>& color, const char* name) {
     ImGui::TextUnformatted(name);
 }
 
-// Two colors, and how many there are of each.
+// Legend of two colours with the number of particles of each.
 void sleepLegend(const Facts& facts, std::size_t particles) {
     const auto colors = mapColors();
     colorSwatch(colors.back(), "awake");
@@ -81,11 +81,11 @@ void legend(const Facts& facts, std::size_t particles) {
     char beyond[48];
     std::snprintf(beyond, sizeof beyond, "%.2g %%, up to ", 100 * double{facts.map.beyond});
     const std::string limit = std::string(map == ColorMap::strain ? "strain beyond " : "faster than ") +
-                              valueText(map, facts.map.range); // of this state, whatever the colors reach to
+                              valueText(map, facts.map.range); // of this state, not the colours' range
     row(limit.c_str(), beyond + valueText(map, facts.map.largest));
 }
 
-// A square a class, in the order in which they are solved; their numbers in a tip.
+// Legend with a square per class, in the order of solving; link counts in a tooltip.
 void linkLegend(const LinkFacts& links) {
     const float side = 0.8f * ImGui::GetTextLineHeight(), between = 0.5f * ImGui::GetStyle().ItemSpacing.x;
     if (links.classes.size() > 1) {
@@ -107,7 +107,7 @@ void linkLegend(const LinkFacts& links) {
     if (links.fixed > 0) row("links that nobody corrects", grouped(links.fixed));
 }
 
-// Under the bar from one to as many as are in a cell, grid by grid: all of them have the same colors.
+// Legend of cells: a bar of colours from one item to the fullest cell, for all grids, and their counts.
 void cellLegend(const std::vector<GridFacts>& grids) {
     if (grids.empty()) return wrapped("no grid here: nothing can meet that is looked for in one", quiet());
     std::uint32_t most = 0, shared = 0;
@@ -129,7 +129,7 @@ void cellLegend(const std::vector<GridFacts>& grids) {
     row("", grouped(shared));
 }
 
-// Its plane's buttons, and where it is.
+// Buttons and offset of the section plane.
 void section(const Facts& facts, Wishes& wishes) {
     const std::optional<Section>& section = facts.layers.section;
     const float width = buttonWidth(3);

@@ -1,5 +1,5 @@
-// Triangles of all panels go into two buffers a slot, which grow and never shrink, and from there into an
-// image, of which pictures get those parts in which something is.
+// Triangles of all panels go into two buffers per slot, which only grow, and are drawn into an image;
+// pictures get the parts of that image that are not empty.
 #include "viewer/panels/panel_painter.hpp"
 
 #include "viewer/panel.h"
@@ -35,7 +35,7 @@ constexpr std::array textures{
                                  .descriptorCount = 1,
                                  .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT}};
 
-// Whether the picture encodes what is written, as sRGB (panel.vert, panel_picture.frag).
+// Whether the target encodes sRGB (panel.vert, panel_picture.frag).
 std::array<vk::SpecialisationConstant, 1> srgbConstant(VkFormat format) {
     const bool encodes = format == VK_FORMAT_B8G8R8A8_SRGB || format == VK_FORMAT_R8G8B8A8_SRGB;
     return {vk::SpecialisationConstant{0, encodes ? 1u : 0u}};
@@ -58,7 +58,7 @@ Pipeline makePipeline(const vk::Device& device, const char* name, const vk::Shad
              .constants = constants}};
 }
 
-// At least `bytes` long; a new one has room for half as much again.
+// Grows the buffer to at least `bytes`; a new one is half as large again.
 void grow(std::optional<vk::Buffer>& buffer, const vk::Device& device, const char* name, std::size_t bytes,
           VkBufferUsageFlags usage) {
     if (buffer && buffer->count() * 4 >= bytes) return;
@@ -181,7 +181,7 @@ void PanelPainter::upload(Slot& slot, const ImDrawData& drawn) {
 
 void PanelPainter::begin(VkCommandBuffer commands, const RenderPass& pass,
                          VkFramebuffer framebuffer) const noexcept {
-    constexpr VkClearValue clear{}; // nothing, and all of it is seen through
+    constexpr VkClearValue clear{}; // transparent
     const VkRenderPassBeginInfo info{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
                                      .renderPass = pass.handle(),
                                      .framebuffer = framebuffer,

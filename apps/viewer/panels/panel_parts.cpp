@@ -1,4 +1,4 @@
-// What the parts share: colors, rows, buttons, headings; and who draws this.
+// Shared parts of the panels: colours, rows, buttons, headings.
 #include "viewer/panels/panel_parts.hpp"
 
 #include <algorithm>
@@ -89,7 +89,7 @@ void button(Action action, Wishes& wishes, float width, bool isOn, const char* n
     const auto binding = std::ranges::find(bindings(), action, &Binding::action);
     const std::string label = name != nullptr ? name : std::string(binding->button);
     if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, {0.34f, 0.70f, 0.91f, 0.45f});
-    ImGui::PushID(static_cast<int>(action)); // the name may change while it is pressed
+    ImGui::PushID(static_cast<int>(action)); // the label may change while the button is pressed
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2, ImGui::GetStyle().FramePadding.y});
     if (ImGui::Button((label + "###button").c_str(), {width, 0})) wishes.actions.push_back(action);
     ImGui::PopStyleVar();

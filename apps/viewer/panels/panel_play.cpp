@@ -1,4 +1,4 @@
-// Buttons for everything that a key does.
+// Buttons for the actions of keys.
 #include "viewer/panels/panel_parts.hpp"
 
 #include <cstdio>
@@ -7,7 +7,7 @@ namespace sinew::viewer::parts {
 
 namespace {
 
-// "12.34 s, step 740".
+// Text such as "12.34 s, step 740".
 std::string timeText(const Facts& facts) {
     char text[64];
     std::snprintf(text, sizeof text, "%.2f s, step %llu", facts.time,

@@ -1,4 +1,4 @@
-// What lies under the pointer, beside it.
+// The properties of the particle under the pointer, in a window beside it.
 #include "viewer/panels/panel_parts.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ void rows(const Found& found) {
 
 } // namespace
 
-// On the side of the pointer where there is room.
+// Places the window on the side of the pointer that has room.
 void probe(const Facts& facts, float scale, float free) {
     if (!facts.isInspecting) return;
     const ImVec2 all = ImGui::GetIO().DisplaySize, pointer = ImGui::GetIO().MousePos;

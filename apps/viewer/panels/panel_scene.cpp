@@ -1,4 +1,4 @@
-// Which scene is on show, and what can be turned in it.
+// The scene on show, the list of scenes, and the adjustable parameters.
 #include "viewer/panels/knob_keys.hpp"
 #include "viewer/panels/panel_parts.hpp"
 #include "viewer/panels/panels.hpp"
@@ -14,7 +14,7 @@ namespace sinew::viewer::parts {
 
 namespace {
 
-// A quiet name, and on the right of it room for something to turn.
+// Writes a name in quiet text and leaves the right side for a control.
 void knob(const char* name) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(quiet(), "%s", name);
@@ -27,12 +27,12 @@ void tip(const char* text) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
-// A factor of 1 is in the middle.
+// A slider with factor 1 in the middle.
 bool factorSlider(float& factor) {
     return ImGui::SliderFloat("##stiffness", &factor, 0.01f, 100, "x %.3g", ImGuiSliderFlags_Logarithmic);
 }
 
-// Which body's stiffness the slider turns.
+// Selects the body whose stiffness the slider changes.
 void bodyCombo(const SceneFacts& scene, int& body) {
     const auto nameOf = [&](int i) {
         return i < 0 ? "all bodies" : scene.bodies[static_cast<std::size_t>(i)].c_str();
@@ -68,7 +68,7 @@ bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
     return isTurned;
 }
 
-// Its right end is through.
+// The slider's right end means through.
 bool bladeKnob(const Facts& facts, Knobs& turned) {
     const auto [least, most] = facts.bladeDepths;
     const float through = 1.05f * most;
@@ -82,7 +82,7 @@ bool bladeKnob(const Facts& facts, Knobs& turned) {
     return isTurned;
 }
 
-// Which is in the sheet one under the other, as many as there are places for.
+// Draws the preview of a scene, or requests it, if the sheet has room for it.
 void preview(const Facts& facts, std::size_t scene, const ImVec2& from, const ImVec2& to, Wishes& wishes) {
     const std::size_t count = facts.previews.size();
     ImDrawList* list = ImGui::GetWindowDrawList();
@@ -96,7 +96,7 @@ void preview(const Facts& facts, std::size_t scene, const ImVec2& from, const Im
                    {1, row(scene + 1)});
 }
 
-// A picture beside each name.
+// The list of scenes, with a preview beside each name.
 void sceneList(const Facts& facts, Wishes& wishes) {
     const float height = 3.6f * ImGui::GetFontSize(), between = ImGui::GetStyle().ItemSpacing.x;
     const float width = height * static_cast<float>(PictureSheet::extent.width) /
@@ -117,14 +117,14 @@ void sceneList(const Facts& facts, Wishes& wishes) {
     }
 }
 
-// As shells understand it.
+// Expands ~/ like a shell.
 std::string expanded(const char* path) {
     const char* home = std::getenv("HOME");
     const bool isOfHome = path[0] == '~' && path[1] == '/' && home != nullptr;
     return isOfHome ? std::string(home) + (path + 1) : path;
 }
 
-// Enter opens what was typed; Esc, or a click elsewhere, takes the line away.
+// A text field for a path: Enter opens it; Esc or a click elsewhere closes the field.
 void pathLine(PathField& path, Wishes& wishes) {
     if (!path.isShown) return;
     if (std::exchange(path.wantsKeys, false)) ImGui::SetKeyboardFocusHere();
@@ -184,13 +184,13 @@ void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     }
     tip("acts when it is worked out");
     Knobs shown = facts.knobs;
-    shown.body = scene.fromFile.body; // which one is looked at changes nothing
+    shown.body = scene.fromFile.body; // the selected body is not a change
     if (shown != scene.fromFile && ImGui::Button("As in the file", {contentWidth(), 0})) {
         turned = scene.fromFile;
         isTurned = true;
     }
     turned.substeps = std::clamp(turned.substeps, 0, mostSubsteps);
-    limitGravity(turned); // typed
+    limitGravity(turned); // typed values have no limits
     turned.pace = std::clamp(turned.pace, 0.01f, 1.0f);
     if (isTurned && turned != facts.knobs) wishes.knobs = turned;
 }

@@ -1,5 +1,4 @@
-// Speed beside error: what each step costs, phase by phase, and how far links are from the length they should
-// have.
+// Speed and error: the time of a step by phase, and the strain of links.
 #include "viewer/panels/panel_parts.hpp"
 
 #include <algorithm>
@@ -16,7 +15,7 @@ std::string number(const char* format, double value) {
     return text;
 }
 
-// 1, 2 or 5 times a power of ten that is at least `value`.
+// The smallest of 1, 2 and 5 times a power of ten that is at least `value`.
 float roundUp(float value) {
     const float power = std::pow(10.0f, std::floor(std::log10(std::max(value, 1e-6f))));
     for (const float step : {1.0f, 2.0f, 5.0f})
@@ -24,7 +23,7 @@ float roundUp(float value) {
     return 10 * power;
 }
 
-// A quiet field with its scale in the upper left corner; returns where it is.
+// A plot area with its scale in the upper left corner.
 struct Field {
     ImVec2 from, to;
     float most = 1;
@@ -53,7 +52,7 @@ void label(const Field& field, const std::string& text) {
         text.c_str());
 }
 
-// Columns of phases on top of each other, the newest on the right.
+// A plot of stacked phases, the newest step on the right.
 void phasePlot(const std::vector<PhaseCurve>& phases) {
     const std::size_t count = phases.front().ms.count();
     Curve sums;
@@ -62,7 +61,7 @@ void phasePlot(const std::vector<PhaseCurve>& phases) {
         for (const PhaseCurve& phase : phases) sum += phase.ms.at(i);
         sums.add(sum);
     }
-    // One slow step (a driver compiles what has never run before) is cut off at the top.
+    // The scale clips outliers, such as a step in which a driver compiles.
     const Field field =
         makeField(5 * ImGui::GetTextLineHeight(), std::max(1.2f * sums.quantile(0.9f), 0.01f));
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -80,7 +79,7 @@ void phasePlot(const std::vector<PhaseCurve>& phases) {
     label(field, number("%g ms", double{field.most}));
 }
 
-// A square of the color, as a head of the line that follows.
+// A coloured square before a line of text.
 void swatch(ImU32 color) {
     const float side = std::round(0.6f * ImGui::GetTextLineHeight());
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -97,7 +96,7 @@ void legend(const std::vector<PhaseCurve>& phases) {
     }
 }
 
-// A line through the newest values, of which the last ends at the right.
+// Draws a curve of the newest values, which ends at the right.
 void line(const Field& field, const Curve& curve, ImU32 color) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const std::size_t first = Curve::length - curve.count();

@@ -1,4 +1,4 @@
-// What the step consists of and what it has found: counts, cuts, the list of passes.
+// Contents and results of a step: counts, cuts, the list of passes.
 #include "viewer/panels/panel_parts.hpp"
 
 namespace sinew::viewer::parts {

@@ -1,4 +1,4 @@
-// Layout: one panel on the right, a line at the foot of the picture, and over both what must be read now.
+// Layout: one panel on the right, a line at the foot of the picture, and messages over both.
 #include "viewer/panels/panels.hpp"
 
 #include "viewer/panels/panel_parts.hpp"
@@ -17,15 +17,15 @@ namespace sinew::viewer {
 namespace {
 
 constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200; // at a scale of 1 [pixels]
-constexpr int mostPicturesUnfocused = 20; // of a line that is to take keys
-constexpr float roomBeside = 2.6f; // the picture is at least this many panels wide, or they start hidden
+constexpr int mostPicturesUnfocused = 20; // that a text field may wait for keys
+constexpr float roomBeside = 2.6f;        // in panels: least width of a picture that shows panels at first
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                                   ImGuiWindowFlags_NoFocusOnAppearing; // somebody may be typing
+                                   ImGuiWindowFlags_NoFocusOnAppearing; // keeps the focus of a text field
 
-// What Debian, Fedora and Arch call it; without any the font that Dear ImGui has built in.
+// The font's file in Debian, Fedora and Arch; without any, Dear ImGui's built-in font.
 const char* findFont() {
     for (const char* file :
          {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -141,7 +141,7 @@ void mapKeys(ImGuiIO& io) {
 
 Panels::Panels(float scale) : context_(ImGui::CreateContext()), scale_(scale) {
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = io.LogFilename = nullptr; // nothing is written behind anybody's back
+    io.IniFilename = io.LogFilename = nullptr; // writes no files
     io.BackendRendererName = "sinew";
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     mapKeys(io);
@@ -188,7 +188,7 @@ bool Panels::takesKeys() const {
     return ImGui::GetIO().WantTextInput || isAsking();
 }
 
-// A line that is not seen gets no keys.
+// A hidden text field gets no keys.
 bool Panels::isAsking() const {
     return path_.isShown && isShown(lastExtent_);
 }
@@ -198,7 +198,7 @@ const ImDrawData& Panels::drawn() const {
 }
 
 void Panels::askForFile() {
-    closeHelp(); // it lies over all else
+    closeHelp(); // the help covers everything
     if (!isShown(lastExtent_)) toggle();
     path_ = {.isShown = true, .wantsKeys = true};
     early_ = {};
@@ -216,7 +216,7 @@ void Panels::feed(const PanelInput& input, VkExtent2D extent, double seconds) {
     feedTyped(input);
 }
 
-// Down in a picture for each press, and up in one between two.
+// Presses the button in one picture for each press, and releases it in one picture in between.
 void Panels::feedButton(const PanelInput& input, std::size_t button) {
     bool& isDown = ImGui::GetIO().MouseDown[button];
     int& owed = owed_[button];
@@ -229,7 +229,7 @@ void Panels::feedButton(const PanelInput& input, std::size_t button) {
     }
 }
 
-// What is typed before the line for a path takes keys, waits for it.
+// Holds keys that are typed before the text field for a path has the focus.
 void Panels::feedTyped(const PanelInput& input) {
     const bool isEarly = isAsking() && !ImGui::GetIO().WantTextInput;
     early_.keys.insert(early_.keys.end(), input.keys.begin(), input.keys.end());
@@ -243,7 +243,7 @@ void Panels::feedTyped(const PanelInput& input) {
     for (const unsigned character : typed.characters) ImGui::GetIO().AddInputCharacter(character);
 }
 
-// A key that went down and up between two pictures is down in one.
+// A key pressed and released between two pictures is down in one of them.
 void Panels::feedKeys(const PanelInput& input) {
     ImGuiIO& io = ImGui::GetIO();
     for (const int key : released_) io.KeysDown[key] = false;
@@ -277,7 +277,7 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     return wishes;
 }
 
-// What reaches over a panel's edge (a list that was opened) is a window of its own.
+// Adds all top-level windows: popups may extend beyond a panel.
 void Panels::remember() {
     covered_.clear();
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
@@ -291,8 +291,8 @@ void Panels::remember() {
 
 namespace {
 
-// Of the window that is being built, in place of its own: not mixed with the picture, which takes a software
-// device longer than all else in it. Its round ends are.
+// Draws the background of the present window: opaque without blending, which would take a software device
+// longer than everything else in the window. Only the rounded ends are blended.
 void addGround() {
     if (ImGui::GetCurrentWindow()->Hidden) return; // it has no size yet
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -355,7 +355,7 @@ void Panels::buildNotice(const Facts& facts, VkExtent2D extent) {
     if (facts.notice.empty()) return;
     const float edge = gap * scale_;
     const float all = static_cast<float>(extent.width) - 2 * edge;
-    const float beside = all - (isShown(extent) ? sidePanel * scale_ + edge : 0); // of the panel
+    const float beside = all - (isShown(extent) ? sidePanel * scale_ + edge : 0); // width beside the panel
     const float width = std::min(560 * scale_, beside >= leastNotice * scale_ ? beside : all);
     ImGui::SetNextWindowPos({edge, edge});
     ImGui::SetNextWindowSize({width, 0});

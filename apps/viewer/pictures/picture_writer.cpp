@@ -1,4 +1,4 @@
-// One task per file.
+// Uses one task per file.
 #include "viewer/pictures/picture_writer.hpp"
 
 #include <chrono>

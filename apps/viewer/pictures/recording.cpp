@@ -1,4 +1,4 @@
-// A video or a folder.
+// Chooses between a video and a folder.
 #include "viewer/pictures/recording.hpp"
 
 #include "app/guard.hpp"
@@ -13,7 +13,7 @@ fs::path freeName(std::string name, const std::string& extension, const fs::path
     for (char& c : name)
         if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < 32) c = '_';
     fs::path file = folder / (name + extension);
-    std::error_code error; // what cannot be looked at will not be written either, and then says why
+    std::error_code error; // an inaccessible folder fails later, at writing
     for (int copy = 2; fs::exists(file, error); ++copy)
         file = folder / (name + "-" + std::to_string(copy) + extension);
     return file;
@@ -48,7 +48,7 @@ void Recording::add(Picture picture, PictureText text) {
 void Recording::finish() {
     std::error_code ignored;
     if (count_ == 0) {
-        if (!video_) fs::remove(target_, ignored); // an empty folder
+        if (!video_) fs::remove(target_, ignored); // only if empty
         return video_.reset();
     }
     if (video_) return video_->finish();

@@ -35,7 +35,7 @@ std::string findOnPath(const std::string& program) {
 std::vector<std::string> ffmpegArguments(std::uint32_t width, std::uint32_t height, double rate,
                                          const std::string& output) {
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
-    // yuv420p with even sides is what every player shows.
+    // yuv420p with even sides plays everywhere.
     const std::string even =
         "crop=" + std::to_string(width / 2 * 2) + ":" + std::to_string(height / 2 * 2) + ":0:0";
     return {"ffmpeg",
@@ -97,7 +97,7 @@ void Video::start(const std::string& program, const std::vector<std::string>& ar
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
     posix_spawnattr_t
-        attributes; // a group of its own: Ctrl + C is for this program, which then ends the video
+        attributes; // a process group of its own: Ctrl + C stops only this program, which then ends the video
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     posix_spawnattr_setpgroup(&attributes, 0);
@@ -115,7 +115,7 @@ void Video::start(const std::string& program, const std::vector<std::string>& ar
 
 namespace {
 
-// An encoder that has ended, as of a full disk, ends a film: SIGPIPE would be taken for a wish to end all.
+// Writes without SIGPIPE, which would end the program if an encoder has failed, for example on a full disk.
 ssize_t writeQuietly(int pipe, const void* bytes, std::size_t size) {
     sigset_t broken, before;
     sigemptyset(&broken);
@@ -124,7 +124,7 @@ ssize_t writeQuietly(int pipe, const void* bytes, std::size_t size) {
     const ssize_t written = ::write(pipe, bytes, size);
     const int error = errno;
     const timespec atOnce{};
-    if (written != static_cast<ssize_t>(size)) // what was partly written may have raised it, too
+    if (written != static_cast<ssize_t>(size)) // a partial write may have raised it, too
         ::sigtimedwait(&broken, nullptr, &atOnce);
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     errno = error;
@@ -165,7 +165,7 @@ Video::~Video() {
         ::kill(process_, SIGKILL);
         waitForEnd();
     }
-    std::error_code ignored; // where it was renamed there is nothing to remove
+    std::error_code ignored; // nothing to remove after the rename
     if (!partial_.empty()) std::filesystem::remove(partial_, ignored);
 }
 

@@ -1,4 +1,4 @@
-// The viewer does not link Xlib: GLFW does, or loads it.
+// Finds Xlib's functions at run time: the viewer does not link Xlib; GLFW does, or loads it.
 #include "viewer/window/display.hpp"
 
 #include "app/guard.hpp"
@@ -17,8 +17,8 @@ template <typename Function> Function find(const char* name) {
     return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
 }
 
-// Xlib ends a program whose display has gone with exit(), in the middle of whatever its other threads do. It
-// can go on instead, but GLFW cannot.
+// Ends the program at once: Xlib would call exit() while other threads run. Xlib could continue, but GLFW
+// cannot.
 [[noreturn]] void leave(const std::string& kept) {
     _exit(
         app::report(app::noDevice,
@@ -40,7 +40,7 @@ int leaveAtOnce(void* /*display*/) {
     leave({});
 }
 
-// leaveWith() comes next.
+// Prints nothing; Xlib calls leaveWith() next.
 int keepQuiet(void* /*display*/) {
     return 0;
 }
@@ -68,7 +68,7 @@ void widenDisplay() {
     const auto connection = find<int (*)(void* display)>("XConnectionNumber");
     void* const display = openDisplay();
     if (connection && display != nullptr)
-        setsockopt(connection(display), SOL_SOCKET, SO_SNDBUF, &wide, sizeof(wide)); // slower without
+        setsockopt(connection(display), SOL_SOCKET, SO_SNDBUF, &wide, sizeof(wide)); // slower on failure
 }
 
 } // namespace sinew::viewer

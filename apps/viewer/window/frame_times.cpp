@@ -1,4 +1,4 @@
-// Sorted when somebody asks.
+// Sorts the values when a quantile is requested.
 #include "viewer/window/frame_times.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A queue of texts.
+// The queue of messages.
 #include "viewer/window/notices.hpp"
 
 #include <algorithm>

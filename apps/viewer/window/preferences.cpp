@@ -1,4 +1,4 @@
-// A small table of keys, read and written alike.
+// One table of keys serves reading and writing.
 #include "viewer/window/preferences.hpp"
 
 #include "mesh/export.hpp"
@@ -50,7 +50,7 @@ std::string text(float number) {
 struct Key {
     std::string_view name;
     void (*read)(Preferences&, const std::string& value);
-    std::string (*write)(const Preferences&); // empty = nobody has chosen
+    std::string (*write)(const Preferences&); // empty = not chosen
 };
 
 const std::array keys{
@@ -87,7 +87,7 @@ void readLine(const std::string& line, Preferences& preferences) {
     key->read(preferences, trimmed(text.substr(equals + 1)));
 }
 
-// A byte that no terminal should get shows as a question mark.
+// Warns on stderr; replaces control bytes, which a terminal should not get, by question marks.
 void warn(const std::filesystem::path& file, const std::string& why) {
     std::string line = "warning: settings in " + file.string() + ": " + why;
     std::ranges::replace_if(
@@ -96,7 +96,7 @@ void warn(const std::filesystem::path& file, const std::string& why) {
 }
 
 std::string readWhole(const std::filesystem::path& file) {
-    constexpr std::uintmax_t most = 64 * 1024; // whatever is larger is something else
+    constexpr std::uintmax_t most = 64 * 1024; // a larger file is not ours
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error) || std::filesystem::file_size(file, error) > most)
         throw std::runtime_error("this is no file of settings: it is ignored");
@@ -172,7 +172,7 @@ void savePreferences(const std::filesystem::path& file, const Preferences& prefe
     }
 }
 
-// What no line can hold is not remembered.
+// Skips names that do not fit into a line.
 std::string rememberedScene(const std::string& file, const std::string& builtIn) {
     if (file.empty()) return builtIn;
     std::error_code error;

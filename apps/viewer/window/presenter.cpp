@@ -32,7 +32,7 @@ WindowFunctions loadFunctions(const vk::Device& device) {
     return functions;
 }
 
-// Lists come in two calls: how many, then what.
+// Calls a Vulkan list function twice: for the count, then for the elements.
 template <typename Element, typename Call> std::vector<Element> list(const Call& call, const char* name) {
     std::uint32_t count = 0;
     vk::check(call(&count, nullptr), name, "the window");
@@ -82,7 +82,7 @@ void Presenter::chooseFormat() {
         "vkGetPhysicalDeviceSurfaceFormatsKHR");
     std::array wanted{VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_UNORM,
                       VK_FORMAT_R8G8B8A8_UNORM};
-    // There what is blended or copied is decoded and encoded by arithmetic; shaders encode but once.
+    // A software device blends and copies sRGB by slow arithmetic; shaders encode only once.
     if (isSoftware(device_)) std::rotate(wanted.begin(), wanted.begin() + 2, wanted.end());
     for (const VkFormat one : wanted)
         for (const VkSurfaceFormatKHR& format : formats)
@@ -239,7 +239,7 @@ void Presenter::waitIdle() {
 }
 
 void Presenter::drain() noexcept {
-    device_.functions().vkQueueWaitIdle(queue_); // of a lost device it returns at once
+    device_.functions().vkQueueWaitIdle(queue_); // returns at once on a lost device
 }
 
 std::optional<Presenter::Frame> Presenter::begin() {
@@ -254,7 +254,7 @@ std::optional<Presenter::Frame> Presenter::begin() {
     });
     isOutdated_ = result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR;
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::nullopt;
-    vk::check(result, "vkAcquireNextImageKHR", "the window"); // a suboptimal image is drawn all the same
+    vk::check(result, "vkAcquireNextImageKHR", "the window"); // a suboptimal image is used
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     vk::check(device_.functions().vkBeginCommandBuffer(slot.commands, &info), "vkBeginCommandBuffer",

@@ -1,4 +1,4 @@
-// Prints.
+// Measures and prints.
 #include "viewer/window/timing.hpp"
 
 #include <cstdio>
@@ -23,7 +23,7 @@ double processorMilliseconds(clockid_t clock) {
 
 void Timing::firstPicture() {
     hasPicture_ = true;
-    afterInput(false, 0); // nobody waits for anything else before it
+    afterInput(false, 0); // later input is not delayed by it
     std::printf("first picture: %.0f ms after the start, %.0f ms of processor time\n",
                 milliseconds(since_ - start_), processorMilliseconds(CLOCK_PROCESS_CPUTIME_ID));
     std::fflush(stdout);
@@ -41,7 +41,7 @@ void Timing::beforeInput(bool isIdle) {
     std::fflush(stdout);
 }
 
-// An event may have come as soon as nobody looked any more; one that wakes a thread that sleeps is new.
+// An event may have come any time since the last poll, unless it woke a sleeping thread.
 void Timing::afterInput(bool isAny, std::size_t onTheirWay) {
     before_ = std::exchange(since_, Clock::now());
     workedSince_ = processorMilliseconds(CLOCK_THREAD_CPUTIME_ID);

@@ -1,4 +1,4 @@
-// GLFW's callbacks become Input.
+// Converts GLFW's callbacks to Input.
 #include "viewer/window/window.hpp"
 
 #include "app/guard.hpp"
@@ -16,7 +16,7 @@ namespace sinew::viewer {
 namespace {
 
 constexpr double mostBetweenClicks = 0.4; // [s]
-constexpr float farthestClick = 4;        // from the first [screen coordinates]
+constexpr float farthestClick = 4;        // from the first click [screen coordinates]
 
 [[noreturn]] void failWithoutDisplay() {
     const char* why = nullptr;
@@ -26,9 +26,9 @@ constexpr float farthestClick = 4;        // from the first [screen coordinates]
                                           ": use --headless --frames N --out DIR");
 }
 
-// Letters by what the layout prints on them, not by where they are on an American keyboard.
+// Looks letters up by the keyboard layout, not by their place on an American keyboard.
 int layoutKey(int key, int scancode) {
-    if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return key; // a row, whatever comes before digits on them
+    if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return key; // digits by place, whatever the layout
     const char* name = glfwGetKeyName(key, scancode);
     const bool isOneLetter = name != nullptr && name[0] != '\0' && name[1] == '\0';
     return isOneLetter ? std::toupper(static_cast<unsigned char>(name[0])) : key;
@@ -44,14 +44,14 @@ struct Window::State {
     bool wasCovered = false; // the pointer
     std::optional<Action> dragged;
     int dragButton = 0;
-    std::optional<std::optional<Action>> heldAtPress; // at the first since the last poll
-    int clicked = -1;     // button of the last press, unless that was the second of two
-    double clickTime = 0; // [s]
+    std::optional<std::optional<Action>> heldAtPress; // at the first press since the last poll
+    int clicked = -1;                                 // button of the last press; -1 after a double click
+    double clickTime = 0;                             // [s]
     std::uint64_t polls = 0, clickPoll = 0;
     Vector2 clickPlace = Vector2::Zero();
     Vector2 cursor = Vector2::Zero();        // screen coordinates
-    int x = 0, y = 0, width = 0, height = 0; // of the window, but for full screen
-    // As events have them: to ask takes a way to the display server and back, several times a picture.
+    int x = 0, y = 0, width = 0, height = 0; // of the window, except full screen
+    // From events: a query would cost round trips to the display server, several per picture.
     int nowWidth = 0, nowHeight = 0, pixelsWide = 0, pixelsHigh = 0;
     bool isIconified = false;
     Farewell farewell;
@@ -66,10 +66,10 @@ struct Window::State {
                windowHeight();
     }
 
-    // From the upper left corner of the picture.
+    // From the upper left corner of the picture [pixels].
     Vector2 pixels() const { return static_cast<float>(pixelsHigh) / windowHeight() * cursor; }
 
-    // GLFW says them of keys and buttons alone.
+    // Modifiers that are down: GLFW reports them only with keys and buttons.
     int modifiers() const {
         const auto isDown = [this](int left, int right) {
             return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS;
@@ -108,7 +108,7 @@ struct Window::State {
         input.panels.isTouched = true;
     }
 
-    // Whoever gets a press gets the release.
+    // The receiver of a press also gets the release.
     bool isOfPanels(int button, int event) {
         if (button < 0 || button >= static_cast<int>(isDownInPanel.size())) return false;
         const auto b = static_cast<std::size_t>(button);
@@ -134,8 +134,8 @@ struct Window::State {
         }
     }
 
-    // GLFW knows no double click, and no time at which events came: where pictures take long, presses that
-    // one look at events has brought, or two, are as good as at once.
+    // Detects double clicks, which GLFW does not. GLFW gives no event times, so presses from one poll or from
+    // two successive polls count as fast, even if pictures take long.
     void countClick(int button, int modifiers) {
         const double now = glfwGetTime();
         const bool isSoon = now - clickTime < mostBetweenClicks || polls - clickPoll <= 1;
@@ -267,7 +267,7 @@ Input Window::poll(double seconds) {
     Input input = std::exchange(state_->input, {});
     input.pointer = state_->pointer();
     const auto atPress = std::exchange(state_->heldAtPress, std::nullopt);
-    input.held = atPress ? *atPress : state_->held(); // it may be up again
+    input.held = atPress ? *atPress : state_->held(); // it may have been released already
     input.panels.pointer = state_->pixels();
     input.panels.isDown = state_->isDownInPanel;
     return input;
