@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Fails when an include points up a layer, when a rule of one place is broken, or when a file or function grows too large."""
+"""Fails if an include points up a layer, if a rule of a single folder is broken, or if a file is too long."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# Each layer may include itself and what stands to its right.
+# Each layer may include itself and the layers in its list.
 LAYERS = {
     "vk": [],
     "sim": ["vk"],
@@ -19,11 +19,11 @@ PURE_VK = {"vk/spirv.hpp"}  # includes no Vulkan header
 MESH_MAY_USE_SIM = {"sim/scene.hpp", "sim/bodies.hpp", "sim/counted.hpp"}
 MESH_ON_DEVICE = "src/mesh/gpu/"  # the only part of mesh that sees Vulkan
 GPU_MAY_USE_SIM = MESH_MAY_USE_SIM | {"sim/program.hpp"}  # passes and their barriers
-# The rooms of the viewer, the same way; what stands beside them may include all.
+# Folders of the viewer: each may include itself and those before it; files outside the folders may include all.
 VIEWER_ROOMS = ["draw", "hands", "panels", "window", "pictures"]
 LIMITS = {".cpp": 600, ".hpp": 600, ".h": 600, ".comp": 150, ".glsl": 150, ".vert": 150, ".frag": 150}
-# Lavapipe makes a shader anew when a word of a uniform buffer changes that a condition hangs on: what changes with every step is in storage buffers.
-# No condition hangs on Frames alone.
+# Uniform blocks that are allowed. Lavapipe recompiles a shader when a uniform word used in a condition changes, so data that change with
+# every step are in storage buffers. No condition uses a word of Frames.
 UNIFORMS = {"Step", "Bounds", "Frame", "Frames"}
 UNIFORM = re.compile(r"^layout\(std140[^)]*\)\s*uniform\s+(\w+)", re.M)
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^>"]+)[>"]', re.M)
@@ -73,7 +73,7 @@ def complaints(path, text):
 
 
 def uncalled(texts):
-    """Functions of the table that nobody calls: a device would be refused for lack of them."""
+    """Uncalled functions of the table: a device without them would be rejected needlessly."""
     table = (ROOT / "src/vk/functions.inc").read_text(encoding="utf-8")
     called = set(re.findall(r"\bvk[A-Z]\w+", "\n".join(texts)))
     for name in re.findall(r"^SINEW_VK\w*\((\w+)\)", table, re.M):

@@ -2,13 +2,13 @@
 """Draws the figures of the documentation: docs/images/*.svg.
 
   tools/figures.py            writes the files
-  tools/figures.py --check    fails where a committed file differs from what this script draws
+  tools/figures.py --check    fails if a committed file differs from the output of this script
 """
 import pathlib
 import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "docs" / "images"
-WIDTH = 800  # of every figure [px]; nothing is smaller than 12 px
+WIDTH = 800  # of every figure [px]; text has at least 12 px
 
 INK, LINE, PAPER, QUIET = "#1f2933", "#52606d", "#ffffff", "#4a5763"
 BLUE, GREEN, YELLOW, RED, GREY, VIOLET = "#d9e8f7", "#dcf0df", "#fbeec7", "#f8d9d6", "#eceff2", "#e8e0f5"
@@ -24,7 +24,7 @@ def escape(text):
 
 
 class Figure:
-    """A list of SVG elements on paper of its own, so that it reads on light and on dark pages."""
+    """A list of SVG elements on a background of its own, readable on light and dark pages."""
 
     def __init__(self, height, title):
         self.height, self.title, self.parts = height, title, []
@@ -38,7 +38,7 @@ class Figure:
                  f'font-weight="{weight}" font-family="{family}">{escape(text)}</text>')
 
     def lines(self, x, y, lines, size=13, anchor="middle", color=INK, mono=False):
-        """Lines of text around the height y; the first is bold where it begins with *."""
+        """Lines of text centred at the height y; a line that begins with * is bold."""
         step = size * 1.3
         top = y - step * (len(lines) - 1) / 2 + size * 0.36
         for i, line in enumerate(lines):
@@ -84,7 +84,7 @@ class Figure:
 
 
 def layers():
-    """Folders and the includes that are allowed between them (tools/check_layers.py)."""
+    """Folders and the allowed includes between them (tools/check_layers.py)."""
     f = Figure(532, "Folders of the repository, each may include those below it")
     f.text(24, 28, "programs", 12, "start", QUIET)
     f.box(24, 36, 240, 62, ["*apps/viewer", "window, tools, layers, renderer"], YELLOW)
@@ -210,7 +210,7 @@ def contacts():
     return f
 
 
-# A small lattice in the plane, which a blade crosses between its nodes.
+# A small lattice in the plane and a blade that passes between its nodes.
 COLUMNS, ROWS, CELL = 5, 4, 34
 BLADE = [(2.28, -0.62), (2.52, 3.62)]  # in cells
 
@@ -233,7 +233,7 @@ def linksOfLattice():
 
 
 def cutting():
-    """From the blade of a step to what is drawn."""
+    """From the blade of a step to the drawn skin."""
     f = Figure(458, "A cut: blade, links, pieces, skin")
     names = [("1 blade", "the edge sweeps a strip of quads"), ("2 links", "bits of links that it meets are cleared"),
              ("3 pieces", "components by live links"), ("4 skin", "clipped, with an inner surface")]

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# tools/frame_times.sh [SCENE [SIZE]]: how long the pictures of the window take (docs/performance.md) on the software device under an X
-# server without a screen: left alone, in an orbit, with a hand on the body, in three cuts and after them, with panels and without. A table of each.
-# Needs xvfb, xdotool and imagemagick. What it prints is worth something where nothing else runs.
+# tools/frame_times.sh [SCENE [SIZE]]: prints tables of the window's frame times (docs/performance.md) on the software device, under an
+# X server without a screen: without input, in an orbit, in a grab, in three cuts and after them, with panels and without.
+# Needs xvfb, xdotool and imagemagick, and a machine without other load.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -15,7 +15,7 @@ options=(--no-validation --timing)
 width=${extent%x*} height=${extent#*x}
 
 said() { grep -c '^frame times' viewer.out || true; }
-table() { # WHAT
+table() { # NAME PANELS
     local before
     before=$(said)
     keys F7
@@ -23,7 +23,7 @@ table() { # WHAT
     echo "$1, $2"
     tac viewer.out | sed '/^frame times/q' | tac | grep -v '^hands waited'
 }
-anew() { # with tables of what follows alone
+anew() { # resets the scene; later tables exclude earlier pictures
     keys r
     sleep 3
     table ignored ignored >/dev/null
@@ -39,7 +39,7 @@ play() { # PANELS
     table "left alone" "$1"
     anew
     drag 3 $((width / 2)) $((height / 2)) 4 1 50
-    drag 3 $((width / 2)) $((height / 2)) -4 -1 50 # what follows is seen from where it was
+    drag 3 $((width / 2)) $((height / 2)) -4 -1 50 # back to the first view
     table orbit "$1"
     anew
     drag 1 $((2 * width / 5)) $((height / 2)) 3 -2 100

@@ -1,38 +1,38 @@
 #!/usr/bin/env bash
-# tools/gpu_day.sh pack FILE                 packs the programs of build/release, and all that they load but a driver, in FILE (.tar.zst)
-# tools/gpu_day.sh run FILE FOLDER [PART...] on a bare machine with a Vulkan GPU, in a copy of this tree: unpacks FILE and FILE.unpack, and
-#     writes results into FOLDER. Nothing is installed: bash, tar, coreutils, awk and glibc 2.36 are enough. Ends with 1 where a test failed or
-#     did not run, where a scene did not end or ends in other bits in the other order, or where a benchmark failed.
+# tools/gpu_day.sh pack FILE                 packs the programs of build/release and their libraries, without a driver, in FILE (.tar.zst)
+# tools/gpu_day.sh run FILE FOLDER [PART...] on a bare machine with a Vulkan GPU, in a copy of this tree: unpacks FILE with FILE.unpack, and
+#     writes results into FOLDER. Needs only bash, tar, coreutils, awk and glibc 2.36. The exit code is 1 if a test failed or did not run, if
+#     a scene did not end or its bits depend on the invocation order, or if a benchmark failed.
 #     On 16 cores and an NVIDIA H200 runs take 76 s, tests about 260 s, bench 25 s, forms 16 s.
 # PART, all of them by default:
-#     runs      each scene in both invocation orders: whether the bits are equal, time of a step, and of its passes
-#     tests     all tests that use a device, under validation as ctest runs them
+#     runs      each scene in both invocation orders: whether the bits are equal, times of a step and of its passes
+#     tests     all tests that use a device, with the same validation as ctest
 #     bench     sinew bench; forms, kernels and contacts: sinew bench --by-form, --kernels and --contacts
-# Environment: JOBS (one a core) and SHARDS (4) of tests; SECONDS_OF_TESTS (300): no test program starts later than that;
-#     SECONDS_OF_TEST (150): the most that one takes; FRAMES (200) of a scene; VK_DRIVER_FILES, where the driver's JSON file is not where loaders look.
+# Environment: JOBS (one per core) and SHARDS (4) of tests; SECONDS_OF_TESTS (300): no test program starts later;
+#     SECONDS_OF_TEST (150): limit of one program; FRAMES (200) of a scene; VK_DRIVER_FILES, if the loader does not find the driver's JSON file.
 set -euo pipefail
 tree=$(cd "$(dirname "$0")/.." && pwd)
 [[ ${1:-} == pack || ${1:-} == run ]] && file=$(realpath -m "${2:?no FILE}") && folder=$(realpath -m "${3:-.}")
 cd "$tree"
 
 scenes=(cloth cloth_study cube organ organ_held clutter pile_8000 pile_100k clutter_bodies cloth_fold stirrer stack organ_incision cube_quarters tube_slice beam)
-# They start first, since the longest of their tests takes a minute or more.
+# Programs that start first, because their longest tests take a minute or more.
 longest=(test_contact_lists test_face_lists test_edge_lists test_hard_cases test_cases test_same_state test_forces test_rest_contact test_run)
-# They read what the build has left beside the programs.
+# Tests that read files of the build folder.
 not_here='ExactKernels.*:Kernels.BindAsManyStorageBuffersAsIsSaid:KernelInterface.AgreesWithSpirvCrossOnEveryKernelInTheBuild'
 
-# libraries PROGRAM...: files that they load, but for the C library's own
+# libraries PROGRAM...: the shared libraries of the programs, without those of the C library
 libraries() {
     ldd "$@" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | sort -u | grep -vE '/(libc|libm|libdl|librt|libpthread|ld-linux[^/]*)\.so'
 }
 
 pack() { # FILE
-    local folder program name tests=(test_run test_same_state) # these start a program that makes a device
+    local folder program name tests=(test_run test_same_state) # these start a program that opens a device
     folder=$(mktemp -d)
     mkdir "$folder/bin" "$folder/lib" "$folder/layers"
     for program in build/release/bin/test_*; do
         name=$(basename "$program")
-        [[ $name == test_viewer_* || $name == test_gpu_compiler ]] && continue # a window; a GPU that is not there
+        [[ $name == test_viewer_* || $name == test_gpu_compiler ]] && continue # a window; a simulated GPU
         if [[ $(nm -C "$program") == *' sinew::test::device()'* ]]; then tests+=("$name"); fi
     done
     for program in "${tests[@]}" sinew; do strip -o "$folder/bin/$program" "build/release/bin/$program"; done
@@ -43,20 +43,20 @@ pack() { # FILE
     cp -L /usr/lib/*/libvulkan.so.1 "$folder/lib/"
     cp /usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json "$folder/layers/"
     mkdir -p "$(dirname "$1")"
-    # programs hold the same kernels: a window as long as all of them finds that
+    # programs contain the same kernels: a match window as long as all programs finds them
     tar -C "$folder" -cf - . | zstd -q -12 --long=31 -T0 -f -o "$1"
     cp "$(command -v zstd)" "$1.unpack"
     rm -rf "$folder"
     ls -l "$1" "$1.unpack"
 }
 
-# failures LOG...: the lines that name a test which failed
+# failures LOG...: the lines that name failed tests
 failures() {
     awk '/^\[  FAILED  \] .*\([0-9]+ ms\)$/' "$@"
 }
 
-# one TEST SHARD SHARDS: runs a part of a test program. A line of tests.txt: tenths of a second, how it ended, tests that passed, tests that
-# failed, its name and shard.
+# one TEST SHARD SHARDS: runs a part of a test program and prints a line of tests.txt: tenths of a second, exit code, tests that passed,
+# tests that failed, name and shard.
 one() {
     local log=$FOLDER/logs/$1.$2.log start=$EPOCHREALTIME state=0 passed failed
     if ((EPOCHSECONDS > LAST_START)); then
@@ -71,7 +71,7 @@ one() {
     echo "$(((${EPOCHREALTIME/./} - ${start/./}) / 100000)) $state $passed $failed $1.$2"
 }
 
-timed() { # PART COMMAND...: says how long it took
+timed() { # PART COMMAND...: runs the command and prints its time and exit code
     local part=$1 start=$SECONDS state=0
     shift
     "$@" || state=$?
@@ -113,7 +113,7 @@ runs() {
             timeout 60 "$PACK/bin/sinew" run "scenes/$scene.toml" --frames "${FRAMES:-200}" $order --json "$file.json" >"$file.out" 2>&1 ||
                 echo "$scene $order: exit $?: $(tail -n 1 "$file.out")"
         done
-        # two lines, or fewer where a run did not end
+        # two lines, or fewer if a run did not end
         hashes=$(awk 'match($0, /"state_hash": "[0-9a-f]+"/) { print substr($0, RSTART, RLENGTH) }' "$FOLDER/runs/$scene"{,.reversed}.json)
         if (($(wc -l <<<"$hashes") == 2 && $(sort -u <<<"$hashes" | wc -l) == 1)); then
             printf '%-16s equal bits in both orders; %s\n' "$scene" "$(awk '/ms each/' "$FOLDER/runs/$scene.out")"
@@ -133,7 +133,7 @@ run() { # FILE FOLDER [PART...]
     mkdir -p "$FOLDER/logs" "$FOLDER/runs"
     "$1.unpack" -q -d --long=31 "$1" -c | tar -C "$PACK" -xf -
     export LD_LIBRARY_PATH=$PACK/lib VK_LAYER_PATH=$PACK/layers
-    # tests look for scenes and programs where they were built
+    # tests expect scenes and programs at the path of the build
     local source
     source=$(<"$PACK/source")
     if [[ ! -e $source ]]; then

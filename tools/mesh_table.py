@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""mesh_table.py SINEW [--resolution N] [--repair none|weld|close] [--device D] [--surfaces] PATH...: what importing and filling makes of meshes, as a Markdown table.
+"""mesh_table.py SINEW [--resolution N] [--repair none|weld|close] [--device D] [--surfaces] PATH...: the results of importing and filling meshes, as a Markdown table.
 
 PATH is a mesh (OBJ, STL, PLY, glTF, GLB; OFF is rewritten as OBJ), a folder searched for them, or `broken`: meshes that this
-script makes, each with one fault. The last lines, on stderr, count the meshes that were read, that are closed, and whose voxels
-keep their volume within 1 %. With --surfaces the table says which surface a body of each mesh shows that may be cut, and the last
-line counts them. Exit code 1 where `sinew mesh` ended in any other way than with a report or one sentence.
+script makes, each with one defect. The last lines, on stderr, count the meshes that were read, that are closed, and whose voxels
+keep their volume within 1 %. With --surfaces the table names the surface of a cuttable body of each mesh, and the last line counts
+them. The exit code is 1 if `sinew mesh` ended with neither a report nor one sentence.
 """
 import argparse
 import json
@@ -21,7 +21,7 @@ SUFFIXES = {".obj", ".stl", ".ply", ".gltf", ".glb", ".off"}
 
 
 def icosphere(rounds):
-    """Vertices on the unit sphere and triangles, 20 x 4^rounds of them, outward."""
+    """A unit sphere: vertices and 20 x 4^rounds triangles that face outwards."""
     g = (1 + math.sqrt(5)) / 2
     points = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g), (0, -1, -g), (0, 1, -g),
               (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
@@ -48,7 +48,7 @@ def icosphere(rounds):
 
 
 def torus(side):
-    """2 side^2 triangles, outward."""
+    """A torus with 2 side^2 triangles that face outwards."""
     turns = [2 * math.pi * i / side for i in range(side)]
     points = [((1 + 0.4 * math.cos(v)) * math.cos(u), 0.4 * math.sin(v), (1 + 0.4 * math.cos(v)) * math.sin(u))
               for u in turns for v in turns]
@@ -80,7 +80,7 @@ def write_ply(path, points, faces):
 
 
 def broken(folder):
-    """Pairs of what is wrong and the file."""
+    """Pairs of a defect and a file with it."""
     points, faces = icosphere(3)
 
     def obj(name, some_points, some_faces):
@@ -116,7 +116,7 @@ def broken(folder):
 
 
 def from_off(path, folder):
-    """The mesh of an OFF file as OBJ; None where it is none that this understands."""
+    """The mesh of an OFF file as OBJ; None if the file is not readable here."""
     words = " ".join(line.split("#")[0] for line in path.read_text(errors="replace").splitlines()).split()
     try:
         keyword = words.pop(0) if not words[0].lstrip("-").isdigit() else "OFF"
@@ -125,7 +125,7 @@ def from_off(path, folder):
         vertices, count = int(words[0]), int(words[1])
         per = {"OFF": 3, "NOFF": 6, "COFF": 7}[keyword]
         at, points, faces = 3, [], []
-        if per * vertices + count > len(words):  # counts that are out of proportion
+        if per * vertices + count > len(words):  # more counted than the file has
             return None
         for _ in range(vertices):
             points.append(tuple(float(w) for w in words[at:at + 3]))
@@ -154,7 +154,7 @@ def found(paths, folder):
 
 
 def row(arguments, name, path):
-    """Cells of a row, and whether `sinew mesh` ended as it should."""
+    """Cells of a row, and whether `sinew mesh` ended as expected."""
     if path is None:
         return [name, "OFF of a kind that this table does not read"], True
     command = [arguments.sinew, "mesh", str(path), "--resolution", str(arguments.resolution), "--json", "-"]
@@ -185,7 +185,7 @@ def row(arguments, name, path):
 
 
 def surface(arguments, name, path, folder):
-    """Cells of a row of --surfaces, and whether `sinew describe` ended as it should. The body lies where its file has it."""
+    """Cells of a row of --surfaces, and whether `sinew describe` ended as expected. The body has the place of its file."""
     if path is None:
         return [name, "not read"], True
     scene, mesh = folder / "surface.toml", folder / ("surface" + path.suffix)
@@ -217,7 +217,7 @@ def surfaces(arguments):
 
 
 def repaired(report):
-    """What was repaired, in a cell of the table."""
+    """The repairs, as a cell of the table."""
     said = [f"{report[key]} {text}" for key, text in (
         ("joined_vertices", "joined"), ("split_edges", "split"), ("removed_triangles", "removed"), ("closed_holes", "closed"),
         ("turned_triangles", "turned"), ("turned_parts", "parts turned")) if report[key]]

@@ -1,5 +1,5 @@
-# Sourced by run.sh and test.sh: installs missing Debian packages, says what it does in one line, nothing when all is there.
-# need PACKAGE...
+# Functions for run.sh and test.sh, which source this file.
+# need PACKAGE...: installs missing Debian packages and prints one line; prints nothing if all are installed
 need() {
     local package missing=()
     for package in "$@"; do
@@ -23,17 +23,17 @@ need() {
     rm -f "$log"
 }
 
-# What a build of everything but the tests needs, and what the programs need to run on a machine without a GPU.
+# Packages to build everything but the tests, and to run the programs on a machine without a GPU.
 build_packages=(ca-certificates cmake ninja-build g++ libc6-dev
     libvulkan-dev libvulkan1 mesa-vulkan-drivers glslang-tools spirv-tools
     libeigen3-dev libassimp-dev zlib1g-dev libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev
     librsvg2-bin libbullet-dev # plots of `sinew study` as PNG; `sinew bench --peers`
-    libgtest-dev) # the configure step looks for it, tests or not
-# What the tests need beyond that.
+    libgtest-dev) # required by the configure step, even without tests
+# Further packages for the tests.
 test_packages=(clang libx11-dev vulkan-validationlayers spirv-cross xvfb xauth xdotool imagemagick x11-apps
     assimp-testmodels python3-minimal binutils clang-format)
 
-# build PRESET [TARGET...]: configures once, then builds what changed.
+# build PRESET [TARGET...]: configures at the first call, then builds.
 build() {
     local preset=$1
     shift

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# tools/run.sh [SCENE|MESH] [viewer options]: installs what is missing, builds, and shows the scene: in a window if there is a
-# display, else as pictures in out/ (or as the options say, such as --out DIR --frames 60). The default is scenes/organ.toml.
+# tools/run.sh [SCENE|MESH] [viewer options]: installs missing packages, builds, and shows the scene in a window. Without a display it
+# writes pictures into out/ (or follows options such as --out DIR --frames 60). The default scene is scenes/organ.toml.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/packages.sh

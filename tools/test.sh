@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tools/test.sh [--clang | --sanitize] [ctest options]: installs what is missing, builds everything and runs every test, on lavapipe.
+# tools/test.sh [--clang | --sanitize] [ctest options]: installs missing packages, builds everything and runs all tests on lavapipe.
 #   --clang     builds with clang++ in build/clang
 #   --sanitize  builds and runs every test under AddressSanitizer and UndefinedBehaviorSanitizer (build/asan), then the
 #               programs that start threads under ThreadSanitizer (build/tsan); ends with a summary of both;
@@ -15,11 +15,14 @@ case ${1:-} in
 esac
 need "${build_packages[@]}" "${test_packages[@]}"
 echo "checking layers, documents and format"
-tools/check.sh
-# on the software device, whatever else the machine has
+python3 tools/check_layers.py
+python3 tools/figures.py --check
+python3 tools/check_docs.py
+find src apps tools tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 clang-format --dry-run --Werror
+# use the software device, even if the machine has a GPU
 for icd in /usr/share/vulkan/icd.d/lvp_icd.*.json; do export VK_ICD_FILENAMES=$icd; done
 
-# tests PRESET [ctest options]: runs the tests, and keeps what ctest says in build/PRESET/tests.log. Fails when a test fails.
+# tests PRESET [ctest options]: runs the tests and copies the output of ctest to build/PRESET/tests.log. Fails if a test fails.
 tests() {
     local preset=$1
     shift
@@ -27,7 +30,7 @@ tests() {
     ctest --preset "$preset" --output-on-failure -j2 "$@" | tee "build/$preset/tests.log"
 }
 
-# summary PRESET: how many tests passed, and the names of those that did not.
+# summary PRESET: prints the number of tests that passed and the names of the others.
 summary() {
     echo "summary of build/$1:"
     if ! sed -n '/tests passed/,$p' "build/$1/tests.log" 2>/dev/null | grep .; then echo "no test ran"; fi
@@ -42,10 +45,10 @@ fi
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1} UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export LSAN_OPTIONS=suppressions=$PWD/tools/sanitize/leaks.txt:print_suppressions=0
 export TSAN_OPTIONS=suppressions=$PWD/tools/sanitize/races.txt:ignore_noninstrumented_modules=1
-# both sanitizers run, whatever the first one finds
+# the second sanitizer runs even if the first one fails
 failed=0
 tests asan "$@" || failed=1
-# a line of threaded.txt: a program, and the suites of its tests that start threads
+# each line of threaded.txt: a program, and its test suites that start threads
 mapfile -t programs < <(cut -d' ' -f1 tools/sanitize/threaded.txt)
 suites=$(cut -d' ' -f2 tools/sanitize/threaded.txt | paste -sd'|')
 echo "building (build/tsan)"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# tools/window_picture.sh [FILE]: the README's picture of the window with its panels (docs/images/window.png): scenes/organ.toml on the
-# software device after 45 steps, colored by strain, under an X server without a screen. Needs xvfb, xdotool and imagemagick.
+# tools/window_picture.sh [FILE]: draws the README's picture of the window with its panels (docs/images/window.png): scenes/organ.toml on
+# the software device after 45 steps, coloured by strain, under an X server without a screen. Needs xvfb, xdotool and imagemagick.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 file=$(realpath -m "${1:-docs/images/window.png}")
@@ -17,7 +17,7 @@ keys space
 awaitTitle paused
 keys r
 for _ in {1..45}; do keys period; sleep 0.1; done
-sleep 5 # messages go, and what moves is drawn once more in full quality
+sleep 5 # until messages have vanished and the still picture is drawn in full quality
 awaitStill window.png
 convert window.png +dither -colors 250 -define png:compression-level=9 PNG8:"$file"
 keys ctrl+q

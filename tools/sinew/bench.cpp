@@ -1,6 +1,5 @@
 // `sinew bench`: time per step of each solver on the shipped scenes, sequential (one CPU thread) against the
-// device: the slides' table of results. All take turns in one process, so that whatever else the machine does
-// hits all alike.
+// device. All programs take turns in one process, so that other load on the machine affects all alike.
 #include "app/guard.hpp"
 #include "scenes/load.hpp"
 #include "sim/compile.hpp"
@@ -36,7 +35,7 @@ struct BenchOptions {
     std::string scene = "all";
     double seconds = 10; // of measuring per scene
     bool hasPeers = false, hasKernels = false, hasContacts = false, isByForm = false;
-    std::string only; // rows of contacts whose name contains it
+    std::string only; // only rows of contacts whose name contains this
     FormOptions forms;
     DeviceOptions device;
     std::optional<std::string> json;
@@ -50,14 +49,14 @@ constexpr BenchScene benchScenes[] = {{"cloth", "64x64"}, {"cube", "16x16x16"}};
 
 constexpr std::uint64_t stepsPerTurn = 8;
 
-/// One row of the table: takes turns, then says what it measured.
+/// One row of the table: runs in turns, then reports its results.
 struct Contestant {
     std::string solver, device;
     scenes::LoadedScene loaded;
-    std::uint64_t sweeps = 0;               // a step
+    std::uint64_t sweeps = 0;               // in a step
     std::unique_ptr<Runner> runner;         // this one
     std::unique_ptr<Sequential> sequential; // or this one
-    const char* order = nullptr;            // of constraints, where it is sequential
+    const char* order = nullptr;            // of constraints, if it is sequential
     std::vector<double> stepMs;
 
     void takeTurn();
@@ -66,7 +65,7 @@ struct Contestant {
 };
 
 void Contestant::takeTurn() {
-    if (runner) { // one step in flight: each time is that of a whole step, submission and wait included
+    if (runner) { // one step in flight: each time is that of a whole step, with submission and wait
         runner->advance(stepsPerTurn, 1);
         stepMs = runner->frameMs();
         return;
@@ -89,7 +88,7 @@ bool isFinite(const Contestant& contestant) {
     });
 }
 
-/// The error figures after the steps made so far. Skins are placed here for all alike, from the particles.
+/// The error figures after the steps so far. Skins are computed here for all programs, from the particles.
 Errors errorsOf(const Contestant& contestant) {
     const State state = contestant.state();
     sim::Scene moved = contestant.loaded.scene;
@@ -129,7 +128,7 @@ std::vector<std::unique_ptr<Contestant>> contestants(const std::string& scene, S
     return result;
 }
 
-/// Medians of the sequential rows [ms]: in the scene's order, as the slides compare, and the faster of both.
+/// Medians of the sequential rows [ms]: in the scene's order, and of the faster order.
 struct SequentialMs {
     double natural = 0, best = 0;
 };
@@ -184,8 +183,8 @@ Json measureScene(const BenchScene& scene, Session& session, double seconds) {
     return rows;
 }
 
-/// In natural order one sweep a substep of rigid links can be unstable, as on the cloth: that is a result
-/// too.
+/// In the scene's order, one sweep per substep of rigid links can be unstable, as on the cloth; the table
+/// then says so.
 std::string strainText(const Json& row) {
     const Json& strain = row["error"]["strain_rms"];
     const bool isAbsurd = strain.is_number() && !(strain.get<double>() < 10); // on its way to infinity
@@ -254,7 +253,7 @@ int bench(const BenchOptions& options) {
     return finish(report, text);
 }
 
-// Empty where some row of contacts has such a name, as CLI11 wants it.
+// Empty if a row of contacts has such a name (the form that CLI11 requires).
 std::string checkRow(const std::string& only) {
     std::string names;
     for (const std::string& name : contactRows()) {

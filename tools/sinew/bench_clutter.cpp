@@ -1,4 +1,4 @@
-// Who takes part is a list of closures: a program that steps, and one that says where its balls are.
+// Each program is a pair of closures: one takes steps, one returns the positions of the balls.
 #include "sinew/bench_clutter.hpp"
 
 #include "app/guard.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t leastSteps = 240, stepsPerTurn = 8; // 4 s: the balls lie still
+constexpr std::uint64_t leastSteps = 240, stepsPerTurn = 8; // 4 s: the balls are at rest
 constexpr const char* clutterScenes[] = {"clutter", "pile_8000"};
 
 ClutterEntrant onDevice(Session& session, const sim::Scene& scene, sim::Settings settings,
@@ -46,7 +46,8 @@ ClutterEntrant onDevice(Session& session, const sim::Scene& scene, sim::Settings
 std::vector<ClutterEntrant> entrantsFor(Session& session, const scenes::LoadedScene& loaded, bool hasPeers) {
     const sim::Scene& scene = loaded.scene;
     std::vector<ClutterEntrant> entrants;
-    // As many sweeps as the device makes, and the 4 x 5 of position based dynamics.
+    // Two settings: as many sweeps as the device, and 4 substeps of 5 iterations, common in position based
+    // dynamics.
     const std::uint32_t substeps = loaded.settings.substeps;
     entrants.push_back(onCpu("sequential",
                              std::make_shared<clutter::Sequential>(clutter::ballsOf(scene, substeps, 1)),

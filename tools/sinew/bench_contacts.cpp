@@ -1,5 +1,5 @@
-// A scene takes turns with itself without contacts: radii 0 and no faces, all else the same. Restarts before
-// each round, so that a faster program is measured in the steps in which a slower one is.
+// A scene takes turns with itself without contacts: radii 0 and no faces, otherwise equal. Both restart
+// before each round, so that both are measured in the same steps, whatever their speed.
 #include "sinew/bench_contacts.hpp"
 
 #include "app/guard.hpp"
@@ -26,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t stepsOfTurn = 4;
-constexpr double directUs = 2.5, emptyUs = 2; // of a dispatch of a GPU; of an indirect one without groups
+constexpr double directUs = 2.5, emptyUs = 2; // on a GPU: a direct dispatch; an indirect one without groups
 
 std::string organText(const char* gravity, const char* height, const char* below) {
     return fmt::format(R"(damping = 1.5
@@ -85,7 +85,7 @@ scenes::LoadedScene ownScene(const std::string& text) {
 struct ContactRow {
     const char* name;
     scenes::LoadedScene (*load)();
-    std::uint64_t settle, steps; // before those that are measured; those
+    std::uint64_t settle, steps; // steps before the measured ones; measured steps
     bool isPair = false;         // also measured without contacts
 };
 
@@ -121,7 +121,7 @@ std::uint64_t bytesOf(const sim::StepProgram& program) {
     return sum;
 }
 
-// A scene with or without contacts, and what was measured of it.
+// A scene with or without contacts, and its results.
 class ContactRun {
 public:
     ContactRun(Session& session, sim::Scene scene, const sim::Settings& settings)
@@ -138,7 +138,7 @@ public:
     void end(std::uint64_t settle) {
         const std::vector<double>& ms = runner_.frameMs();
         for (std::size_t i = settle; i < ms.size(); ++i) stepMs_.push_back(ms[i]);
-        const std::uint64_t now = builds(); // one that has got more room began to count anew
+        const std::uint64_t now = builds(); // a simulation that has grown counts from 0 again
         listBuilds_ += now < builds_ ? now : now - builds_;
         calm_ += runner_.lists().calm - lists_.calm;
         repeated_ += runner_.lists().repeated - lists_.repeated;
@@ -159,7 +159,7 @@ private:
     sim::Scene scene_;
     Runner runner_;
     std::uint64_t builds_ = 0, listBuilds_ = 0;
-    ListFigures lists_; // when its steps began
+    ListFigures lists_; // at the start of the measured steps
     std::uint64_t calm_ = 0, repeated_ = 0;
     std::vector<double> stepMs_;
 };

@@ -1,5 +1,4 @@
-// `sinew bench --contacts`: what contacts cost where nothing touches, where a body rests, and in shipped
-// scenes.
+// `sinew bench --contacts`: cost of contacts without any touch, with a body at rest, and in shipped scenes.
 #pragma once
 
 #include "sim/program.hpp"
@@ -11,26 +10,26 @@
 
 namespace sinew::tools {
 
-/// The work of a recording of a program in a substep, the mean over the substeps of a step.
+/// Counts of one recording of a program per substep: means over the substeps of a step.
 struct SubstepCounts {
     double passes = 0; ///< dispatches, fills, copies and updates
-    double direct = 0; ///< dispatches of which the program says how many groups they have
-    /// Dispatches of which a kernel says so: of those that make lists none has a group while lists are
+    double direct = 0; ///< dispatches with a group count from the program
+    /// Dispatches with a group count from a kernel; those that make lists have no groups while lists are
     /// complete.
     double indirect = 0;
     double barriers = 0;
 };
 SubstepCounts countSubstep(const sim::StepProgram& program, sim::Recording recording = sim::plainStep);
 
-/// Time of a GPU that is predicted for the dispatches of a step [us]: 2.5 for a direct one, 2 for an indirect
-/// one, as if none of these had a group. The computing of kernels is not in it.
+/// Predicted GPU overhead of the dispatches of a step [us]: 2.5 for a direct dispatch, 2 for an indirect one,
+/// as if it had no groups. Excludes the work of kernels.
 double predictedUs(const sim::StepProgram& program, sim::Recording recording = sim::plainStep);
 
 /// The names of the rows.
 std::vector<std::string> contactRows();
 
-/// The rows whose names contain `only`, at least one. The same steps of a scene are measured whatever their
-/// speed, in rounds until `seconds` have passed. Stops early, with the rows so far, where a signal asks to.
+/// Measures the rows whose names contain `only`, at least one: the same steps of each scene, whatever their
+/// speed, in rounds until `seconds` have passed. Stops early, with the rows so far, if a signal asks for it.
 Json measureContacts(Session& session, const std::string& only, double seconds);
 
 /// The rows as text.

@@ -1,5 +1,5 @@
-// A form is forced, never tuned: a row must be of the form that it names. Timestamps of the device leave out
-// what a submission costs the host; a family without them is timed by the host's clock.
+// Forms are forced, not tuned: a row must have the form that it names. Device timestamps exclude the host's
+// cost of a submission; a family without timestamps is timed by the host's clock.
 #include "sinew/bench_forms.hpp"
 
 #include "app/guard.hpp"
@@ -31,7 +31,7 @@ struct Body {
     std::uint32_t substeps;
 };
 
-// Nothing touches anything else than planes: contacts have no such forms, and take most of a step.
+// A shipped body that touches only planes: contacts do not have these forms, and take most of a step.
 Body shipped(const char* name) {
     scenes::LoadedScene loaded = scenes::loadBuiltIn(name);
     for (sim::Particle& particle : loaded.scene.particles) particle.radius = 0;
@@ -54,7 +54,7 @@ bool mayBeListed(const sim::Scene& scene) {
     });
 }
 
-// Large bodies have few: their programs take seconds to make.
+// Large bodies are measured in few forms: their programs take seconds to make.
 std::vector<sim::Forms> formsOf(const vk::Device& device, const sim::Scene& scene) {
     constexpr std::size_t largeBody = 200'000; // particles
     std::vector<sim::Forms> forms{{.columns = 2, .chunk = 16},

@@ -1,6 +1,5 @@
-// Bodies with 26 neighbours, cloths with 8, and one body again with listed links: the ratio of the two forms
-// at 32^3 is a target of the design (lattice: 10). Whole submissions are timed by the host, as a program
-// would see them.
+// Measures bodies with 26 neighbours, cloths with 8, and one body again with listed links: the ratio of these
+// two forms at 32^3 has a design target of 10. The host times whole submissions, as a program would see them.
 #include "sinew/bench_kernels.hpp"
 
 #include "app/guard.hpp"
@@ -21,7 +20,7 @@ namespace {
 
 constexpr int measuredSteps = 40;
 constexpr std::uint32_t shortStep = 8, longStep = 32; // substeps
-constexpr std::size_t largeBody = 100'000;            // particles from which on a step is short
+constexpr std::size_t largeBody = 100'000;            // particles; larger bodies take short steps
 
 struct Body {
     const char* name;

@@ -1,4 +1,4 @@
-// `sinew bench --kernels`: what a substep of `split` costs on bodies of many sizes.
+// `sinew bench --kernels`: cost of a substep of `split` for bodies of many sizes.
 #pragma once
 
 #include "sinew/json.hpp"
@@ -6,9 +6,8 @@
 
 namespace sinew::tools {
 
-/// One row a body: its form as tune() chose it, unless `forms` says more, shortest and median time of a
-/// substep [ms], ns for each link, bytes a particle. Stops early, with the rows so far, where a signal asks
-/// to.
+/// One row per body: its form (chosen by tune() unless `forms` sets it), shortest and median time of a
+/// substep [ms], ns per link, bytes per particle. Stops early, with the rows so far, if a signal asks for it.
 Json measureKernels(Session& session, const FormOptions& forms);
 
 /// The rows as text.

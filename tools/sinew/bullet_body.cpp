@@ -13,7 +13,7 @@ std::vector<btScalar> massesOf(const sim::Scene& scene) {
     std::vector<btScalar> masses;
     for (const sim::Particle& particle : scene.particles)
         masses.push_back(particle.inverseMass > 0 ? 1 / particle.inverseMass
-                                                  : 0); // 0 = never moves, as with us
+                                                  : 0); // 0 = fixed, as in our scenes
     for (const sim::FixedConstraint& fixed : scene.fixed) masses[fixed.particle] = 0;
     return masses;
 }
@@ -52,7 +52,7 @@ BulletBody::BulletBody(const sim::Scene& scene, std::uint32_t substeps, std::uin
         body.m_links[body.m_links.size() - 1].m_rl = c.restLength;
     }
     body.updateConstants();
-    body.m_bUpdateRtCst = false; // or the next step would undo what follows
+    body.m_bUpdateRtCst = false; // otherwise the next step undoes what follows
     for (int i = 0; i < body.m_links.size(); ++i) {
         btSoftBody::Link& link = body.m_links[i];
         const double w = double{link.m_n[0]->m_im} + double{link.m_n[1]->m_im};

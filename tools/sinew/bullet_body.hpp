@@ -1,5 +1,5 @@
-// A scene as one soft body of Bullet 3: nodes and links, stepped without a world, so that Bullet pays for no
-// collision detection that the scene does not need.
+// A scene as one soft body of Bullet 3: nodes and links, stepped without a world, so that Bullet spends no
+// time on collision detection that the scene does not need.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -11,11 +11,11 @@ namespace sinew::tools {
 
 class BulletBody {
 public:
-    /// Bullet's links have a stiffness k in [0, 1] per iteration, with no unit. In its update (a position is
-    /// moved by -k C / (w_a + w_b), PBD) a k of w / (w + compliance / h^2), w = w_a + w_b, makes one
-    /// iteration a substep of h exactly XPBD; with n iterations, k_n = 1 - (1 - k)^(1/n) leaves the same
-    /// residual of a lone link. So Bullet gets the material as exactly as it can be told. `scene` must be
-    /// springs, masses and gravity alone.
+    /// Bullet's links have a stiffness k in [0, 1] per iteration, without unit; an iteration moves a position
+    /// by -k C / (w_a + w_b) (PBD). With w = w_a + w_b, k = w / (w + compliance / h^2) makes one iteration
+    /// per substep of h equal to XPBD; with n iterations, k_n = 1 - (1 - k)^(1/n) leaves the same residual of
+    /// a single link. Bullet thus gets the material as exactly as possible. `scene` may only have springs,
+    /// masses and gravity.
     BulletBody(const sim::Scene& scene, std::uint32_t substeps, std::uint32_t iterations);
     ~BulletBody();
     BulletBody(const BulletBody&) = delete;

@@ -1,5 +1,5 @@
-// The commands of `sinew`. Each adds its options to the command line and, when it is the one asked for, sets
-// `chosen` to what shall run after parsing. The options live in the closure.
+// The commands of `sinew`. Each function adds its options to the command line; if the user asks for that
+// command, it sets `chosen` to the function to run after parsing. The closure owns the options.
 #pragma once
 
 #include <functional>

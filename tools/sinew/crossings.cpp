@@ -1,4 +1,4 @@
-// Faces are sorted into the cells of a grid that their boxes meet; each edge looks at the faces of its cells.
+// Faces are sorted into the grid cells that their boxes overlap; each edge tests the faces in its cells.
 #include "sinew/crossings.hpp"
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@ std::uint64_t keyOf(std::uint32_t i, std::uint32_t j) {
 struct Surface {
     std::vector<Vector> x; // by particle
     std::vector<Corners> faces;
-    std::vector<std::array<std::uint32_t, 2>> edges; // of faces that can move, each once
+    std::vector<std::array<std::uint32_t, 2>> edges; // of movable faces, each once
 };
 
 Surface surfaceOf(const sim::Scene& scene, const State& state) {
@@ -55,7 +55,7 @@ Surface surfaceOf(const sim::Scene& scene, const State& state) {
 
 using GridCell = Eigen::Vector<std::int64_t, 3>;
 
-// Cells as wide as an edge is long, in the mean. What meets more than a few of them is compared with all.
+// Grid with cells of the mean edge length. Items that span more than a few cells are tested against all.
 class Grid {
 public:
     explicit Grid(const Surface& surface) {
@@ -76,7 +76,7 @@ public:
         }
     }
 
-    // Calls visit(face) once for each whose box meets this one.
+    // Calls visit(face) once for each face whose box overlaps this one.
     template <typename Visit>
     void forEachNear(const Vector& low, const Vector& high, const Visit& visit) const {
         const auto look = [&](std::uint32_t f) {
@@ -104,7 +104,7 @@ private:
         return (high - low).maxCoeff() > mostCells * edge_;
     }
 
-    // Far cells share keys, which costs time alone.
+    // Distant cells may share keys, which only costs time.
     template <typename Visit>
     void forEachCell(const Vector& low, const Vector& high, const Visit& visit) const {
         const auto cellOf = [&](const Vector& p) -> GridCell {

@@ -1,5 +1,5 @@
-// How often surfaces pass through each other, exactly and over all edges and faces: found on the host,
-// whatever contacts of the device said.
+// Exact count of edges that pass through faces: on the host, over all edges and faces, independent of the
+// device's contacts.
 #pragma once
 
 #include "sinew/measure.hpp"
@@ -9,9 +9,9 @@
 
 namespace sinew::tools {
 
-/// Pairs of an edge of a face that can move and a face (sim::Scene::faces) such that the edge passes through
-/// the face. Pairs with a corner in common do not count, nor do faces of which a cut has parted a side or a
-/// crumb has taken a corner. Empty where the scene has no face that can move.
+/// Number of pairs of an edge of a movable face and a face (sim::Scene::faces) such that the edge passes
+/// through the face. Excludes pairs with a common corner, and faces with a side that was cut or a corner in a
+/// removed fragment. Empty if the scene has no movable face.
 std::optional<std::size_t> crossingsOf(const sim::Scene& scene, const State& state);
 
 } // namespace sinew::tools

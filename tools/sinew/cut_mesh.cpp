@@ -1,4 +1,4 @@
-// Points are named as layout::CutVertex does, so that the two sides of a cut have two.
+// Points have the names of layout::CutVertex, so that the two sides of a cut differ.
 #include "sinew/cut_mesh.hpp"
 
 #include "mesh/split_edges.hpp"
@@ -15,10 +15,10 @@ namespace {
 
 using Part = DrawnTriangle::Part;
 
-/// Gathers vertices as triangles name them.
+/// Numbers vertices in the order in which triangles name them.
 class Numbers {
 public:
-    /// Whether `key` is new is in `isNew`.
+    /// Returns the number of `key`; `isNew`: the key was not known.
     std::uint32_t of(std::uint32_t key, bool& isNew) {
         const auto [entry, isFirst] = numbers_.try_emplace(key, static_cast<std::uint32_t>(numbers_.size()));
         isNew = isFirst;
@@ -53,7 +53,8 @@ struct Piece {
     }
 };
 
-/// Of each corner, for one skin. Those of a sheet are as the buffer has them: its sides are apart.
+/// Point names of a triangle's corners, for one skin. A sheet keeps vertex indices, since its sides are
+/// apart.
 std::array<std::uint32_t, 3> pointsOf(const sim::Skin& skin, std::uint32_t firstVertex, bool isSheet,
                                       const Drawn& drawn, const DrawnTriangle& triangle) {
     std::array<std::uint32_t, 3> points = triangle.corners;

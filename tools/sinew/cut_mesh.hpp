@@ -1,4 +1,4 @@
-// What is drawn of a skin as meshes to export or to measure, piece by piece.
+// Drawn skins as meshes to export or to measure, one per piece.
 #pragma once
 
 #include "app/drawn.hpp"
@@ -8,18 +8,18 @@
 
 namespace sinew::tools {
 
-/// What is left of skin `index` of the scene, the pieces beside cuts and the inside, joined point by point: a
-/// mesh for each piece of the body, in the order of the particles that they are named after, numbered from 1
-/// where there are several. Both sides of a cut stay apart where they lie on each other, and edges with four
-/// triangles are split. None where that skin is not cut.
+/// The rest of skin `index`, with cut surfaces, joined by points: one mesh per piece of the body, ordered by
+/// the particles that the pieces are named after, and numbered from 1 if there are several. The two sides of
+/// a cut stay apart even at the same place; edges with four triangles are split. Empty if that skin is not
+/// cut.
 std::optional<std::vector<mesh::TriangleMesh>> cutMeshes(const sim::Scene& scene, std::size_t index,
                                                          const app::Drawn& drawn);
 
-/// Skin `index` as it is drawn, with normals, likewise; where nothing is cut, whole.
+/// Skin `index` as drawn, with normals, one mesh per piece; a single mesh if nothing is cut.
 std::vector<mesh::ShadedMesh> shadedPieces(const sim::Scene& scene, std::size_t index,
                                            const app::Drawn& drawn);
 
-/// All of them in one.
+/// Joins all pieces to one mesh.
 mesh::TriangleMesh joined(std::span<const mesh::TriangleMesh> pieces, const std::string& name);
 
 } // namespace sinew::tools

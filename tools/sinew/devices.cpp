@@ -1,4 +1,4 @@
-// `sinew devices`: what there is, what it lacks, which one would be used and why.
+// `sinew devices`: the devices, what each lacks, and the one that would be used and why.
 #include "app/guard.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/outputs.hpp"

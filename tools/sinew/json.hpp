@@ -1,4 +1,4 @@
-// Pieces that more than one JSON document of the tools holds.
+// JSON parts shared by several documents of the tools.
 #pragma once
 
 #include "mesh/repair.hpp"
@@ -18,7 +18,8 @@ Json toJson(const Errors& errors);
 Json toJson(const sim::Vec3& v);
 Json toJson(const mesh::Repairs& repairs);
 
-/// Bytes that are no UTF-8 (file names may hold them) are replaced; a line break ends the text.
+/// Text of a document; ends with a line break. Replaces bytes that are not UTF-8, which file names may
+/// contain.
 std::string dump(const Json& json);
 
 } // namespace sinew::tools

@@ -1,4 +1,4 @@
-// The command line: parses, then runs the chosen command under the guard that turns failures into exit codes.
+// The command line: parses it, then runs the command under a guard that maps failures to exit codes.
 #include "app/guard.hpp"
 #include "sinew/commands.hpp"
 
@@ -17,7 +17,7 @@ Exit codes: 0 done, 2 wrong usage, 3 bad scene or mesh, 4 no usable device, 5 de
 could not be written, 7 the simulation diverged, 70 a fault of ours, 130 interrupted (outputs are whole).
 Run `sinew COMMAND --help` for the options of a command.)";
 
-/// The name a user would type to get help on what they typed wrongly.
+/// The name of the command that was mistyped, for the help.
 std::string commandName(const CLI::App& app) {
     const auto parsed = app.get_subcommands();
     return parsed.empty() ? "sinew" : "sinew " + parsed.front()->get_name();

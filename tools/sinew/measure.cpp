@@ -1,4 +1,4 @@
-// All sums in double and in the scene's order, whatever the device did.
+// Sums are in double and in the scene's order, independent of the device.
 #include "sinew/measure.hpp"
 
 #include "app/cut_links.hpp"
@@ -33,8 +33,7 @@ Point sum(const Point& a, const Point& b, double scale) {
     return {a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]};
 }
 
-/// Calls visit(constraint, (length - restLength) / restLength) for every distance constraint that still
-/// holds.
+/// Calls visit(constraint, (length - restLength) / restLength) for every live distance constraint.
 template <typename Visit>
 void forEachStrain(const sim::Scene& scene, const State& state, const Visit& visit) {
     if (state.positions.empty()) return;
@@ -65,7 +64,7 @@ void measureVolume(const sim::Scene& scene, std::span<const mesh::TriangleMesh> 
     }
 }
 
-/// The part of a vector that gravity cannot change.
+/// The component of a vector perpendicular to gravity, which gravity cannot change.
 Point across(const Point& v, const Point& gravity) {
     const double square = dot(gravity, gravity);
     return square > 0 ? sum(v, gravity, -dot(v, gravity) / square) : v;
@@ -91,7 +90,7 @@ void measureMomentum(const sim::Scene& scene, const State& state, std::uint64_t 
     errors.momentum = scale > 0 ? length(change) / scale : 0;
 }
 
-/// How deep a particle is in any collider after that time [s].
+/// The greatest depth of a particle in a collider at `time` [s].
 double depthInColliders(const sim::Scene& scene, const State& state, double time) {
     double deepest = 0;
     for (const sim::Collider& collider : scene.colliders) {

@@ -1,4 +1,4 @@
-// What a state is worth: the error figures of a report, and a hash that says whether two runs ended alike.
+// Evaluation of a state: the error figures of a report, and a hash to compare runs.
 #pragma once
 
 #include "mesh/triangle_mesh.hpp"
@@ -9,45 +9,44 @@
 
 namespace sinew::tools {
 
-/// As the device has them: positions [m] and velocities [m/s], w = inverse mass [1/kg].
+/// State as on the device: positions [m] and velocities [m/s], w = inverse mass [1/kg].
 struct State {
     std::vector<std::array<float, 4>> positions, velocities;
-    std::vector<bool> isAsleep = {}; ///< by particle; empty where nothing can sleep
-    /// Likewise: of a crumb (sim::Scene::crumbs); empty where nothing can be cut. Figures leave them out, but
-    /// for momentum.
+    std::vector<bool> isAsleep = {}; ///< by particle; empty if nothing can sleep
+    /// By particle: in a removed fragment (sim::Scene::crumbs); empty if nothing can be cut. Figures except
+    /// momentum exclude these particles.
     std::vector<bool> isRemoved = {};
-    /// By distance constraint of the scene; empty where nothing can be cut.
+    /// By distance constraint of the scene; empty if nothing can be cut.
     std::vector<bool> isCut = {};
     bool has(std::size_t particle) const { return isRemoved.empty() || !isRemoved[particle]; }
-    /// Whether a distance constraint still holds its two particles.
+    /// Whether a distance constraint is live.
     bool holds(std::size_t distance) const { return isCut.empty() || !isCut[distance]; }
 };
 
-/// Empty where a figure has no meaning for the scene.
+/// Error figures; empty ones have no meaning for the scene.
 struct Errors {
     std::optional<double> strainRms,
         strainMax; ///< (length - restLength) / restLength over distance constraints that are not cut
-    std::optional<double> volume; ///< relative change of the closed skin that changed most, with its sign
+    std::optional<double> volume; ///< largest relative change of a closed skin, signed
     std::optional<double>
-        momentum; ///< change across gravity over sum m |v|; only where nothing holds a particle
+        momentum; ///< change perpendicular to gravity / sum m |v|; only if no particle is held
     std::optional<double> penetrationMax; ///< deepest particle behind a plane or in another [m]
-    std::optional<double> penetrationRms; ///< over particles that are in each other, by pairs [m]
+    std::optional<double> penetrationRms; ///< over overlapping particles, by pairs [m]
     std::optional<std::size_t> crossings; ///< edges through faces (crossings.hpp)
 };
 
-/// `frames` steps led to `state`; `skins` are the meshes of the scene's skins now, in order, or empty where
-/// nobody asked for them.
+/// Measures `state` after `frames` steps; `skins` are the present meshes of the scene's skins, in order, or
+/// empty if not requested.
 Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh::TriangleMesh> skins,
                std::uint64_t frames);
 
-/// Of the same figures penetrationMax and penetrationRms alone.
+/// Computes only penetrationMax and penetrationRms.
 Errors measurePenetration(const sim::Scene& scene, const State& state, std::uint64_t frames);
 
-/// The largest (length - restLength) / restLength of rigid distance constraints that are not cut; 0 where
-/// none is too long.
+/// The largest (length - restLength) / restLength of rigid live distance constraints; 0 if none is too long.
 double rigidStretch(const sim::Scene& scene, const State& state);
 
-/// Of everything that moves [J], from the velocities that the device publishes.
+/// Kinetic energy of all movable particles [J], from the device's velocities.
 double kineticEnergy(const State& state);
 
 /// FNV-1a (64 bits) of the bytes of positions, then velocities.

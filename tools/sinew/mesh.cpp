@@ -1,5 +1,5 @@
-// `sinew mesh`: imports a mesh, fills it with voxels and says what is odd about it. Uses a GPU where there is
-// one and needs no device: the voxels are the same, and the host is faster than a software device.
+// `sinew mesh`: imports a mesh, fills it with voxels and warns of oddities. Uses a GPU if there is one but
+// needs no device: the voxels are equal, and the host is faster than a software device.
 #include "app/guard.hpp"
 #include "mesh/components.hpp"
 #include "mesh/gpu/voxelise.hpp"
@@ -35,12 +35,12 @@ struct MeshOptions {
     std::string file;
     std::string unit = "m";
     float scale = 1;
-    std::vector<std::string> objects; // none = all
+    std::vector<std::string> objects; // empty = all
     float voxel = 0;                  // [m]; 0 = by resolution
     std::uint32_t resolution = 24;
-    std::optional<std::uint32_t> particles; // at most; instead of the two above
+    std::optional<std::uint32_t> particles; // upper limit; instead of the two above
     std::string repair = "close";
-    double weld = 0; // [units of the file]; 0 = by its size
+    double weld = 0; // [units of the file]; 0 = by the file's size
     DeviceOptions device;
     std::optional<std::string> json;
 };
@@ -53,7 +53,7 @@ struct Findings {
     std::vector<mesh::Component> components;
     mesh::VoxelGrid voxels;
     mesh::Bridges bridges;
-    std::string vainWeld; // a sentence, where --weld joins nothing
+    std::string vainWeld; // a sentence if --weld joins nothing
     std::string filledBy; // name of a device, or "host"
     std::vector<std::string> validationMessages;
     std::size_t bytes() const {
@@ -79,7 +79,7 @@ mesh::VoxelGrid fill(const MeshOptions& options, const mesh::TriangleMesh& mesh,
                              : voxelise(mesh, request);
 }
 
-// False where the device has no room for it.
+// False if the device has too little memory.
 bool fillOnDevice(const MeshOptions& options, Findings& found) {
     Session session(options.device);
     mesh::gpu::Voxeliser voxelise(session.device, session.queue);
@@ -117,7 +117,7 @@ void chooseObjects(const MeshOptions& options, Findings& found, mesh::MeshDefect
     defects = mesh::inspect(found.mesh).defects;
 }
 
-// `surface` is as it is in the file, `factor` makes metres of it.
+// `surface` is in the units of the file; `factor` converts them to metres.
 void checkScale(const MeshOptions& options, const mesh::MeshReport& surface, double factor) {
     double longest = 0, farthest = 0;
     for (float mesh::Vec3::*axis : {&mesh::Vec3::x, &mesh::Vec3::y, &mesh::Vec3::z}) {
@@ -255,8 +255,8 @@ std::string toText(const Findings& found) {
                               static_cast<double>(found.bytes()) / static_cast<double>(grid.voxels.size()));
 }
 
-// Warnings of likely surprises: another unit, components that voxels join, and walls that are too thin for
-// them.
+// Warns of likely mistakes: a wrong unit, components that voxels join, and walls that are too thin for the
+// voxels.
 std::vector<std::string> surprises(const MeshOptions& options, const Findings& found) {
     const mesh::MeshReport& surface = found.surface;
     const double longest = std::max({double{surface.high.x} - double{surface.low.x},

@@ -1,4 +1,4 @@
-// Ranges come from the table that scenes are validated against.
+// Ranges are those of the table that validates scenes.
 #include "sinew/options.hpp"
 
 #include "sim/compile.hpp"
@@ -17,7 +17,7 @@ CLI::Range within(const sim::Range& range) {
     return {static_cast<std::uint32_t>(range.low), static_cast<std::uint32_t>(range.high)};
 }
 
-// Empty where it is right, as CLI11 wants it.
+// Empty if correct (the form that CLI11 requires).
 std::string checkSubsteps(const std::string& text) {
     if (text == "auto") return {};
     const std::string complaint = within(sim::ranges::substeps)(text);

@@ -14,20 +14,20 @@ class App;
 
 namespace sinew::tools {
 
-/// The forms of kernels that the user asks for, each nothing where not: then defaults or tune() choose.
+/// Kernel forms requested by the user; empty ones are chosen by defaults or tune().
 struct FormOptions {
     std::optional<bool> usesTexels, usesGrids;
     std::optional<std::uint32_t> columns, chunk, residentBytes;
 
     bool isGiven() const { return usesTexels || usesGrids || columns || chunk || residentBytes; }
-    /// `forms` with what is asked for.
+    /// `forms` with the requested values.
     sim::Forms in(sim::Forms forms) const;
 };
 
-/// --forms.
+/// Adds --forms.
 void addFormOptions(CLI::App& command, FormOptions& options);
 
-/// The words of --forms.
+/// The text form of --forms.
 std::string toText(const sim::Forms& forms);
 
 struct SceneOptions {
@@ -36,19 +36,19 @@ struct SceneOptions {
     FormOptions forms;
 };
 
-/// SCENE|MESH, --solver, --substeps, --iterations, --voxel, --reversed, --forms.
+/// Adds SCENE|MESH, --solver, --substeps, --iterations, --voxel, --reversed, --forms.
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 
-/// A scene to simulate, and the state that it begins in.
+/// A scene to simulate and its initial state.
 struct Start {
     scenes::LoadedScene loaded;
     std::string scene;                ///< absolute path, or the name of a built-in scene
-    std::optional<app::SavedRun> run; ///< nothing: the scene's own state
+    std::optional<app::SavedRun> run; ///< empty: the scene's own state
 };
 
-/// As loadScene; `options.file` may also be a saved state. The scene is then the one that the state was saved
-/// of, with the material and gravity that it had, and its solver and substeps where `options` asks for no
-/// others. Throws app::Failure (badInput) where there is no such state.
+/// Like loadScene(); `options.file` may also be a saved state. The scene is then that of the state, with the
+/// state's material and gravity, and with its solver and substeps unless `options` sets others. Throws
+/// app::Failure (badInput) if there is no such state.
 Start loadStart(const SceneOptions& options);
 
 struct DeviceOptions {
@@ -56,10 +56,10 @@ struct DeviceOptions {
     bool hasValidation = false;
 };
 
-/// --device, --validation.
+/// Adds --device and --validation.
 void addDeviceOptions(CLI::App& command, DeviceOptions& options);
 
-/// Check of an option: a number above 0 and at most 1e6. CLI11's own lets nan through, and inf.
+/// Checks that an option is a number above 0 and at most 1e6. CLI11's own check accepts nan and inf.
 std::string checkPositive(const std::string& text);
 
 /// Loads the scene and prints its notes and warnings to stderr.

@@ -1,4 +1,4 @@
-// Locks with flock, which the kernel drops when a process dies, so that no stale lock stays behind.
+// Locks with flock, which the kernel releases when a process dies, so that no stale lock remains.
 #include "sinew/outputs.hpp"
 
 #include "app/guard.hpp"
@@ -41,7 +41,7 @@ void writeTo(std::FILE* stream, const std::string& text, const std::string& name
     if (!isWritten) fail(name, std::strerror(errno), "free some space or choose another target");
 }
 
-/// A device or FIFO has no final name to protect: nothing to rename.
+/// Writes to a device or FIFO, which has no final name, without renaming.
 void writeSpecial(const std::string& file, const std::string& text) {
     std::FILE* stream = std::fopen(file.c_str(), "wb");
     if (!stream) fail(file, std::strerror(errno), "choose another file");
@@ -50,9 +50,9 @@ void writeSpecial(const std::string& file, const std::string& text) {
     writeTo(stream, text, file);
 }
 
-/// Bytes of the first character of `text`, which is UTF-8, where a file name may hold it; else 0. Beyond
-/// ASCII that is every character but controls and the marks of U+2000 to U+206F, which turn text around or
-/// show nothing.
+/// Length in bytes of the first UTF-8 character of `text` if a file name may contain it, else 0. Allows ASCII
+/// letters, digits and '-', and other characters except controls and U+2000 to U+206F, which are invisible or
+/// change the direction of text.
 std::size_t lengthOfLetter(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     if (byte(0) < 0x80) {
@@ -102,7 +102,7 @@ OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)), lockFi
     if (lock_ < 0) fail(folder_.string(), std::strerror(errno), "choose another folder");
     struct stat status {};
     const bool isLocked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0;
-    // Without a link the file was removed by a run that ended just now, and a third run may hold a new one.
+    // An unlinked file belonged to a run that has just ended; a third run may hold a new one.
     if (!isLocked || ::fstat(lock_, &status) != 0 || status.st_nlink == 0) {
         ::close(lock_);
         fail(folder_.string(), "another run writes there", "wait for it or choose another folder");

@@ -1,5 +1,5 @@
-// Where results go. Everything is checked before a run begins and written whole after it: a file has its
-// final name only once it is complete.
+// Outputs. Everything is checked before a run begins and written whole after it: a file gets its final name
+// only when it is complete.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 namespace sinew::tools {
 
-/// A text that is the result of a command: "-" is stdout, else a file.
+/// The text result of a command: "-" is stdout, otherwise a file.
 class TextOutput {
 public:
-    /// Throws app::Failure (outputFailed) where the file's folder is missing or not writable.
+    /// Throws app::Failure (outputFailed) if the file's folder is missing or not writable.
     explicit TextOutput(std::string target);
     void write(const std::string& text) const;
 
@@ -19,10 +19,10 @@ private:
     std::string target_;
 };
 
-/// A folder for results, made if it is missing and locked against a second run while this lives.
+/// A folder for results, created if missing and locked against a second run during its lifetime.
 class OutputFolder {
 public:
-    /// Throws app::Failure (outputFailed) where it cannot be made, written to, or is in use.
+    /// Throws app::Failure (outputFailed) if the folder cannot be created or written to, or is in use.
     explicit OutputFolder(std::filesystem::path folder);
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
@@ -35,8 +35,8 @@ private:
     int lock_ = -1;
 };
 
-/// A name from a scene as a file name of at most 64 bytes: letters of every script, digits, '-' and '_' in
-/// UTF-8; whatever else becomes '_'. Never empty.
+/// A scene's name as a file name of at most 64 bytes: letters of every script, digits, '-' and '_' in UTF-8;
+/// other characters become '_'. Never empty.
 std::string fileName(const std::string& name);
 
 } // namespace sinew::tools

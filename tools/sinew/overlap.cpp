@@ -1,5 +1,5 @@
-// Each ball looks around in cells as wide as two of the largest touch. Sums in double, in the order of the
-// scene.
+// Each ball searches grid cells as wide as the largest sum of two radii. Sums are in double, in the order of
+// the scene.
 #include "sinew/overlap.hpp"
 
 #include "sim/collision/particle_contacts.hpp"
@@ -30,7 +30,7 @@ double distance(const Point& a, const Point& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-// Which pairs never touch, as sim::Particle::radius says it.
+// Pairs that never touch, by the rules of sim::Particle::radius.
 class Apart {
 public:
     explicit Apart(const sim::Scene& scene) : scene_(scene), body_(scene.particles.size()) {
@@ -78,7 +78,7 @@ void forEachNear(const std::vector<std::uint32_t>& particles, const std::vector<
             cell[axis] = static_cast<std::int64_t>(std::clamp(std::floor(x[i][axis] / edge), -1e15, 1e15));
         return cell;
     };
-    for (const std::uint32_t i : particles) { // those already there are lower
+    for (const std::uint32_t i : particles) { // those already there have lower indices
         const Cell home = cellOf(i);
         for (std::int64_t n = 0; n < 27; ++n) {
             const auto found =

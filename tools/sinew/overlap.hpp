@@ -1,5 +1,5 @@
-// How deep particles that touch each other are in each other, exactly and over all pairs: found on the host,
-// by a grid of its own, whatever the lists of the device said.
+// Exact overlap of particles that touch: on the host, over all pairs, with its own grid, independent of the
+// device's lists.
 #pragma once
 
 #include "sinew/measure.hpp"
@@ -7,13 +7,13 @@
 namespace sinew::tools {
 
 struct Overlap {
-    double max = 0; ///< of the deepest pair [m]
-    double rms = 0; ///< root mean square over the pairs nearer than touching [m]; 0 where there is none
-    std::size_t pairs = 0; ///< nearer than touching
+    double max = 0;        ///< of the deepest pair [m]
+    double rms = 0;        ///< root mean square over overlapping pairs [m]; 0 without any
+    std::size_t pairs = 0; ///< overlapping pairs
 };
 
-/// Of pairs that may touch: both have a radius, one can move, nothing links them, and if they are of one
-/// linked body they are at rest no nearer than 1.05 times touching. Empty where the scene has no such
+/// Measures pairs that may touch: both have a radius, one can move, no link joins them, and, within one
+/// linked body, their rest distance is at least 1.05 times the sum of radii. Empty if the scene has no such
 /// particles.
 std::optional<Overlap> overlapOf(const sim::Scene& scene, const State& state);
 

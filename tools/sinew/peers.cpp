@@ -1,6 +1,6 @@
 // Every program runs the motion with many choices of substeps and iterations, in turns (A B A B): the first
-// round gives the errors against the true motion (R1), all rounds the times of a frame, by the wall clock,
-// submission and waiting included for the device.
+// round gives the errors against the reference trajectory R1, all rounds the times of a frame, by the wall
+// clock, with submission and wait for the device.
 #include "sinew/peers.hpp"
 
 #include "app/guard.hpp"
@@ -45,7 +45,7 @@ sim::Scene elasticCloth() {
     return scene;
 }
 
-/// Glued to the ground: what a drop would add is a contact, on which engines differ for other reasons.
+/// A cube fixed to the ground: a drop would add contacts, in which engines differ for other reasons.
 sim::Scene elasticCube(std::uint32_t side) {
     sim::Scene scene{.name = fmt::format("cube {0}x{0}x{0}", side)};
     const sim::Lattice lattice{
@@ -67,10 +67,10 @@ constexpr PeerScene peerScenes[] = {{"cloth", elasticCloth, 256},
 
 /// One program with one choice of settings.
 struct Entrant {
-    std::string program; // a solver of ours, or "bullet"
+    std::string program; // one of our solvers, or "bullet"
     sim::Settings settings;
     std::vector<double> frameRms, frameMs;
-    std::optional<double> error; // over the frames that chaos leaves comparable; empty = diverged
+    std::optional<double> error; // over the frames before chaos; empty = diverged
     bool isDiverged = false;
 
     std::uint64_t sweeps() const { return std::uint64_t{settings.substeps} * settings.iterations; }
@@ -159,13 +159,13 @@ std::vector<std::string> programsOf(const std::vector<Entrant>& entrants) {
 }
 
 std::vector<std::size_t> frontOf(const std::vector<Entrant>& entrants, const std::string& program) {
-    std::vector<Offer> offers; // others' are no offers here, but keep their place
+    std::vector<Offer> offers; // programs of others are empty, to keep indices
     for (const Entrant& entrant : entrants)
         offers.push_back(entrant.program == program ? entrant.offer() : Offer{});
     return study::paretoFront(offers);
 }
 
-/// The first round compares, the others time what is on the front of its program, in turns.
+/// The first round measures errors; the others time each program's front, in turns.
 void runAll(Session& session, const sim::Scene& scene, const study::Truth& truth,
             std::vector<Entrant>& entrants) {
     std::uint64_t total = 0, done = 0;

@@ -1,5 +1,5 @@
-// Other engines on the same motions: `sinew bench --peers`. Compared at equal error, for engines do not agree
-// on what a step is. Compiled against Bullet's soft bodies where they are installed (SINEW_BENCH_PEERS).
+// `sinew bench --peers`: other engines on the same motions, compared at equal error, since engines define a
+// step differently. Needs Bullet's soft bodies at build time (SINEW_BENCH_PEERS).
 #pragma once
 
 #include "sinew/clutter/entrant.hpp"
@@ -8,18 +8,17 @@
 
 namespace sinew::tools {
 
-/// Throws app::Failure (wrongUsage) where this program was built without peers.
+/// Throws app::Failure (wrongUsage) if this program was built without peers.
 void requirePeers();
 
 /// A list of one object per scene: every program's curve of wall-clock time over error, and the times to 10,
-/// 1 and 0.1 %. `scene` is "cloth", "cube" or "all". Says on stderr how far it is; stops early when
-/// interrupted.
+/// 1 and 0.1 %. `scene` is "cloth", "cube" or "all". Prints progress on stderr; stops early when interrupted.
 Json comparePeers(const std::string& scene, Session& session);
 
-/// Bullet's rigid spheres in the place of the loose particles of a scene. `scene` must outlive the result.
+/// Bullet's rigid spheres instead of a scene's loose particles. `scene` must outlive the result.
 ClutterEntrant bulletClutter(const sim::Scene& scene, std::uint32_t substeps, std::uint32_t iterations);
 
-/// The times to equal errors, for a terminal.
+/// The times to equal errors, as text for a terminal.
 std::string peersTable(const Json& comparisons);
 
 } // namespace sinew::tools

@@ -1,4 +1,4 @@
-// Built without peers.
+// Stubs for a build without peers.
 #include "sinew/peers.hpp"
 
 #include "app/guard.hpp"

@@ -48,7 +48,7 @@ Json frameJson(const std::optional<Statistics>& frame) {
 
 Json phaseJson(const RunRecord& record) {
     Json phases = Json::object();
-    for (std::size_t i = 0; i < record.phaseMs.size(); ++i) { // a name has as many spans as a step has turns
+    for (std::size_t i = 0; i < record.phaseMs.size(); ++i) { // a step may have several spans of one name
         Json& ms = phases[record.phases[i]];
         ms = (ms.is_null() ? 0.0 : ms.get<double>()) + record.phaseMs[i];
     }
@@ -123,7 +123,7 @@ Json divergenceJson(const std::optional<Divergence>& divergence, double dt) {
             {"particles", divergence->count}};
 }
 
-// Bodies of which all that can move sleeps.
+// Names of bodies whose movable particles all sleep.
 Json sleepJson(const RunRecord& record) {
     const std::vector<bool>& isAsleep = record.state.isAsleep;
     if (isAsleep.empty()) return nullptr;
@@ -141,7 +141,7 @@ Json sleepJson(const RunRecord& record) {
 }
 
 Json overflowJson(const RunRecord& record) {
-    Json overflow = Json::object(); // empty: no list of a bounded size is in use
+    Json overflow = Json::object(); // empty: no list of fixed size is in use
     const app::ContactRoom& contacts = record.contactRoom;
     const sim::ContactBuffers& lists = record.program.contacts;
     if (lists.pairs != sim::BufferId{} || lists.facePairs != sim::BufferId{})
@@ -173,7 +173,7 @@ Json vectorOver(const sim::Vec3& v, float dt) {
     return {v.x / dt, v.y / dt, v.z / dt};
 }
 
-// An impulse over the length of the step.
+// Force and torque: an impulse divided by the length of the step.
 Json forceJson(const sim::Impulse& impulse, float dt) {
     return {{"force", vectorOver(impulse.linear, dt)}, {"torque", vectorOver(impulse.angular, dt)}};
 }
@@ -309,7 +309,7 @@ std::string stiffnessText(const scenes::LoadedScene& loaded) {
     return text;
 }
 
-// Of what was removed.
+// Text on removed fragments.
 std::string crumbsText(const CutFigures& cuts) {
     if (cuts.crumbs == 0) return {};
     return fmt::format(", {} removed with {}, {:.3g} kg", cuts.crumbs,

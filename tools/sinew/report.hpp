@@ -1,4 +1,4 @@
-// The report of a run as JSON. docs/report.md describes every field; its schema version changes with their
+// The report of a run as JSON. docs/report.md describes every field; the schema version changes with their
 // meaning.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace sinew::tools {
 
 inline constexpr int reportSchema = 1;
 
-/// Everything a report is made of. Refers to what its maker owns.
+/// The content of a report. Refers to objects of its maker.
 struct RunRecord {
     const scenes::LoadedScene& loaded;
     const sim::StepProgram& program;
@@ -23,15 +23,15 @@ struct RunRecord {
     std::vector<double> phaseMs;
     std::vector<double> frameMs;
     double recordMs = 0;
-    std::uint64_t wantedFrames = 0, frames = 0; ///< asked for; done with a finite state
+    std::uint64_t wantedFrames = 0, frames = 0; ///< requested; done with a finite state
     std::optional<Divergence> divergence;
     app::ContactRoom contactRoom;
     app::SurfaceRoom surfaceRoom;
     std::uint32_t surfaceMissing = 0; ///< at the end
-    std::uint64_t slowed = 0;         ///< as Runner::slowed()
+    std::uint64_t slowed = 0;         ///< see Runner::slowed()
     ListFigures lists;
     CutFigures cuts;
-    sim::Impulses forces; ///< of the last step
+    sim::Impulses forces; ///< in the last step
     bool isInterrupted = false;
     State state;
     SkinMeshes skins;
@@ -41,10 +41,10 @@ struct RunRecord {
 
 std::string toJson(const RunRecord& record);
 
-/// Why so many substeps, and what stiffness they reach; for people.
+/// The choice of substeps and the stiffness that they reach, as text.
 std::string stiffnessText(const scenes::LoadedScene& loaded);
 
-/// A few lines for people.
+/// The report as a few lines of text.
 std::string toText(const RunRecord& record);
 
 } // namespace sinew::tools

@@ -1,4 +1,4 @@
-// `sinew run`: simulates a scene without a window and writes what came out of it.
+// `sinew run`: simulates a scene without a window and writes the results.
 #include "app/guard.hpp"
 #include "app/progress.hpp"
 #include "mesh/export.hpp"
@@ -67,7 +67,7 @@ void step(const RunOptions& options, const scenes::LoadedScene& loaded, Runner& 
     progress.finish();
 }
 
-/// What the device says about itself stays in `session`; everything else is copied out.
+/// Collects the record. Only the device's description stays in `session`; all else is copied.
 RunRecord recordOf(const RunOptions& options, const scenes::LoadedScene& loaded, Session& session,
                    Runner& runner) {
     return {.loaded = loaded,
@@ -94,8 +94,9 @@ RunRecord recordOf(const RunOptions& options, const scenes::LoadedScene& loaded,
             .validationMessages = session.device.validationMessages()};
 }
 
-/// Rigid links may be longer than the tolerance says while they move; twice as much is too few substeps. How
-/// far they stretch falls with the square of those; at corners, which "auto" regards, more slowly.
+/// Warns if rigid links are more than twice as long as the tolerance allows: then there are too few substeps.
+/// While moving, links may exceed the tolerance itself. The stretch falls with the square of the number of
+/// substeps; at corners, which "auto" considers, more slowly.
 std::optional<std::string> stretchWarning(const RunRecord& record) {
     const sim::Settings& settings = record.loaded.settings;
     const double most = rigidStretch(record.loaded.scene, record.state), wanted = double{settings.tolerance};
@@ -114,7 +115,7 @@ std::optional<std::string> stretchWarning(const RunRecord& record) {
                 : std::string("take shorter steps (dt), or links that are elastic"));
 }
 
-/// What only a run can show; the same on stderr and in the report.
+/// Adds warnings that need a run, on stderr and in the report.
 void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings,
                   const std::vector<std::string>& complaints) {
     const auto warn = [&](const std::string& sentence) {
@@ -137,7 +138,7 @@ void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings,
              ": check its times, and that its edges, in metres, pass through a body");
 }
 
-/// As the viewer saves it, from the view of `start` if it has one.
+/// Writes a state in the viewer's format, with the view of `start` if it has one.
 void writeState(const std::string& file, const Start& start, Runner& runner) {
     app::SavedRun run = runner.save();
     run.scene = start.scene;
@@ -169,7 +170,7 @@ int conclude(const RunRecord& record) {
 
 int run(const RunOptions& options) {
     app::catchSignals();
-    // Before anything costs time: an output that cannot be written is known now.
+    // Checks outputs before anything that takes time.
     std::optional<OutputFolder> folder;
     std::optional<TextOutput> json, traceOutput, state;
     if (options.json) json.emplace(*options.json);
@@ -181,7 +182,7 @@ int run(const RunOptions& options) {
     if (options.folder) folder.emplace(*options.folder);
     Session session(options.device);
     loaded.settings.forms = sim::completed(loaded.settings.forms, sim::kindOf(session.device));
-    constexpr std::uint64_t worthTuning = 100; // frames: below, measuring forms costs more than it gains
+    constexpr std::uint64_t worthTuning = 100; // frames: in shorter runs timing of forms does not pay off
     if (options.frames >= worthTuning && !start.run && !options.scene.forms.isGiven())
         loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);
     loaded.settings.timesPasses = options.timesPasses;

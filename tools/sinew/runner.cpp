@@ -1,4 +1,4 @@
-// The host's half of a step is recording and one submission; it waits only for steps that are `inFlight`
+// On the host a step is one recording and one submission; the runner waits only for steps that are `inFlight`
 // behind.
 #include "sinew/runner.hpp"
 
@@ -92,18 +92,18 @@ void Runner::submitStep(std::uint64_t frame) {
     ++recorded_;
 }
 
-/// False where the step must be done again, and with it all that were submitted since.
+/// False if the step and all submitted after it must be repeated.
 bool Runner::finishStep(std::uint64_t frame) {
     const std::size_t slot = frame % submitted_.size();
     session_.queue.wait(submitted_[slot]);
-    if (divergence_) return true; // a step that was under way already
+    if (divergence_) return true; // was already in flight
     const double end = nowMs();
     const sim::Status status = simulation().status(frame);
     if (status.frame != static_cast<std::uint32_t>(frame))
         throw std::logic_error("the status of step " + std::to_string(frame) + " is that of another");
     if (status.contactRoom > 0 && growing_.grow(status.contactRoom, session_.queue)) return false;
     if (status.lacksLists) {
-        session_.queue.waitIdle(); // for those behind it
+        session_.queue.waitIdle(); // for later steps
         return false;
     }
     countTime(slot, end);
@@ -141,7 +141,7 @@ void Runner::countTime(std::size_t slot, double end) {
     timed_ += phases.empty() ? 0 : 1;
 }
 
-/// All steps have finished.
+/// Grows the surface of cuts; all steps have finished.
 void Runner::growSurface() {
     if (!growing_.lacksSurface(surfaceMissing_)) return;
     if (growing_.growSurface(surfaceMissing_, session_.queue)) surfaceMissing_ = 0;
@@ -202,7 +202,7 @@ State Runner::readState() {
         for (std::size_t d = 0; d < scene_.distances.size(); ++d) state.isCut.push_back(cut.isCut(d, words));
     }
     if (!settings_.sleeps) return state;
-    const std::vector<float> inverseMass = sim::inverseMasses(scene_); // the device has 0 for what sleeps
+    const std::vector<float> inverseMass = sim::inverseMasses(scene_); // 0 on the device for sleepers
     for (std::size_t i = 0; i < inverseMass.size(); ++i) {
         state.isAsleep.push_back(inverseMass[i] > 0 && state.positions[i][3] == 0);
         state.positions[i][3] = state.velocities[i][3] = inverseMass[i];

@@ -1,4 +1,4 @@
-// Steps a scene on a device: one submission a step, a few of them in flight, no wait inside a step.
+// Runs a scene on a device: one submission per step, a few steps in flight, no wait inside a step.
 #pragma once
 
 #include "app/growing_simulation.hpp"
@@ -13,56 +13,55 @@
 
 namespace sinew::tools {
 
-/// A step whose state was no longer finite, or that found more contacts than there can be room for.
+/// A step with a non-finite state, or with more contacts than the largest capacity.
 struct Divergence {
     std::uint64_t step = 0; ///< counted from 1
     std::uint32_t particle = 0, count = 0;
-    std::string body;       ///< empty where the particle belongs to none
-    bool isCrowded = false; ///< all is finite: nothing else is meant but `step`
+    std::string body;       ///< empty if the particle belongs to no body
+    bool isCrowded = false; ///< the state is finite; only `step` is valid
 };
 
-/// What is drawn of each skin of the scene.
+/// The drawn skins of the scene.
 struct SkinMeshes {
     std::vector<mesh::TriangleMesh> whole;
-    std::vector<std::vector<mesh::TriangleMesh>> pieces; ///< the same; one each where nothing is cut
-    std::vector<std::vector<mesh::ShadedMesh>> shaded;   ///< likewise, with normals
-    app::PieceCount count{};                             ///< of bodies that may be cut
+    std::vector<std::vector<mesh::TriangleMesh>> pieces; ///< by piece; one mesh if nothing is cut
+    std::vector<std::vector<mesh::ShadedMesh>> shaded;   ///< the same pieces with normals
+    app::PieceCount count{};                             ///< of bodies that can be cut
 };
 
-/// What sim::Status says of bodies that may be cut.
+/// The figures of sim::Status on cuts.
 struct CutFigures {
     std::uint32_t links = 0, pieces = 0;
-    std::uint32_t crumbs = 0, crumbParticles = 0; ///< pieces that were removed, and theirs
+    std::uint32_t crumbs = 0, crumbParticles = 0; ///< removed fragments and their particles
     double crumbMass = 0;                         ///< [kg]
 };
 
-/// How steps were recorded and repeated.
+/// Counts of how steps were recorded and repeated.
 struct ListFigures {
-    std::uint64_t calm = 0;     ///< steps that had none after their first substep (sim::Status::isCalm)
-    std::uint64_t repeated = 0; ///< steps that were undone and taken again, for lists or for room
+    std::uint64_t calm = 0;     ///< steps without list passes after the first substep (sim::Status::isCalm)
+    std::uint64_t repeated = 0; ///< steps undone and repeated, for lists or for capacity
 };
 
 class Runner {
 public:
-    /// Creates the simulation and runs one step that is thrown away, so that drivers which compile late do so
-    /// now. `session` and `scene` must outlive the Runner.
+    /// Creates the simulation and runs one step that is discarded, so that drivers which compile at the first
+    /// use do so now. `session` and `scene` must outlive the Runner.
     Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings,
            scenes::ScriptedBlades blades = {});
 
-    /// Steps until `count` more are done, isInterrupted() or there is a divergence(). A step without room for
-    /// its contacts is done again with more, one that lacked lists of them with all passes. `inFlight` is 1
-    /// to Simulation::framesInFlight. `onStep` gets the number of steps done.
+    /// Takes steps until `count` more are done, isInterrupted() or there is a divergence(). Repeats a step
+    /// that lacks capacity for contacts with more capacity, and one that lacks contact lists with all passes.
+    /// `inFlight` is 1 to Simulation::framesInFlight. `onStep` gets the number of steps done.
     void advance(std::uint64_t count, std::uint32_t inFlight,
                  const std::function<void(std::uint64_t)>& onStep = {});
 
-    /// Back to the scene's state and to no steps and no times.
+    /// Returns to the scene's state, without steps and times.
     void restart();
 
-    /// The newest finite state. Scene, material and gravity of it are the caller's to fill in. Waits for the
-    /// queue.
+    /// The newest finite state. The caller fills in scene, material and gravity. Waits for the queue.
     app::SavedRun save();
-    /// Goes on from a state instead of the scene's: scripted blades too. Throws app::Failure (badInput) where
-    /// the state is of another simulation. Waits for the queue.
+    /// Continues from a state instead of the scene's own; so do scripted blades. Throws app::Failure
+    /// (badInput) if the state belongs to another simulation. Waits for the queue.
     void load(const app::SavedRun& run);
 
     std::uint64_t steps() const { return done_; } ///< with a finite state
@@ -72,27 +71,26 @@ public:
     const ListFigures& lists() const { return lists_; }
     const app::ContactRoom& contactRoom() const { return growing_.contactRoom(); }
     const app::SurfaceRoom& surfaceRoom() const { return growing_.surfaceRoom(); }
-    std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing, likewise
-    /// Of the newest step with a finite state.
+    std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing of these
+    /// Figures of the newest step with a finite state.
     const CutFigures& cuts() const { return cuts_; }
-    /// Forces of that step; empty without Settings::keepsForces.
+    /// Forces in that step; empty without Settings::keepsForces.
     const sim::Impulses& forces() const { return forces_; }
 
-    /// Complaints of the simulation about its use (sim::Simulation::complaints), after advance(); nothing
-    /// where it found too little room for contacts, which the divergence tells.
+    /// Complaints of the simulation about its use (sim::Simulation::complaints), after advance(); empty if it
+    /// lacked capacity for contacts, which the divergence reports.
     std::vector<std::string> complaints();
 
-    /// Wall-clock time [ms] from the end of one step to the end of the next, of the newest 65,536 steps at
-    /// most, the one that diverged included: an endless run must not grow. In no order.
+    /// Wall-clock times [ms] between the ends of consecutive steps, including one that diverged; only the
+    /// newest 65,536, so that an endless run does not grow. Unordered.
     const std::vector<double>& frameMs() const { return frameMs_; }
-    /// Device time of a step [ms], its phases summed, of the same steps; empty without timestamps.
+    /// Device times of the same steps [ms], phases summed; empty without timestamps.
     const std::vector<double>& deviceMs() const { return deviceMs_; }
-    /// Mean device time of a step [ms], one value per entry of simulation().phases(); empty without
-    /// timestamps.
+    /// Mean device times of a step [ms], one for each of simulation().phases(); empty without timestamps.
     std::vector<double> phaseMs() const;
     double recordMs() const; ///< mean host time to record and submit a step [ms]
 
-    /// The newest finite state and the skins drawn from it, read back from the device.
+    /// Reads the newest finite state and the skins drawn from it from the device.
     State readState();
     SkinMeshes readSkins();
 
@@ -108,10 +106,10 @@ private:
     sim::Settings settings_;
     scenes::ScriptedBlades blades_;
     app::GrowingSimulation growing_;
-    std::vector<vk::Timestamps> timestamps_;                                 // one a step in flight
+    std::vector<vk::Timestamps> timestamps_;                                 // one per step in flight
     std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values
     std::uint64_t done_ = 0, slowed_ = 0;
-    std::uint64_t played_ = 0; // steps before the first, of the state that it goes on from
+    std::uint64_t played_ = 0; // steps before the first one, in the loaded state
     std::optional<Divergence> divergence_;
     std::vector<double> frameMs_, deviceMs_, phaseSums_;
     double recordSum_ = 0, lastEnd_ = 0; // [ms]
@@ -120,7 +118,7 @@ private:
     ListFigures lists_;
     sim::Impulses forces_;
     std::uint32_t surfaceMissing_ = 0;
-    vk::Drain drain_; // last: steps may be in flight when an exception destroys the rest
+    vk::Drain drain_; // last: steps may be in flight when an exception destroys the other members
 };
 
 } // namespace sinew::tools

@@ -1,4 +1,4 @@
-// Plain loops over plain arrays: what a careful programmer would write for one core.
+// Simple loops over arrays, as a careful programmer would write them for one core.
 #include "sinew/sequential.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::vector<float> inverseMassesOf(const sim::Scene& scene) {
     return result;
 }
 
-/// Constraints sorted by colour, each with the smallest that neither of its ends has yet.
+/// Constraints sorted by colour; each gets the smallest colour that neither of its ends has yet.
 std::vector<sim::DistanceConstraint> colorOrdered(const std::vector<sim::DistanceConstraint>& constraints,
                                                   std::size_t particles) {
     std::vector<std::vector<bool>> used(particles);
@@ -121,7 +121,7 @@ void Sequential::projectPlanes() {
             const float along = dot(n, slid);
             slid = {slid[0] - along * n.x, slid[1] - along * n.y, slid[2] - along * n.z, 0};
             const float length = std::sqrt(slid[0] * slid[0] + slid[1] * slid[1] + slid[2] * slid[2]);
-            // Coulomb: the substep's tangential motion is taken back, up to friction times depth.
+            // Coulomb friction: undoes the substep's tangential motion, up to friction times depth.
             const float reach = plane.friction * depth, back = length <= reach ? 1 : reach / length;
             x[0] += depth * n.x - back * slid[0];
             x[1] += depth * n.y - back * slid[1];

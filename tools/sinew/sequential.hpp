@@ -1,7 +1,7 @@
-// The sequential program of the benchmark: coordinates in float, one CPU thread, compiled for the machine it
-// is built on (sequentialFlags). Gauss-Seidel on position constraints with the half-kick, boundary planes and
-// damping (methods: D; contacts: 0.4): the same steps as sim/reference/GaussSeidel takes in double, in the
-// order of the scene or sorted by colour.
+// The sequential program of the benchmark: coordinates in float, one CPU thread, compiled for the building
+// machine (sequentialFlags). Gauss-Seidel on position constraints, with the half-kick of gravity (g h^2 / 2
+// in the prediction), boundary planes and damping: the same steps as sim/reference/GaussSeidel in double, in
+// the order of the scene or sorted by colour.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -9,14 +9,14 @@
 namespace sinew::tools {
 
 /// `natural` is the order of the scene, in which each constraint waits for its neighbour's result. In `color`
-/// order no constraint shares a particle with those just before it, which a processor can overlap.
+/// order, consecutive constraints share no particles, so that a processor can overlap them.
 enum class ConstraintOrder { natural, color };
 
 class Sequential {
 public:
     Sequential(const sim::Scene& scene, const sim::Settings& settings, ConstraintOrder order);
 
-    /// One step of the scene's length.
+    /// Takes one step of the scene's length.
     void step();
 
     using Vec4 = std::array<float, 4>;
@@ -24,7 +24,7 @@ public:
     const std::vector<Vec4>& velocities() const { return v_; } ///< w = inverse mass [1/kg]
 
 private:
-    // One constraint as the inner loop reads it, in half a cache line.
+    // A constraint in the layout of the inner loop, half a cache line.
     struct Row {
         std::uint32_t a = 0, b = 0;
         float restLength = 0, alpha = 0; // [m], compliance / h^2 [1/kg]
@@ -46,7 +46,7 @@ private:
     std::uint32_t substeps_ = 1, iterations_ = 1;
 };
 
-/// What the compiler was told, such as "-O3 -march=native".
+/// The compiler flags, such as "-O3 -march=native".
 const char* sequentialFlags();
 
 } // namespace sinew::tools

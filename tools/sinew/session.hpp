@@ -1,4 +1,4 @@
-// A device of our own with its loader and queue, in the order in which they must be destroyed.
+// A device of its own with loader and queue, declared in the order of construction.
 #pragma once
 
 #include "sinew/options.hpp"
@@ -13,11 +13,11 @@ struct Session {
     vk::Loader loader;
     vk::Device device;
     vk::Queue queue;
-    vk::KeptKernels kept; // of what is tried for speed and what is measured then
+    vk::KeptKernels kept; // for kernels of timing runs that are used again
 
     /// Throws vk::Error. Call before threads start: validation sets an environment variable.
     explicit Session(const DeviceOptions& options);
-    /// A session on the Vulkan that `getInstanceProcAddr` leads to; `request` says the rest.
+    /// A session on the Vulkan of `getInstanceProcAddr`, with the device of `request`.
     Session(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const vk::DeviceRequest& request);
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;

@@ -1,4 +1,4 @@
-// Undoes what skins double for the sake of their normals.
+// Joins vertices that skins duplicate for their normals.
 #include "sinew/skin_mesh.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace sinew::tools {
 
 namespace {
 
-/// The first vertex on the same particle; itself in a cell.
+/// The first vertex on the same particle; for a vertex in a cell, itself.
 std::vector<std::uint32_t> representatives(const sim::Skin& skin) {
     std::vector<std::uint32_t> first(skin.vertexCount());
     std::iota(first.begin(), first.end(), 0u);

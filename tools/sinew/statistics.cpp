@@ -1,4 +1,4 @@
-// Nearest ranks, so that every figure is one that was measured.
+// Uses nearest ranks, so that every figure is a measured value.
 #include "sinew/statistics.hpp"
 
 #include <algorithm>

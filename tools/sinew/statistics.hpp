@@ -11,8 +11,8 @@ struct Statistics {
     double stddev = 0; ///< of the sample (n - 1); 0 for a single value
 };
 
-/// Percentiles by nearest rank: the smallest value that at least that share does not exceed. Empty for no
-/// values.
+/// Percentiles by nearest rank: the smallest value that at least that share of values does not exceed. Empty
+/// without values.
 std::optional<Statistics> summarise(std::vector<double> values);
 
 } // namespace sinew::tools

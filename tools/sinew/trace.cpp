@@ -1,4 +1,4 @@
-// Samples are read back between steps, so a traced run waits for the device and its times say less.
+// Samples are read between steps, so a traced run waits for the device and its times are not representative.
 #include "sinew/trace.hpp"
 
 #include "app/guard.hpp"

@@ -1,5 +1,5 @@
-// How a run goes on over time: energy and overlap every few steps, for `sinew run --trace` and for the rest
-// that a study looks at.
+// Time series of a run: energy and overlap every few steps, for `sinew run --trace` and for runs to rest in a
+// study.
 #pragma once
 
 #include "sinew/runner.hpp"
@@ -12,19 +12,19 @@ struct Sample {
     std::uint64_t step = 0;                               ///< steps done
     double time = 0;                                      ///< [s]
     double kineticEnergy = 0;                             ///< [J]
-    std::optional<double> penetrationMax, penetrationRms; ///< as in Errors [m]
-    std::size_t asleep = 0;                               ///< particles
+    std::optional<double> penetrationMax, penetrationRms; ///< see Errors [m]
+    std::size_t asleep = 0;                               ///< sleeping particles
 };
 
 Sample sampleOf(const sim::Scene& scene, const State& state, std::uint64_t step);
 
-/// Steps until `count` are done, isInterrupted() or a divergence, and takes a sample after every `every`
-/// steps and after the last. `onStep` as in Runner::advance.
+/// Takes steps until `count` are done, isInterrupted() or a divergence; samples after every `every` steps and
+/// after the last. `onStep`: see Runner::advance.
 std::vector<Sample> trace(Runner& runner, const sim::Scene& scene, std::uint64_t count, std::uint64_t every,
                           const std::function<void(std::uint64_t)>& onStep = {});
 
-/// "step,time,kinetic_energy,penetration_max,penetration_rms,asleep" and a line a sample; empty where a
-/// figure has no meaning.
+/// "step,time,kinetic_energy,penetration_max,penetration_rms,asleep" and one line per sample; a field is
+/// empty if the figure has no meaning.
 std::string toCsv(std::span<const Sample> samples);
 
 } // namespace sinew::tools

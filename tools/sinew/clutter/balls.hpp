@@ -1,5 +1,5 @@
-// What the programs on the CPU that take part in `sinew bench --scene clutter` start from: balls of one size
-// and planes, in float. Every folder-mate is compiled for the machine that builds it, but for Bullet.
+// The input of the CPU programs in `sinew bench --scene clutter`: balls of one size, and planes, in float.
+// All files of this folder except Bullet's are compiled for the building machine.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -10,20 +10,20 @@ using Vec4 = std::array<float, 4>;
 
 struct Balls {
     std::vector<Vec4> x, v; ///< [m], [m/s]; w = inverse mass [1/kg]
-    float radius = 0;       ///< of each [m]
+    float radius = 0;       ///< of each ball [m]
     float friction = 0;     ///< between balls
     std::vector<sim::Plane> planes;
     sim::Vec3 gravity;                          ///< [m/s^2]
-    float dt = 0;                               ///< of a step [s]
-    std::uint32_t substeps = 1, iterations = 1; ///< of a step, of a substep
+    float dt = 0;                               ///< length of a step [s]
+    std::uint32_t substeps = 1, iterations = 1; ///< per step; per substep
     float h() const { return dt / static_cast<float>(substeps); }
 };
 
-/// Throws std::invalid_argument for a scene of anything else than loose particles of one radius and planes.
+/// Throws std::invalid_argument unless the scene consists of loose particles of one radius and planes.
 Balls ballsOf(const sim::Scene& scene, std::uint32_t substeps, std::uint32_t iterations);
 
-/// Moves `x`, which was `before` when the substep began, out of all planes; friction takes back the substep's
-/// motion along one, up to the coefficient times the depth.
+/// Moves `x` out of all planes; `before` is its position when the substep began. Friction undoes the
+/// tangential motion of the substep, up to the coefficient times the depth.
 inline void projectPlanes(const Balls& balls, Vec4& x, const Vec4& before) {
     for (const sim::Plane& plane : balls.planes) {
         const sim::Vec3& n = plane.normal;

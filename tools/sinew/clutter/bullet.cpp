@@ -1,4 +1,4 @@
-// Bodies never fall asleep here: a sleeping body would be timed as if it were solved.
+// Bodies must not sleep here: a sleeping body would be timed as if it were solved.
 #include "sinew/clutter/bullet.hpp"
 
 #include <btBulletDynamicsCommon.h>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr btScalar wide = 1000, thick = 1; // [m]
 
-// What lies behind a plane. One along the axes is a slab: Bullet pairs a plane, which is everywhere, with
-// every ball, but a slab only with those near it.
+// The body behind a plane. An axis-aligned plane becomes a slab: Bullet pairs an infinite plane with every
+// ball, but a slab only with near ones.
 struct Wall {
     std::unique_ptr<btCollisionShape> shape;
     btVector3 at{0, 0, 0};

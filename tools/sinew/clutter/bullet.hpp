@@ -1,4 +1,4 @@
-// The same clutter as rigid spheres of Bullet 3: what `sinew bench --scene clutter --peers` compares with.
+// The clutter scene as rigid spheres of Bullet 3, for `sinew bench --scene clutter --peers`.
 #pragma once
 
 #include "sinew/clutter/balls.hpp"
@@ -9,8 +9,8 @@ namespace sinew::tools::clutter {
 
 class Bullet {
 public:
-    /// A sphere a ball, a static slab or plane each plane, Bullet's default world and solver but for
-    /// `iterations` of a substep. Spheres may turn, as ours cannot.
+    /// One sphere per ball, a static slab or plane per plane, Bullet's default world and solver except
+    /// `iterations` per substep. The spheres rotate; our particles cannot.
     explicit Bullet(const Balls& balls);
     ~Bullet();
     Bullet(const Bullet&) = delete;

@@ -13,13 +13,13 @@ namespace sinew::tools {
 struct ClutterEntrant {
     std::string solver, device = "CPU, one thread";
     std::uint32_t substeps = 1, iterations = 1;
-    /// Takes so many steps, and the times of all taken so far are in the list [ms].
+    /// Takes `count` steps and leaves the times of all steps so far in the list [ms].
     std::function<void(std::uint64_t, std::vector<double>&)> advance;
     std::function<State()> state;
     std::vector<double> stepMs;
 };
 
-/// A program on the CPU that has step() and balls(), each step timed.
+/// Wraps a CPU program that has step() and balls(); times each step.
 template <typename Program>
 ClutterEntrant onCpu(std::string name, std::shared_ptr<Program> program, std::uint32_t substeps,
                      std::uint32_t iterations) {

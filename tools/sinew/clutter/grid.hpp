@@ -1,5 +1,5 @@
 // Balls sorted into the cells of a dense grid over their bounding box, x fastest: three cells in a row along
-// x are one range, so a ball looks at nine ranges.
+// x are one range, so each ball reads nine ranges.
 #pragma once
 
 #include "sinew/clutter/balls.hpp"
@@ -12,7 +12,7 @@ namespace sinew::tools::clutter {
 
 class Grid {
 public:
-    /// Balls nearer than `edge` are in the same or in neighbouring cells.
+    /// Puts balls nearer than `edge` into the same or neighbouring cells.
     void sort(const std::vector<Vec4>& x, float edge) {
         fit(x, edge);
         start_.assign(std::size_t{size_[0]} * size_[1] * size_[2] + 1, 0);
@@ -34,9 +34,9 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t mostAlong = 512; // of a run that threw a ball far away: cells get larger
+    static constexpr std::uint32_t mostAlong = 512; // cells grow if a ball flies far away
 
-    // One empty cell all around.
+    // Fits the box with one empty cell on all sides.
     void fit(const std::vector<Vec4>& x, float edge) {
         std::array<float, 3> high{};
         low_.fill(std::numeric_limits<float>::max());

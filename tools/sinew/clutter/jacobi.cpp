@@ -1,12 +1,12 @@
-// Every ball gathers from its neighbours and writes itself: two arrays of positions in turns, a barrier a
-// sweep.
+// Every ball gathers from its neighbours and writes only itself: two position arrays alternate, with one
+// barrier per sweep.
 #include "sinew/clutter/jacobi.hpp"
 
 namespace sinew::tools::clutter {
 
 namespace {
 
-constexpr std::uint32_t mostNear = 32; // within 1.1 diameters of a ball of one size fit about 15
+constexpr std::uint32_t mostNear = 32; // within 1.1 diameters, about 15 balls of one size fit
 
 } // namespace
 
@@ -36,7 +36,7 @@ Jacobi::Range Jacobi::rangeOf(std::uint32_t thread) const {
                                  : Range{thread * half, (thread + 1) * half};
 }
 
-// What one thread does of a step; the threads meet where one reads what the other wrote.
+// One thread's part of a step; barriers separate writes from reads of the other thread.
 void Jacobi::work(std::uint32_t thread) {
     const Range range = rangeOf(thread);
     for (std::uint32_t substep = 0; substep < balls_.substeps; ++substep) {
@@ -107,7 +107,7 @@ void Jacobi::sweep(Range range, const std::vector<Vec4>& from, std::vector<Vec4>
                 cz += ofA * (depth * nz - back * sz);
             ++touched;
         }
-        // Averaged, over-relaxed below the proven 4/3.
+        // Averaged, with over-relaxation below the proven bound of 4/3.
         const float share = 1.3f / std::max(1.0f, touched);
         Vec4 moved{a[0] + share * cx, a[1] + share * cy, a[2] + share * cz, a[3]};
         projectPlanes(balls_, moved, oldA);

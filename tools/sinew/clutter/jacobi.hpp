@@ -1,5 +1,5 @@
-// The same clutter as a tuned native program: averaged Jacobi over listed neighbours on two threads. What a
-// software device is held against, for it computes on the same two cores.
+// The clutter scene as a tuned native program: averaged Jacobi over neighbour lists on two threads. It is the
+// baseline for a software device, which computes on the same two cores.
 #pragma once
 
 #include "sinew/clutter/grid.hpp"
@@ -34,12 +34,12 @@ private:
 
     Balls balls_;
     std::vector<Vec4> before_, other_;
-    std::vector<std::uint32_t> near_; ///< of each ball, room for mostNear
+    std::vector<std::uint32_t> near_; ///< mostNear entries for each ball
     std::vector<std::uint32_t> nearCount_;
     Grid grid_;
     bool isEnding_ = false;
     std::barrier<> turn_{threads};
-    std::jthread helper_; ///< last: uses the others
+    std::jthread helper_; ///< last: uses the members above
 };
 
 } // namespace sinew::tools::clutter

@@ -1,4 +1,4 @@
-// Plain loops over plain arrays: what a careful programmer would write for one core.
+// Simple loops over arrays, as a careful programmer would write them for one core.
 #include "sinew/clutter/sequential.hpp"
 
 #include <stdexcept>
@@ -47,7 +47,7 @@ void Sequential::predict() {
     predicted_ = balls_.x;
 }
 
-// Where a ball may have moved by half of the margin since the pairs were found, they are found again.
+// Lists the pairs again once a ball may have moved by half of the margin since the last list.
 void Sequential::list() {
     float most = 0;
     for (std::size_t i = 0; i < listed_.size(); ++i) {
@@ -78,7 +78,7 @@ void Sequential::sweep() {
         if (square >= touching * touching || square == 0) continue;
         const float length = std::sqrt(square), depth = touching - length, inverse = 1 / length;
         const float nx = dx * inverse, ny = dy * inverse, nz = dz * inverse;
-        // Coulomb: what the pair slid in this substep is taken back, up to friction times depth.
+        // Coulomb friction: undoes the pair's slip of this substep, up to friction times depth.
         const Vec4 &oldA = before_[i], &oldB = before_[j];
         float sx = a[0] - oldA[0] - b[0] + oldB[0], sy = a[1] - oldA[1] - b[1] + oldB[1],
               sz = a[2] - oldA[2] - b[2] + oldB[2];
@@ -94,7 +94,7 @@ void Sequential::sweep() {
     for (std::size_t i = 0; i < balls_.x.size(); ++i) projectPlanes(balls_, balls_.x[i], before_[i]);
 }
 
-// Of corrections alone: in float, velocities that are differences of positions drift.
+// Velocities from corrections only: in float, differences of positions drift.
 void Sequential::finish() {
     const float perSecond = 1 / balls_.h();
     for (std::size_t i = 0; i < before_.size(); ++i)

@@ -1,6 +1,6 @@
-// The sequential row: Gauss-Seidel over the pairs that a hash grid lists, in the order of the scene, on one
-// thread. Lists have the margin and the rule of remaking of the device's (contacts: 2), so that it pays no
-// more for finding pairs than it must.
+// Sequential Gauss-Seidel for the clutter scene: pairs from a hash grid, in the order of the scene, on one
+// thread. Its lists have the margin of the device's and are remade by the same rule (docs/contact-lists.md),
+// so that finding pairs costs no more than necessary.
 #pragma once
 
 #include "sinew/clutter/grid.hpp"

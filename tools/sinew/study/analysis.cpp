@@ -1,4 +1,4 @@
-// Small, and worth a test each: every figure of the study page goes through here.
+// Small functions behind every figure of the study page; each has a test.
 #include "sinew/study/analysis.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ double rmsOver(std::span<const double> frameRms, std::size_t frames) {
 std::size_t comparableFrames(std::span<const double> frameRms, std::span<const double> growth,
                              double perturbation) {
     std::size_t frames = std::min(frameRms.size(), growth.size());
-    // A shorter run has a smaller error, which may ask for a shorter one still.
+    // A shorter run has a smaller error, which may in turn require a shorter run.
     while (frames > 1) {
         const double limit = std::max(rmsOver(frameRms, frames) / 10, 10 * perturbation);
         const auto grown = std::ranges::find_if(growth.first(frames), [&](double g) { return g > limit; });

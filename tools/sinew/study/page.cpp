@@ -1,4 +1,4 @@
-// Headline first: a table that answers the question in one look, then a diagram per scene, then every figure.
+// A table that answers the question at once, then a diagram per scene, then all figures.
 #include "sinew/study/page.hpp"
 
 #include "sim/compile.hpp"
@@ -87,7 +87,7 @@ std::string percent(double error) {
     return fmt::format("{:.3g} %", 100 * error);
 }
 
-/// What was chosen beside substeps and iterations.
+/// Text of the tuning besides substeps and iterations.
 std::string tuningText(const sim::Settings& s) {
     if (s.solver == sim::Solver::split) return fmt::format("theta {:g}", s.theta);
     if (s.solver == sim::Solver::gaussSeidel)

@@ -1,4 +1,4 @@
-// The study as one page of HTML that needs nothing else: no script, no network, no second file.
+// The study as one self-contained HTML page: no script, no network, no second file.
 #pragma once
 
 #include "sinew/study/plot.hpp"

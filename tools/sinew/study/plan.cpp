@@ -17,11 +17,12 @@ namespace {
 
 struct Shipped {
     const char* name;
-    std::uint32_t frames; // of 1/60 s
+    std::uint32_t frames; // of 1/60 s each
     std::uint32_t points = mostPoints;
 };
-// Of contacts so many frames that the first of them are over; their trials end where 1 % is long reached. Not
-// cloth_on_sphere: it creases as it touches, and from that frame on a disturbance of 1e-7 is one of 1e-3.
+// For scenes of contacts, enough frames to include the first contacts; their trials end well beyond an error
+// of 1 %. Excludes cloth_on_sphere: it creases at the first touch, after which a disturbance of 1e-7 grows to
+// 1e-3 within a frame.
 constexpr Shipped shipped[] = {{"beam", 18},     {"beam_stiff", 18}, {"cloth_study", 30},
                                {"chain", 30},    {"cube_load", 30},  {"clutter", 30, 6},
                                {"stack", 30, 7}, {"incline", 30, 6}, {"cube", 30, 5}};
@@ -34,13 +35,14 @@ struct Tuning {
     const char* solver;
     std::vector<std::uint32_t> iterations; // per substep
     std::vector<Variation> variations;
-    bool isFine; // tried at sweep counts between the powers of two as well
+    bool isFine; // also uses sweep counts between the powers of two
 };
 
 const Tuning& tuningOf(const std::string& solver) {
     static const Tuning tunings[] = {
-        // The baseline gets all its tunings searched: claims against it must not rest on a bad choice. A
-        // weight replaces the average: 1 applies the sum, what elastic links want wherever it is stable.
+        // The baseline gets a search of all its tunings: claims against it must not rest on a bad choice. A
+        // weight replaces the average; 1 applies the sum, which is best for elastic links wherever it is
+        // stable.
         {"jacobi",
          {1, 4, 16, wholeFrame},
          {[](sim::Settings& s) { s.overRelaxation = 1; }, [](sim::Settings& s) { s.overRelaxation = 1.3f; },
@@ -60,11 +62,11 @@ const Tuning& tuningOf(const std::string& solver) {
 
 struct SweepCount {
     std::uint32_t sweeps;
-    bool isBetween; // two powers of two
+    bool isBetween; // between two powers of two
 };
 
-/// `fewest`, twice that ... With `isFine` one more between any two: errors may fall by a factor of a thousand
-/// from one to the next.
+/// `fewest`, doubled again and again. With `isFine`, one count more between any two: errors may fall by a
+/// factor of a thousand from one to the next.
 std::vector<SweepCount> sweepCounts(std::uint32_t points, std::uint32_t fewest, bool isFine) {
     const auto mostSubsteps = static_cast<std::uint32_t>(sim::ranges::substeps.high);
     std::vector<SweepCount> counts;
@@ -93,7 +95,7 @@ StudyScene forEverySolver(StudyScene study) {
     std::string names, untouched;
     for (const std::uint32_t body : defaults.contacts)
         untouched = withName(untouched, common.bodies[body].name);
-    if (!sim::validate(common, other).empty()) return study; // something else keeps it to split
+    if (!sim::validate(common, other).empty()) return study; // another feature requires split
     for (const std::uint32_t grid : defaults.recovery) names = withName(names, common.grids[grid].name);
     if (!names.empty())
         study.notes.push_back("studied without the recovery that " + names +
@@ -152,7 +154,7 @@ std::vector<sim::Settings> settingsAt(sim::Solver solver, std::uint32_t sweeps) 
     const Tuning& tuning = tuningOf(sim::solverName(solver));
     std::vector<sim::Settings> list;
     for (const std::uint32_t iterations : tuning.iterations) {
-        if (iterations > 1 && iterations >= sweeps) continue; // as many are the whole frame
+        if (iterations > 1 && iterations >= sweeps) continue; // one substep per frame, tried anyway
         for (const Variation vary : tuning.variations) {
             sim::Settings settings{.solver = solver};
             settings.iterations = iterations == wholeFrame ? sweeps : iterations;

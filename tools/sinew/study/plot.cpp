@@ -1,4 +1,4 @@
-// All lengths in SVG user units: the drawing is 440 wide and scales with the page.
+// Lengths are in SVG user units: the drawing is 440 wide and scales with the page.
 #include "sinew/study/plot.hpp"
 
 #include "sinew/study/plot_axes.hpp"
@@ -47,7 +47,7 @@ std::vector<Spot> frontOf(const PlotCurve& curve, const Axes& axes) {
     return spots;
 }
 
-/// The best of all solvers: a broad band under the curves, along the points that nobody undercuts.
+/// The best of all solvers: a broad band under the curves, along the points that no other undercuts.
 std::string bestOfAll(const Plot& plot, const Axes& axes) {
     if (plot.kind == PlotKind::overTime) return {};
     std::vector<std::pair<double, double>> all;
@@ -69,11 +69,11 @@ std::string draw(const PlotCurve& curve, const Axes& axes) {
     std::string faint, marks;
     for (const PlotPoint& point : curve.points) {
         const double x = axes.x(point.x);
-        if (!point.y) // a little wedge that points out of the diagram
+        if (!point.y) // a small wedge that points out of the diagram
             marks +=
                 fmt::format("<path class=\"hollow\" d=\"M{:.1f} {:.1f}l5 9h-10z\"/>", x, axes.box.top - 4);
         else if (axes.kind == PlotKind::overTime)
-            continue; // a line says it
+            continue; // drawn as a line
         else if (point.isOnFront)
             marks += marker(curve.slot, x, axes.y(*point.y), 4, "dot");
         else

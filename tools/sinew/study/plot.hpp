@@ -1,6 +1,5 @@
 // A work-precision diagram as SVG: error over a price, both logarithmic, one colour and marker per solver,
-// labels at the curves instead of a legend. Readable at the width of a phone; light and dark by the reader's
-// preference.
+// labels at the curves instead of a legend. Readable on a phone; light or dark as the reader prefers.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +12,7 @@ namespace sinew::tools::study {
 struct PlotPoint {
     double x = 0;            ///< > 0
     std::optional<double> y; ///< > 0; empty = diverged: drawn at the top edge
-    bool isOnFront = false;  ///< of its curve
+    bool isOnFront = false;  ///< on its curve's front
 };
 
 struct PlotCurve {
@@ -32,18 +31,18 @@ struct Plot {
     std::string title, xLabel;
     double target = 0.01;
     PlotKind kind = PlotKind::precision;
-    std::string name{}; ///< in file names, where the scene's and a price's are not enough
+    std::string name{}; ///< part of file names that need more than scene and price
     std::vector<PlotCurve> curves;
 };
 
-/// The rules that every plot's classes mean; stands in each file that draw() makes with Style::own, and once
-/// in a page that holds several plots.
+/// Style rules of all plots; included in each file by draw() with Style::own, and once in a page with several
+/// plots.
 std::string plotStyle();
 
 enum class Style { own, fromPage };
 std::string draw(const Plot& plot, Style style);
 
-/// Text with what XML keeps for itself replaced.
+/// Text with XML's special characters escaped.
 std::string escaped(const std::string& text);
 
 } // namespace sinew::tools::study

@@ -10,7 +10,7 @@ namespace sinew::tools::study {
 namespace {
 
 constexpr Box box{.left = 66, .top = 40, .right = plotWidth - 16, .bottom = plotHeight - 54};
-constexpr double lowestError = 1e-9; // below what float32 can show
+constexpr double lowestError = 1e-9; // below the resolution of float32
 
 double share(double value, double low, double high) {
     return std::log(value / low) / std::log(high / low);
@@ -72,7 +72,7 @@ Axes axesFor(const Plot& plot) {
             axes.yLow = std::min(axes.yLow, std::max(*point.y, lowestError));
             axes.yHigh = std::max(axes.yHigh, *point.y);
         }
-    if (!(axes.xLow <= axes.xHigh)) axes.xLow = axes.xHigh = 1; // no point at all
+    if (!(axes.xLow <= axes.xHigh)) axes.xLow = axes.xHigh = 1; // no points
     const double room = std::max(1.15, std::pow(axes.xHigh / axes.xLow, 0.04));
     axes.xLow /= room;
     axes.xHigh *= room;

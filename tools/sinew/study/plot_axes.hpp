@@ -1,4 +1,4 @@
-// The frame of a diagram: logarithmic scales, grid and tick labels.
+// The frame of a diagram: scales, grid and tick labels.
 #pragma once
 
 #include "sinew/study/plot.hpp"
@@ -15,7 +15,7 @@ struct Box {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
 
-/// Scales from values to the drawing: logarithmic, but for a time.
+/// Scales from values to the drawing: logarithmic, except for time.
 struct Axes {
     Box box;
     PlotKind kind = PlotKind::precision;
@@ -26,16 +26,16 @@ struct Axes {
     bool holdsX(double value) const { return value >= xLow && value <= xHigh; }
 };
 
-/// Whole decades of error that hold every point and the target; over time at most nine below the largest.
+/// Error axes span whole decades that hold every point and the target; over time at most nine below the
+/// largest.
 Axes axesFor(const Plot& plot);
 
 std::string drawAxes(const Axes& axes, const std::string& xLabel);
 
-/// Tick values between two positive numbers: 1, 2, 5 in each decade where there are few, decades where there
-/// are many.
+/// Tick values between two positive numbers: 1, 2, 5 in each decade for few decades, else only decades.
 std::vector<double> ticks(double low, double high);
 
-/// "100 %", "0.01 %", and powers of ten where zeros could not be counted any more.
+/// "100 %", "0.01 %", and powers of ten for many zeros.
 std::string percentText(double share);
 
 /// 0, 1, 2 ..., or steps of 2 or 5 times a power of ten: four to ten of them from 0 to `high`.

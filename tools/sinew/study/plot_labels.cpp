@@ -34,10 +34,10 @@ void LabelPlacer::avoid(const std::vector<Spot>& line, std::size_t slot) {
 }
 
 double LabelPlacer::roomAround(const Box& text, std::size_t slot) const {
-    double room = 40; // more is no better
+    double room = 40; // more room is not better
     for (const Obstacle& obstacle : obstacles_) {
         const double distance = distanceTo(text, obstacle.spot);
-        // Its own line may come near, but not through.
+        // A label may be near its own line, but must stay 3 units off.
         if (obstacle.slot == slot && distance > 3) continue;
         room = std::min(room, obstacle.slot == slot ? distance - 20 : distance);
     }
@@ -56,7 +56,7 @@ Label LabelPlacer::place(const std::string& text, const std::vector<Spot>& front
                 const double left = std::clamp(front[i].x + dx, box_.left + 4, box_.right - width - 2);
                 const double base = std::clamp(front[i].y + dy, box_.top + letterHeight, box_.bottom - 5);
                 const Box candidate{left, base - letterHeight + 2, left + width, base + 3};
-                // The end of a curve is where readers look first.
+                // Prefers the end of a curve, where readers look first.
                 const double score = roomAround(candidate, slot) +
                                      6 * static_cast<double>(i + 1) / static_cast<double>(front.size());
                 if (score > bestScore) bestScore = score, best = candidate;

@@ -1,4 +1,4 @@
-// Puts each curve's name beside the curve, where it hides least.
+// Places each curve's name beside the curve with the least overlap.
 #pragma once
 
 #include "sinew/study/plot_axes.hpp"
@@ -13,10 +13,10 @@ class LabelPlacer {
 public:
     explicit LabelPlacer(const Box& box) : box_(box) {}
 
-    /// Text should keep off this line.
+    /// Labels avoid this line.
     void avoid(const std::vector<Spot>& line, std::size_t slot);
 
-    /// Beside one of the points of `front`, inside the box, far from other lines and labels.
+    /// Places a label beside one of the points of `front`, inside the box, far from other lines and labels.
     Label place(const std::string& text, const std::vector<Spot>& front, std::size_t slot);
 
 private:

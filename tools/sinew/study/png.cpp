@@ -1,4 +1,4 @@
-// No shell: the names of files are arguments, never text to be parsed.
+// Starts the converter without a shell: file names are arguments and are never parsed.
 #include "sinew/study/png.hpp"
 
 #include <array>

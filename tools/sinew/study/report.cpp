@@ -1,4 +1,4 @@
-// JSON, CSV and the few lines a terminal gets.
+// JSON, CSV and a few lines for a terminal.
 #include "sinew/study/report.hpp"
 
 #include "sinew/report.hpp"

@@ -1,4 +1,4 @@
-// What a study found, as data: curves, fronts and the headline figure. docs/report.md describes the JSON.
+// The results of a study as data: curves, fronts and the headline figure. docs/report.md describes the JSON.
 #pragma once
 
 #include "sinew/study/analysis.hpp"
@@ -8,7 +8,7 @@
 
 namespace sinew::tools::study {
 
-/// What a point may cost.
+/// A price of a point.
 struct Price {
     const char* name; ///< in file names and JSON
     const char* label;
@@ -23,21 +23,21 @@ struct CurvePoint {
 
 struct Curve {
     std::string solver;   ///< one of curveNames()
-    std::size_t slot = 0; ///< its place among them: what colors go by
+    std::size_t slot = 0; ///< index in curveNames(), which chooses the colour
     std::vector<CurvePoint> points;
 
     std::vector<Offer> offers(const Price& price) const;
-    /// Points no other of this solver undercuts, by rising price.
+    /// Points that no other point of this solver undercuts, by rising price.
     std::vector<std::size_t> front(const Price& price) const;
     std::optional<double> costOf(double error, const Price& price) const;
 };
 
-/// One per name of curveNames() that ran. Points into `result`.
+/// One for each of curveNames() that ran. Points into `result`.
 std::vector<Curve> curvesOf(const SceneResult& result);
 
-/// How many times less time a solver needs than jacobi to the target error. Where jacobi never gets there,
-/// the time of its best point stands in, and the ratio is a lower bound. Empty where the solver never does,
-/// or where jacobi did not run.
+/// The speed-up of a solver over jacobi at the target error. If jacobi never reaches it, its best point's
+/// time is used, and the ratio is a lower bound. Empty if the solver never reaches it, or if jacobi did not
+/// run.
 struct Advantage {
     double ratio = 0;
     bool isBound = false;
@@ -52,7 +52,7 @@ struct StudyRecord {
 
 std::string toJson(const StudyRecord& record);
 std::string toCsv(const StudyRecord& record);
-/// The headline for a terminal.
+/// The headline as text for a terminal.
 std::string toText(const StudyRecord& record);
 
 } // namespace sinew::tools::study

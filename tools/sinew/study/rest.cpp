@@ -1,4 +1,4 @@
-// One run a setting, sampled every few frames.
+// One run per setting, sampled every few frames.
 #include "sinew/study/rest.hpp"
 
 #include "app/guard.hpp"
@@ -32,7 +32,7 @@ std::vector<sim::Settings> restSettings(const StudyScene& scene) {
     for (const std::string& name : sim::solverNames()) {
         sim::Solver solver{};
         sim::parseSolver(name, solver);
-        // Others stand beside it, at the most.
+        // Other solvers are compared only at the most substeps.
         for (const std::uint32_t substeps : {8u, 16u, 32u}) {
             if (solver != sim::Solver::split && substeps < 32) continue;
             const sim::Settings settings =

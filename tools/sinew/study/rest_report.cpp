@@ -1,4 +1,4 @@
-// A figure that does not exist is null in JSON, nothing in CSV and a dash for people.
+// A missing figure is null in JSON, nothing in CSV and a dash in text.
 #include "sinew/study/rest_report.hpp"
 
 #include "sim/compile.hpp"
@@ -15,7 +15,7 @@ std::string nameOf(const RestRun& run) {
     return fmt::format("{} {}", sim::solverName(run.settings.solver), run.settings.substeps);
 }
 
-/// Of lengths.
+/// A length as text.
 std::string millimetres(const std::optional<double>& value) {
     return value ? fmt::format("{:.3g} mm", 1000 * *value) : "–";
 }

@@ -1,4 +1,4 @@
-// What a study says about coming to rest: JSON, CSV, lines for a terminal, and the part of the page.
+// Reports of runs to rest: JSON, CSV, lines for a terminal, and a part of the page.
 #pragma once
 
 #include "sinew/study/plot.hpp"
@@ -8,17 +8,17 @@
 
 namespace sinew::tools::study {
 
-/// Of the largest kinetic energy of a run: below it things are said to rest.
+/// Share of a run's largest kinetic energy below which bodies count as resting.
 inline constexpr double restShare = 1e-3;
 
 Json restJson(const SceneResult& scene);
-/// A line per run and sample.
+/// One line per run and sample.
 std::string restCsv(const StudyRecord& record);
 std::string restText(const SceneResult& scene);
 
-/// Deepest penetration and kinetic energy over time; empty where the scene has no such run.
+/// Plots of penetration and kinetic energy over time; empty without such runs.
 std::vector<Plot> restPlots(const SceneResult& scene);
-/// The table; empty where the scene has none.
+/// The table; empty without such runs.
 std::string restTable(const SceneResult& scene);
 
 } // namespace sinew::tools::study

@@ -1,6 +1,5 @@
-// First every trial runs the motion once: that gives its error and a first time. Then those on the front of
-// their solver run it again and again in turns, until enough frames are timed: whatever else the machine does
-// hits all.
+// First every trial runs the motion once, for its error and a first time. Then the trials on their solver's
+// front run in turns until enough frames are timed, so that other load on the machine affects all alike.
 #include "sinew/study/scene_study.hpp"
 
 #include "app/guard.hpp"
@@ -32,14 +31,14 @@ Trial prepare(const StudyScene& scene, const sim::Settings& settings, const vk::
     const sim::StepProgram program = sim::compile(scene.loaded.scene, settings);
     Trial trial{.settings = settings};
     trial.identity = identityOf(scene, settings, program, device);
-    // Without links a sweep is one over what touches.
+    // Without links a sweep covers contacts only.
     trial.sweeps = std::max(program.sweeps, std::uint64_t{settings.substeps} * settings.iterations);
     trial.barriers = sim::countPasses(program, {}).barriers;
     trial.clamped = clampedShare(scene.loaded.scene, settings);
     return trial;
 }
 
-/// Trials of few sweeps first, solvers next to each other.
+/// All trials, by rising sweeps, solvers next to each other.
 std::vector<Trial> prepareAll(const StudyScene& scene, std::uint32_t points,
                               const vk::DeviceDescription& device, std::vector<std::string>& notes) {
     const std::uint32_t fewest = isOfContacts(scene.loaded.scene) ? fewestSweepsOfContacts : fewestSweeps;
@@ -83,8 +82,7 @@ void compareAll(Session& session, const StudyScene& scene, const Truth& truth,
     progress.finish();
 }
 
-/// The trials on the front of their solver, against time or against sweeps, that are not timed well enough
-/// yet.
+/// The trials on the front of their solver, against time or sweeps, whose timing is not good enough yet.
 std::vector<Trial*> untimed(std::vector<Trial>& trials, const Truth& truth) {
     std::vector<Trial*> result;
     for (const std::string& name : curveNames()) {
@@ -121,7 +119,7 @@ void takeTurn(Turn& turn, std::uint32_t frames) {
     turn.trial->frameMs.insert(turn.trial->frameMs.end(), ms.begin(), ms.end());
 }
 
-/// Of a solver: they depend on scene and device, hardly on the other settings.
+/// The fastest forms of a solver: they depend on scene and device, hardly on other settings.
 sim::Forms fastestForms(Session& session, const sim::Scene& scene, sim::Settings probe) {
     probe.iterations = 1;
     return sim::tuned(session.device, session.queue, scene, probe).forms;
@@ -154,7 +152,7 @@ void timeAll(Session& session, const StudyScene& scene, const std::vector<Trial*
     if (!app::isInterrupted()) progress.finish();
 }
 
-/// The truth with its frames only where a trial must be compared with it.
+/// The truth, with its frames only if a trial must be compared with it.
 Truth findTruth(Session& session, const StudyScene& scene, bool needsFrames, const Store& store) {
     const std::string identity = identityOfTruth(scene, session.device.description());
     if (!needsFrames)
@@ -184,7 +182,7 @@ SceneResult study(Session& session, const StudyScene& scene, std::uint32_t point
         compareAll(session, scene, result.truth, toRun, store);
     }
     result.truth.frames.clear();
-    // A better time may put another trial on the front, which then wants timing too.
+    // A better time may put another trial on the front, which then needs timing too.
     for (auto toTime = untimed(trials, result.truth); !toTime.empty() && !app::isInterrupted();
          toTime = untimed(trials, result.truth)) {
         fmt::print(stderr, "{}: timing {} runs in turns\n", scene.name, toTime.size());

@@ -1,5 +1,4 @@
-// All trials of one scene: those that are kept already, those that must run, and the timing of those that
-// matter.
+// All trials of one scene: loads stored ones, runs the missing ones, and times those on the fronts.
 #pragma once
 
 #include "sinew/study/rest.hpp"
@@ -12,18 +11,18 @@ struct SceneResult {
     std::uint32_t frames = 0;
     double dt = 0;             ///< length of a frame [s]
     Truth truth;               ///< without its frames
-    std::vector<Trial> trials; ///< that have run
+    std::vector<Trial> trials; ///< trials that have run
     bool isOfContacts = false;
-    std::vector<RestRun> rest; ///< of contacts, those that have run
+    std::vector<RestRun> rest; ///< runs to rest that have run, for scenes of contacts
     std::vector<std::string>
-        notes; ///< sentences: how the scene differs from its file, what could not run, and why
+        notes; ///< sentences: how the scene differs from its file, which trials could not run, and why
 };
 
-/// Runs what is missing and says on stderr how far it is. Trials of all solvers take turns. After an
-/// interruption the result holds what has been finished.
+/// Runs missing trials and prints progress on stderr. Trials of all solvers take turns. After an interruption
+/// the result holds what has finished.
 SceneResult study(Session& session, const StudyScene& scene, std::uint32_t points, const Store& store);
 
-/// The error of a trial over the frames that chaos leaves comparable; empty = diverged.
+/// The error of a trial over the frames before chaos; empty = diverged.
 struct TrialError {
     double rms = 0, max = 0; ///< by body size
     std::size_t frames = 0;

@@ -1,4 +1,4 @@
-// The file's name is a hash of the identity; the identity inside decides.
+// The file name is a hash of the identity; the identity inside decides.
 #include "sinew/study/rest.hpp"
 
 #include "app/guard.hpp"
@@ -99,7 +99,7 @@ Json toJson(const sim::Settings& settings) {
             {"warm_start", settings.warmStart}};
 }
 
-/// Null where the file is missing, damaged, or another's.
+/// Null if the file is missing, damaged, or has another identity.
 Json read(const fs::path& file, const std::string& identity) {
     std::ifstream stream(file);
     const Json json = Json::parse(stream, nullptr, false);

@@ -1,5 +1,5 @@
-// Finished trials on disk, one file each, so that a study that was stopped goes on where it was and a new
-// solver costs only its own runs.
+// Finished trials on disk, one file each, so that an interrupted study continues, and a new solver costs only
+// its own runs.
 #pragma once
 
 #include "sim/program.hpp"
@@ -9,22 +9,22 @@
 
 namespace sinew::tools::study {
 
-/// What a trial's result depends on, as one line of JSON: program version, device and driver, scene (a hash
-/// of its physics), frames, settings, and a hash of the compiled step, kernels included.
+/// Everything that a trial's result depends on, as one line of JSON: program version, device and driver,
+/// scene (a hash of its physics), frames, settings, and a hash of the compiled step, kernels included.
 std::string identityOf(const StudyScene& scene, const sim::Settings& settings,
                        const sim::StepProgram& program, const vk::DeviceDescription& device);
-/// The same for the truth, in which a device has a part only where it is one of contacts.
+/// Identity of the truth; includes the device only for scenes of contacts.
 std::string identityOfTruth(const StudyScene& scene, const vk::DeviceDescription& device);
 std::string identityOfRest(const StudyScene& scene, const sim::Settings& settings,
                            const sim::StepProgram& program, const vk::DeviceDescription& device);
 
 class Store {
 public:
-    /// Makes the folder. Throws app::Failure (outputFailed) where it cannot.
+    /// Creates the folder. Throws app::Failure (outputFailed) on failure.
     explicit Store(std::filesystem::path folder);
 
-    /// Fills in what is known of trial.identity; false where that is nothing. A file that cannot be read, or
-    /// is not what it says, counts as nothing.
+    /// Fills in the stored result for trial.identity; false if there is none. Ignores an unreadable file, or
+    /// one with another identity.
     bool load(Trial& trial) const;
     /// Throws mesh::ExportError.
     void keep(const Trial& trial) const;

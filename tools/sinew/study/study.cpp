@@ -1,5 +1,5 @@
-// `sinew study`: speed against error of every solver, as JSON, CSV, plots and a page. What has been run stays
-// in the output folder and is not run again.
+// `sinew study`: speed against error of every solver, as JSON, CSV, plots and a page. The output folder keeps
+// results, which are not computed again.
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
 #include "sinew/commands.hpp"
@@ -28,7 +28,7 @@ struct StudyOptions {
     DeviceOptions device;
 };
 
-/// A name that is neither a scene of ours nor a file deserves more than "no such file".
+/// For a name that is neither a shipped scene nor a file, lists the shipped ones.
 void requireScene(const std::string& scene) {
     const std::vector<std::string> names = study::studySceneNames();
     std::error_code error;

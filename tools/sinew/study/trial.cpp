@@ -1,4 +1,4 @@
-// Errors are summed in double from the positions a user would see.
+// Errors are summed in double from the published positions.
 #include "sinew/study/trial.hpp"
 
 #include "app/guard.hpp"
@@ -13,7 +13,7 @@ namespace sinew::tools::study {
 
 namespace {
 
-constexpr double hopeless = 10; // body sizes: no picture of the scene any more
+constexpr double hopeless = 10; // body sizes: diverged beyond this
 
 } // namespace
 

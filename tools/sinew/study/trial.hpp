@@ -1,5 +1,5 @@
-// One point of a study: a scene solved with one choice of settings, its error against the true motion and its
-// time on the device.
+// One point of a study: a scene solved with one choice of settings, its error against the truth and its time
+// on the device.
 #pragma once
 
 #include "sinew/study/truth.hpp"
@@ -9,18 +9,18 @@ namespace sinew::tools::study {
 
 struct Trial {
     sim::Settings settings;
-    std::string identity; ///< of everything that shapes its result; see store.hpp
+    std::string identity; ///< of all inputs of the result; see store.hpp
     std::uint64_t sweeps = 0, barriers = 0;
-    std::optional<double> clamped; ///< share of elastic links softer than asked; empty where not known
+    std::optional<double> clamped; ///< share of elastic links softer than asked; empty if not known
     bool isRun = false, isDiverged = false;
     std::vector<double> frameRms, frameMax; ///< error of each frame with a finite state, by body size
-    std::vector<double> frameMs;            ///< time of steps [ms], those of all rounds
+    std::vector<double> frameMs;            ///< times of steps [ms], of all rounds
     bool hasDeviceClock = false;            ///< frameMs are device timestamps, else wall-clock times
 
     double medianMs() const;
 };
 
-/// A run on to rest.
+/// A run to rest.
 struct RestRun {
     sim::Settings settings;
     std::string identity;
@@ -28,11 +28,11 @@ struct RestRun {
     std::vector<Sample> samples; ///< by rising time
 };
 
-/// Runs the motion once and compares every frame with the truth. Where the state stops being finite, or is
-/// ten body sizes off, the trial has diverged.
+/// Runs the motion once and compares every frame with the truth. The trial diverges if the state is not
+/// finite, or off by more than ten body sizes.
 void compareWithTruth(Session& session, const StudyScene& scene, const Truth& truth, Trial& trial);
 
-/// How many frames of a trial are still to be timed: 200 in all, fewer where they take long.
+/// Number of frames still to be timed: 200 in all, fewer if they are slow.
 std::size_t framesLeftToTime(const Trial& trial);
 
 } // namespace sinew::tools::study

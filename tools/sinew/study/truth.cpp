@@ -1,4 +1,4 @@
-// Both truths are run a second time from a start that is disturbed by a hash of the index.
+// Both kinds of truth run a second time from a start disturbed by a hash of the index.
 #include "sinew/study/truth.hpp"
 
 #include "app/guard.hpp"
@@ -24,7 +24,7 @@ namespace reference = sim::reference;
     throw app::Failure(app::badInput, "cannot study " + scene.name + ": " + why);
 }
 
-/// RMS of each frame that both have, by `size`.
+/// RMS difference of each frame that both have, divided by `size`.
 std::vector<double> differences(const std::vector<Positions>& a, const std::vector<Positions>& b,
                                 double size) {
     std::vector<double> result;
@@ -58,7 +58,7 @@ Truth elasticTruth(const StudyScene& scene) {
             .frames = std::move(truth.frames)};
 }
 
-/// Every coordinate of what moves is up to `most` [m] off its place.
+/// The scene with every coordinate of movable particles displaced by up to `most` [m].
 sim::Scene disturbed(sim::Scene scene, double most) {
     std::uint32_t state = 0x9e3779b9u;
     const auto offset = [&] {
@@ -163,7 +163,7 @@ double largestBody(const sim::Scene& scene) {
     std::vector<Eigen::AlignedBox3d> boxes(root.size());
     for (std::uint32_t i = 0; i < root.size(); ++i) {
         const sim::Particle& p = scene.particles[i];
-        if (p.inverseMass == 0) continue; // a collider, or a pin
+        if (p.inverseMass == 0) continue; // fixed: a collider or a pinned particle
         const Eigen::Vector3d x(double{p.position.x}, double{p.position.y}, double{p.position.z});
         const Eigen::Vector3d reach = Eigen::Vector3d::Constant(double{p.radius} / std::sqrt(3.0));
         boxes[rootOf(i)].extend(x - reach).extend(x + reach);
