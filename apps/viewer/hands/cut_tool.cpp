@@ -62,7 +62,7 @@ void CutTool::deepen(float notches) {
     setDepth(depth > 1.001f * most ? std::nullopt : std::optional(depth));
 }
 
-// Where the ray passes the ball around the stage; empty if it misses the ball.
+// The part of the ray inside the ball around the stage; empty if it misses the ball.
 std::optional<CutTool::Place> CutTool::placeAt(const Ray& ray, float nearest) const {
     const float middle = (center_ - ray.origin).dot(ray.direction);
     const float apart = (ray.origin + middle * ray.direction - center_).norm();
