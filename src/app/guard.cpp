@@ -49,7 +49,7 @@ extern "C" void countInterruption(int) {
 // Neither destructors nor threads: they may wait for the device.
 extern "C" void leave(int) {
     if (writings != 0) return;
-    constexpr char line[] = "error: interrupted: what was under way did not end within 2 s: nothing more was "
+    constexpr char line[] = "error: interrupted: the running work did not end within 2 s: nothing more was "
                             "written\n";
     [[maybe_unused]] auto written = write(STDERR_FILENO, line, sizeof line - 1);
     if (messagesSoFar() == 0) _exit(interrupted);
@@ -145,12 +145,12 @@ void waitUntil(const std::function<bool(std::chrono::nanoseconds)>& wait) {
     while (!wait(betweenLooks))
         if (isInterrupted() &&
             Clock::now().time_since_epoch() - Clock::duration(interruptedAt.load()) >= patienceForWaits)
-            throw Failure(interrupted, "interrupted: a step that was under way did not end in time: outputs "
+            throw Failure(interrupted, "interrupted: a running step did not end in time: outputs "
                                        "end with the step before it");
 }
 
 int reportInterruption() noexcept {
-    return report(interrupted, "interrupted: outputs are whole and end with the last step that was done");
+    return report(interrupted, "interrupted: outputs are whole and end with the last finished step");
 }
 
 void watchMessages(const std::atomic<std::size_t>* messages) noexcept {

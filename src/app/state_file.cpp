@@ -164,7 +164,7 @@ SavedRun saveRun(const vk::Device& device, const GrowingSimulation& growing, vk:
 void loadRun(const vk::Device& device, GrowingSimulation& growing, const SavedRun& run, vk::Queue& queue) {
     sim::Simulation& simulation = growing.simulation();
     if (simulation.stateKey() != run.key || simulation.stateSize() != run.bytes.size())
-        throw Failure(badInput, "cannot go on from a state: it is of another simulation than " + run.scene +
+        throw Failure(badInput, "cannot resume from a state: it is of another simulation than " + run.scene +
                                     " makes now: has the scene, the version or the device changed?");
     queue.waitIdle();
     const vk::Buffer copy = bufferFor(device, run.bytes.size(), vk::MemoryKind::upload);
@@ -204,13 +204,13 @@ void writeRun(const std::filesystem::path& file, const SavedRun& run) {
 SavedRun readRun(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) refuse(file, "there is no such file");
-    if (!std::filesystem::is_regular_file(file, error)) refuse(file, "it is no file");
+    if (!std::filesystem::is_regular_file(file, error)) refuse(file, "it is not a file");
     std::ifstream stream(file, std::ios::binary);
     std::string head(title.size(), ' '); // what is something else, however large, is not read
     stream.read(head.data(), static_cast<std::streamsize>(head.size()));
     const bool mayHaveView = head == title;
     if (!mayHaveView && head != titleWithoutView)
-        refuse(file, "it does not begin as states of this version do");
+        refuse(file, "it does not begin like a state of this version");
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     std::span<const std::byte> bytes = std::as_bytes(std::span(text));
     std::uint64_t hash = 0;
@@ -225,7 +225,7 @@ SavedRun readRun(const std::filesystem::path& file) {
     if (mayHaveView) readView(run, reader);
     if (!reader.isWhole() || (run.view && !isView(*run.view)) ||
         run.settings.solver > sim::Solver::gaussSeidel)
-        refuse(file, "it is not what its version says");
+        refuse(file, "its contents do not match its version");
     run.fileHash = hash;
     return run;
 }

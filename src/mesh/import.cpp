@@ -223,7 +223,7 @@ TriangleMesh decode(const fs::path& file, std::string_view bytes, const ImportLi
     const std::size_t size = triangleBytes + (mesh.objectNames.empty() ? 0 : sizeof(std::uint32_t));
     const std::size_t count = bytes.size() / size;
     if (!isSound || bytes.size() != count * size || count > limits.triangles)
-        fail(file, "", "the importer failed (its answer makes no sense): export the mesh again");
+        fail(file, "", "the importer failed (its answer is invalid): export the mesh again");
     const auto corners = take<float>(bytes, 9 * count);
     if (!std::ranges::all_of(corners, [](float x) { return std::abs(double{x}) <= largestCoordinate; }))
         fail(file, "", "the importer failed (a coordinate is not finite): repair the mesh");

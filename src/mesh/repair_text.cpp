@@ -31,12 +31,12 @@ std::vector<std::string> sentencesOf(const Repairs& report) {
         "joined with another one nearer than " + shortNumber(report.tolerance) + " in units of the file");
     say(report.splitEdges, "edge", "edges", "split at T-junctions");
     say(report.removedTriangles, "triangle", "triangles",
-        "removed: empty, double, sticking out or within the volume");
+        "removed: degenerate, duplicate, sticking out or within the volume");
     say(report.closedHoles, "hole", "holes",
         "closed: " + counted(report.holeEdges, "edge", "edges") + ", " +
             counted(report.holeTriangles, "new triangle", "new triangles"));
-    say(report.turnedTriangles, "triangle", "triangles", "turned to face as the neighbours do");
-    say(report.turnedParts, "closed part", "closed parts", "inside out and turned");
+    say(report.turnedTriangles, "triangle", "triangles", "reversed to agree with their neighbours");
+    say(report.turnedParts, "closed part", "closed parts", "inside out and reversed");
     return sentences;
 }
 

@@ -45,7 +45,7 @@ void addBlade(LoadedScene& loaded, const Section& section) {
     if (motion.times.size() < 2)
         section.fail("times", "has " + std::to_string(motion.times.size()), "give at least two");
     if (!std::ranges::is_sorted(motion.times, std::less_equal<>()))
-        section.fail("times", "do not grow from one to the next", "sort them");
+        section.fail("times", "are not ascending", "sort them");
     const auto lines = section.lines("edges");
     if (lines.size() != motion.times.size())
         section.fail("edges",
@@ -54,7 +54,7 @@ void addBlade(LoadedScene& loaded, const Section& section) {
                      "give one for each time");
     for (const auto& line : lines) {
         if (line.size() < 2 || line.size() > sim::ranges::mostBladePoints || line.size() != lines[0].size())
-            section.fail("edges", "has one of " + std::to_string(line.size()) + " points",
+            section.fail("edges", "has a line of " + std::to_string(line.size()) + " points",
                          "give all of them equally many, from 2 to " +
                              std::to_string(sim::ranges::mostBladePoints));
         std::vector<sim::Vec3>& edge = motion.edges.emplace_back();

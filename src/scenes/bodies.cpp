@@ -181,7 +181,7 @@ void addOneBox(LoadedScene& loaded, const Section& box, const sim::Lattice& latt
         box.fail(lattice.isCuttable             ? "cuttable"
                  : lattice.poissonRatio > 0.25f ? "poisson_ratio"
                                                 : "recovery",
-                 std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
+                 std::string("is not possible: ") + error.what(), "move the body nearer to the origin");
     }
     clampFaces(loaded.scene, box, corners);
     addLoad(loaded.scene, double{box.number("load")}, corners);
@@ -192,7 +192,7 @@ void checkParticleKeys(const Section& section, bool isRandom) {
     if (isRandom && !section.has("size")) section.fail("random", "has no cuboid", "give size");
     for (const char* key : {"count", "spacing", "jitter"})
         if (isRandom && section.has(key))
-            section.fail(key, "is given beside random, which is in no rows", "leave one of them out");
+            section.fail(key, "is given beside random, which has no rows", "leave one of them out");
     if (!isRandom && section.has("size"))
         section.fail("size", "is the cuboid of random particles", "give random, or leave it out");
     if (section.has("mass") && section.has("density"))
@@ -246,13 +246,13 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
     requireUnit(cloth, "right");
     requireUnit(cloth, "down");
     if (std::abs(dot(cloth.vector("right"), cloth.vector("down"))) > 1e-3)
-        cloth.fail("down", "is not at right angles to right", "turn one of them");
+        cloth.fail("down", "is not at right angles to right", "rotate one of them");
     for (const char* key : {"stretch_compliance", "shear_compliance"})
         if (cloth.has(key) && cloth.number("membrane_stiffness") > 0)
-            cloth.fail(key, "stands beside membrane_stiffness, which sets it", "leave one of them out");
+            cloth.fail(key, "is given beside membrane_stiffness, which sets it", "leave one of them out");
     for (const char* key : {"collides", "radius"})
         if (cloth.has("thickness") && cloth.has(key))
-            cloth.fail("thickness", std::string("stands beside ") + key, "leave one of them out");
+            cloth.fail("thickness", std::string("is given beside ") + key, "leave one of them out");
     sim::ClothSheet sheet{.name = cloth.text("name"),
                           .origin = localPoint(cloth, "origin", loaded.origin),
                           .right = cloth.vector("right"),

@@ -52,7 +52,7 @@ void requireForms(const LoadedScene& loaded, const std::string& file) {
     const sim::Scene& scene = loaded.scene;
     if (loaded.settings.solver == sim::Solver::split) return;
     const std::string none =
-        std::string("solver ") + sim::solverName(loaded.settings.solver) + " has no form for ";
+        std::string("solver ") + sim::solverName(loaded.settings.solver) + " does not support ";
     const std::vector<bool> isCorner = cornersOf(scene); // sheets with a thickness touch by their faces
     if (sim::particlesTouch(scene))
         fail(file,

@@ -12,7 +12,7 @@ void FaceChoices::add(LoadedScene& loaded, const Section& body, std::size_t firs
     const bool isAsked = body.has("faces") && body.flag("faces");
     if (isAsked && !isColliding(loaded, body)) refuseUntouching(loaded, body, "faces");
     if (isAsked && first == scene.grids.size())
-        body.fail("faces", "cannot be had so far from the origin", "move the body nearer to it");
+        body.fail("faces", "is not possible so far from the origin", "move the body nearer to it");
     for (std::size_t g = first; g < scene.grids.size(); ++g)
         if (isAsked)
             sim::addSurfaceFaces(scene, scene.grids[g]);

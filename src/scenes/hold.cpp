@@ -43,7 +43,7 @@ void checkShapeKeys(const Section& hold, const std::string& shape) {
     for (const char* key : {"radius", "length", "size"})
         if (isOther && hold.has(key)) hold.fail(key, "is given", "a " + shape + " has none: remove it");
     if (shape == "half_space" && hold.has("rotation"))
-        hold.fail("rotation", "is given", "a half_space is turned by its normal: remove it");
+        hold.fail("rotation", "is given", "a half_space is rotated by its normal: remove it");
 }
 
 sim::Gap nearMesh(const mesh::TriangleMesh& mesh, float within) {
@@ -104,7 +104,7 @@ std::vector<std::size_t> bodiesOf(const Section& hold, const std::vector<sim::Bo
     std::vector<std::size_t> all;
     const std::vector<std::string> names = hold.names("bodies");
     if (hold.has("bodies") && names.empty())
-        hold.fail("bodies", "names no body", "name some, or leave the key out: then all are meant");
+        hold.fail("bodies", "names no body", "name some, or leave the key out to name all");
     std::vector<bool> isTaken(bodies.size(), names.empty());
     for (const std::string& name : names) {
         const std::vector<bool> isMeant = meantBy(name, bodies);
@@ -114,7 +114,7 @@ std::vector<std::size_t> bodiesOf(const Section& hold, const std::vector<sim::Bo
         const auto nearest = std::ranges::min_element(bodies, {}, [&](const sim::Body& body) {
             return editDistance(name.substr(0, 64), body.name.substr(0, 64));
         });
-        hold.fail("bodies", "names \"" + name.substr(0, 64) + "\", which no body is called",
+        hold.fail("bodies", "names \"" + name.substr(0, 64) + "\", which is no body",
                   "did you mean \"" + nearest->name + "\"?");
     }
     for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -181,12 +181,12 @@ void addHold(LoadedScene& loaded, const Section& hold, const Source& source,
         return;
     }
     if (path.keyframes.size() == 1)
-        hold.fail("keyframe", "is one alone, which leads nowhere", "give at least two, or none");
+        hold.fail("keyframe", "is a single one, which defines no motion", "give at least two, or none");
     for (const std::uint32_t particle : taken.particles) {
         if (driverOf[particle] != nobody)
             hold.fail("shape",
                       "of hold \"" + name + "\" takes particles that hold \"" + drivers[driverOf[particle]] +
-                          "\" takes along its path",
+                          "\" moves along its path",
                       "leave them to one of the two");
         driverOf[particle] = drivers.size();
     }
@@ -214,8 +214,8 @@ void noteWhole(LoadedScene& loaded) {
         }
         if (!names.empty())
             loaded.notes.push_back(
-                "body \"" + body.name + "\" is held whole by hold " + names +
-                (isAny(isDriven, body, true) ? ": it moves along the path alone" : ": it cannot move"));
+                "body \"" + body.name + "\" is held completely by hold " + names +
+                (isAny(isDriven, body, true) ? ": it moves only along the path" : ": it cannot move"));
     }
 }
 

@@ -223,8 +223,8 @@ void warnAboutDrag(LoadedScene& loaded) {
     if (decay == 0 || off <= 2 * sim::dragTolerance || isZero(loaded.scene.gravity)) return;
     loaded.warnings.push_back(
         "damping is so strong for " + std::to_string(loaded.settings.substeps) +
-        " substeps that what falls has a terminal speed some " + std::to_string(std::lround(100 * off)) +
-        " % off: " + giveSubsteps(loaded, sim::dragSubsteps(loaded.scene)) + " keep it within " +
+        " substeps that terminal speeds of bodies are off by " + std::to_string(std::lround(100 * off)) +
+        " %: " + giveSubsteps(loaded, sim::dragSubsteps(loaded.scene)) + " keep them within " +
         std::to_string(std::lround(100 * sim::dragTolerance)) + " %");
 }
 
@@ -248,7 +248,7 @@ void warnAboutContacts(LoadedScene& loaded) {
     const sim::SubstepChoice asked = sim::contactSubsteps(loaded.scene);
     if (2 * given >= asked.wanted) return;
     loaded.warnings.push_back(sim::counted(given, "substep is", "substeps are") +
-                              " few for what may touch: " + giveSubsteps(loaded, asked.wanted) + " " +
+                              " few for these contacts: " + giveSubsteps(loaded, asked.wanted) + " " +
                               sim::cureOf(asked, loaded.settings).would);
 }
 

@@ -196,7 +196,7 @@ const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const me
         section.fail(body.isCuttable             ? "cuttable"
                      : body.poissonRatio > 0.25f ? "poisson_ratio"
                                                  : "recovery",
-                     std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
+                     std::string("is not possible: ") + error.what(), "move the body nearer to the origin");
     }
     const double mass = double{body.density} * double{loaded.scene.bodies.back().restVolume};
     summary.odd = oddSizeOf(section, summary.surface);

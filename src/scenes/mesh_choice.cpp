@@ -20,7 +20,7 @@ std::string quoted(const std::string& text) {
 UnknownObject unknownObject(const mesh::TriangleMesh& mesh, const std::string& file,
                             const std::string& name) {
     if (name.starts_with("part ") && name.find(", piece ") != std::string::npos)
-        return {"names " + quoted(name) + ", which only counts what a choice left of " +
+        return {"names " + quoted(name) + ", which only numbers a piece that a choice left of " +
                     quoted(name.substr(0, name.find(", piece "))),
                 "choose as before, and have its pieces as bodies by parts = \"apart\""};
     const std::vector<std::string> known = mesh::names(mesh);

@@ -111,10 +111,10 @@ std::string inwardText(const std::vector<mesh::Component>& components, mesh::Rep
     if (count == 0 || components.size() < 2) return {};
     if (count > mostNamed) names += " and " + sim::counted(count - mostNamed, "other");
     return "has " + sim::counted(count, "component") + " inside out, " + names +
-           ": where it lies in another one, it is left out of the volume; turn its triangles" +
+           ": where it lies in another one, it is left out of the volume; reverse its triangles" +
            (how == mesh::Repair::close ? ""
                                        : " (" + setting(words, "repair", "\"close\"") +
-                                             " turns closed parts that lie in no other)") +
+                                             " reverses closed parts that lie in no other)") +
            ", or close what is around it if it is a cavity";
 }
 
@@ -181,7 +181,7 @@ void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warning
                            (summary.repairs.openEdges == defects.boundaryEdges
                                 ? mesh::openText(summary.repairs)
                                 : sim::counted(defects.boundaryEdges, "boundary edge")) +
-                           "; what is inside was decided by winding numbers" +
+                           "; winding numbers decided what is inside" +
                            (summary.repairs.how == mesh::Repair::close
                                 ? ""
                                 : ", and repair = \"close\" closes small holes"));

@@ -100,8 +100,8 @@ std::string sleepText(const StepProgram& program) {
     }
     std::ostringstream text;
     text << "sleep: of " << all << " dispatches " << listed
-         << " run for the work groups in which somebody is awake, " << whole << " whole while anybody is, "
-         << all - listed - whole - always << " when asked for by others, " << always << " always\n";
+         << " run for the work groups with an awake particle, " << whole << " whole while any is, "
+         << all - listed - whole - always << " at the request of others, " << always << " always\n";
     return text.str();
 }
 
@@ -152,7 +152,7 @@ std::string describe(const StepProgram& program) {
     for (const BufferSpec& buffer : program.buffers) {
         text << "  " << std::left << std::setw(28) << buffer.label << std::right;
         if (buffer.initialOf)
-            text << "  what " << program.buffers[*buffer.initialOf].label << " begin with\n";
+            text << "  contents of " << program.buffers[*buffer.initialOf].label << " at the start\n";
         else
             text << std::setw(9) << buffer.count << " x " << std::setw(3) << buffer.stride << " B\n";
     }

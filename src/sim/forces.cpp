@@ -183,12 +183,12 @@ void check(const Scene& scene, const Settings& settings, Complaints& complaints)
     if (settings.solver == Solver::jacobi && !(scene.distances.empty() && scene.bends.empty()))
         complaints.add(
             "settings.keepsForces",
-            "is set, but solver jacobi averages what links do to a particle, so that the forces on a "
-            "body are not those that it gives: use split");
+            "is set, but solver jacobi averages the effects of links on a particle, so that the forces on a "
+            "body do not equal those that it exerts: use split");
     else if (settings.solver != Solver::split && areLinksHeld(scene))
         complaints.add("settings.keepsForces",
                        std::string("is set, but solver ") + solverName(settings.solver) +
-                           " does not know with which force links are held: use split");
+                           " does not compute the holding forces of the links: use split");
 }
 
 void checkRoom(const Scene& scene, const Settings& settings, Complaints& complaints) {
@@ -197,9 +197,9 @@ void checkRoom(const Scene& scene, const Settings& settings, Complaints& complai
     if (elements <= mostElements) return;
     complaints.add(
         "settings.keepsForces",
-        "is set, but " + number(elements) + " impulses of particles have no room in a buffer, at most " +
+        "is set, but " + number(elements) + " impulses of particles do not fit in one buffer, at most " +
             number(mostElements) +
-            " do: leave out planes, colliders, bodies with faces that never move, hands or pokes, or take "
+            " do: leave out planes, colliders, bodies with static or driven faces, grabs or pokes, or take "
             "fewer particles");
 }
 

@@ -38,19 +38,19 @@ std::string sentenceOf(Misuse kind, std::uint64_t given, std::uint64_t allowed) 
                " points cuts nothing: give equally many, 2 to " + number(ranges::mostBladePoints) +
                ", all finite";
     case Misuse::nothingToCut:
-        return "a blade or a ray is given, but no body may be cut: set Grid::isCuttable of one that shall be";
+        return "a blade or a ray is given, but no body may be cut: set Grid::isCuttable of a body";
     case Misuse::contactRoom:
-        return "undone, and so is every later one: " + number(given) +
-               " candidates near one on average, settings.contactRoom is " + number(allowed) +
+        return "undone, and so is every later step: " + number(given) +
+               " candidates for a particle on average, settings.contactRoom is " + number(allowed) +
                ": make a simulation with more room and let it take over (recordTakeOver)";
     case Misuse::notRepeated:
         return "recorded, but step " + number(given) +
-               " lacked lists of contacts and was not repeated: all steps with repeats behind it are undone: "
+               " lacked lists of contacts and was not repeated: all later steps with repeats are undone: "
                "look at Status::lacksLists of every step, and record that frame again, or leave out "
                "Step::repeats";
     case Misuse::mayBeRepeated:
-        return "in flight with Step::repeats while a change or a topology is recorded behind it: if it lacks "
-               "lists, it is repeated with that: wait for it, and repeat it where it lacked lists, first";
+        return "in flight with Step::repeats while a change or a topology is recorded after it: if it lacks "
+               "lists, its repeat includes that: wait for it first, and repeat it if it lacked lists";
     case Misuse::count:
         break;
     }

@@ -99,7 +99,7 @@ void requireSameParticles(const StepProgram& from, const StepProgram& to) {
     };
     if (!isSame(from.positions, to.positions) || !isSame(from.velocities, to.velocities))
         throw std::invalid_argument("particles: a change of material must have those of the simulation, "
-                                    "where they were and as heavy");
+                                    "with the same positions and masses");
 }
 
 std::vector<BufferId> writtenByStep(const StepProgram& program) {

@@ -31,7 +31,7 @@ void Simulation::State::requireSameScene(const State& other, const vk::BufferVie
             "one scene, which may differ in material alone");
     if (!isOfOneSolver && !wasUncut && !mayBeCut())
         refuse(std::string("bodies of the other one may have been cut, which solver ") +
-               solverName(chosen.solver) + " has no form for: undo the cuts, or use split");
+               solverName(chosen.solver) + " does not support: undo the cuts, or use split");
     if (isAlike && hasContacts && chosen.contactRoom < other.chosen.contactRoom)
         refuse("its settings.contactRoom is " + number(chosen.contactRoom) + ", that of the other one " +
                number(other.chosen.contactRoom) + ": give it at least as much");

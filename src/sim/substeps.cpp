@@ -391,7 +391,7 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         why = "no link is more than " + percent + " softer than asked" + body;
         break;
     case SubstepReason::weight:
-        why = "no rigid link stretches by more than " + percent + " under what hangs on it" + body;
+        why = "no rigid link stretches by more than " + percent + " under its load" + body;
         break;
     case SubstepReason::damping:
         why = "links damp as much as asked" + body;
@@ -400,16 +400,16 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         why = "terminal speeds are right within 5 %";
         break;
     case SubstepReason::contacts:
-        why = "what rests on contacts presses them in by no more than 1 % of a radius";
+        why = "bodies at rest press contacts in by no more than 1 % of a radius";
         break;
     case SubstepReason::folds:
         why = "no falling sheet passes through its own folds";
         break;
     case SubstepReason::fewest:
-        why = "fewer would do for the stiffness";
+        why = "the stiffness alone needs fewer";
         break;
     case SubstepReason::most:
-        why = "the most chosen unasked; " + std::to_string(choice.wanted) + " " +
+        why = "the most chosen automatically; " + std::to_string(choice.wanted) + " " +
               cureOf(choice, settings).would + body;
         break;
     }

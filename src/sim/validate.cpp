@@ -85,7 +85,7 @@ void checkHands(const Settings& settings, Complaints& complaints) {
 void checkSleep(const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::split && settings.sleeps)
         complaints.add("settings.sleeps", std::string("is set, but solver ") + solverName(settings.solver) +
-                                              " has no form for bodies that sleep: use split");
+                                              " does not support bodies that sleep: use split");
 }
 
 void checkSettings(const Settings& settings, Complaints& complaints) {
@@ -154,7 +154,7 @@ void checkBends(const Scene& scene, Complaints& complaints) {
         }
         if (bend.a == bend.b || bend.b == bend.c || bend.c == bend.a)
             complaints.add(element("bend", i), "particles " + number(bend.a) + ", " + number(bend.b) +
-                                                   " and " + number(bend.c) + " are not three");
+                                                   " and " + number(bend.c) + " are not distinct");
         complaints.check(double{bend.compliance}, ranges::compliance,
                          [i] { return element("bend", i) + ".compliance"; });
     }
@@ -275,9 +275,9 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
             complaints.checkIndex(corner, skin.vertexCount(), "vertices",
                                   [&] { return name + element(".triangles", t); });
     if (!skin.wholeOf.empty() && skin.wholeOf.size() != skin.triangles.size())
-        complaints.add(name, "says of " + number(skin.wholeOf.size()) + " of " +
+        complaints.add(name, "has wholeOf for " + number(skin.wholeOf.size()) + " of " +
                                  number(skin.triangles.size()) +
-                                 " triangles what they are parts of, must say it of all or none");
+                                 " triangles, must have an entry for each of them or none at all");
     for (std::size_t t = 0; t < skin.wholeOf.size(); ++t)
         complaints.checkIndex(skin.wholeOf[t], skin.wholeTriangles.size(), "whole triangles",
                               [&] { return name + element(".wholeOf", t); });
@@ -317,7 +317,7 @@ void checkFaces(const Scene& scene, Complaints& complaints) {
                                   [i] { return element("face", i) + ".particles"; });
         if (a == b || b == c || c == a)
             complaints.add(element("face", i), "particles " + number(a) + ", " + number(b) + " and " +
-                                                   number(c) + " are not three");
+                                                   number(c) + " are not distinct");
         complaints.check(double{scene.faces[i].thickness}, ranges::radius,
                          [i] { return element("face", i) + ".thickness"; });
     }
@@ -327,15 +327,15 @@ void checkFaces(const Scene& scene, Complaints& complaints) {
 void checkContacts(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::split && collision::particle_contacts::areIn(scene))
         complaints.add(std::string("solver ") + solverName(settings.solver) +
-                           " has no form for particles that touch each other (Particle::radius)",
+                           " does not support particles that touch each other (Particle::radius)",
                        "use split");
     if (settings.solver != Solver::split && collision::face_contacts::areIn(scene))
         complaints.add(std::string("solver ") + solverName(settings.solver) +
-                           " has no form for particles that touch faces (Scene::faces)",
+                           " does not support particles that touch faces (Scene::faces)",
                        "use split");
     if (settings.solver != Solver::split && !scene.driven.empty())
         complaints.add(std::string("solver ") + solverName(settings.solver) +
-                           " has no form for bodies that are driven (Scene::driven)",
+                           " does not support bodies that are driven (Scene::driven)",
                        "use split");
 }
 
@@ -457,10 +457,10 @@ std::string whyNotComputed(const Scene& scene, std::uint32_t g) {
                (bodies.contains("")  ? "the scene has"
                 : bodies.size() == 1 ? "body " + names + " has"
                                      : "bodies " + names + " have") +
-               " a bending stiffness (bends), beside which split has no form for that: make it 0";
+               " a bending stiffness (bends), beside which split does not support that: make it 0";
     }
     if (scene.dampingTime > 0)
-        return "but the scene has a damping time (internal damping), beside which split has no form for "
+        return "but the scene has a damping time (internal damping), beside which split does not support "
                "that: make it 0";
     const Grid& grid = scene.grids[g];
     const auto isOfGrid = [&](std::uint32_t i) { return i - grid.firstParticle < grid.node.size(); };
@@ -470,7 +470,7 @@ std::string whyNotComputed(const Scene& scene, std::uint32_t g) {
         if (!isOwn && (isOfGrid(link.a) || isOfGrid(link.b)))
             return "but " + element("distance", c) + " holds it beside its own links: leave that out";
     }
-    return "but split has no form for that";
+    return "but split does not support that";
 }
 
 // Cuttable links exist only where `split` computes a body. The scene must be otherwise valid.
@@ -482,7 +482,7 @@ void checkCutting(const Scene& scene, const Settings& settings, Complaints& comp
         const std::string may = "may be cut, ";
         if (settings.solver != Solver::split)
             complaints.add(nameOf(scene, g), may + "which solver " + solverName(settings.solver) +
-                                                 " has no form for: use split");
+                                                 " does not support: use split");
         else if (cutting::isListed(scene, settings, g)) {
             const std::string tied = cutting::tiedPast(scene, scene.grids[g]);
             if (!tied.empty())
@@ -506,7 +506,7 @@ void checkCellVolumes(const Scene& scene, const Settings& settings, Complaints& 
         const std::string has = "has cell volumes (a Poisson ratio above 1/4 or recovery), ";
         if (settings.solver != Solver::split)
             complaints.add(nameOf(scene, g), has + "which solver " + solverName(settings.solver) +
-                                                 " has no form for: use split");
+                                                 " does not support: use split");
         else if (!settings.forms.usesGrids)
             complaints.add(nameOf(scene, g), has + "which need settings.forms.usesGrids");
         else if (!std::ranges::binary_search(computed, g))

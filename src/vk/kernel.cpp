@@ -220,7 +220,7 @@ void checkRequests(std::span<const BindingRequest> requests, const Limits& limit
         const auto& bindings = request.kernel->interface().bindings;
         if (request.buffers.size() != bindings.size())
             throw Error(Failure::misuse, "kernel " + request.kernel->name() + " has " +
-                                             std::to_string(bindings.size()) + " bindings, given are " +
+                                             std::to_string(bindings.size()) + " bindings, but gets " +
                                              std::to_string(request.buffers.size()) + " buffers");
         for (std::size_t i = 0; i < bindings.size(); ++i)
             checkView(*request.kernel, bindings[i], request.buffers[i], limits);

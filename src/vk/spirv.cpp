@@ -134,7 +134,7 @@ void checkBindings(const Module& module, const std::vector<KernelBinding>& bindi
     for (std::uint32_t i = 0; i < bindings.size(); ++i)
         if (bindings[i].binding != i && bindings[i].binding != lastBinding)
             module.fail("buffer " + bindings[i].name + " has binding " + std::to_string(bindings[i].binding) +
-                        " where " + std::to_string(i) + " comes next");
+                        " instead of " + std::to_string(i) + ", which comes next");
 }
 
 void checkCapabilities(const Module& module) {

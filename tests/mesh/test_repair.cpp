@@ -461,7 +461,7 @@ TEST(Repair, SaysEachThingItDid) {
     ASSERT_EQ(closed.size(), 1u);
     EXPECT_EQ(closed[0], "1 hole was closed: 3 edges, 1 new triangle");
     EXPECT_EQ(sentencesOf(repaired(withFlipped(unitBox, 1)).report),
-              std::vector<std::string>{"1 closed part was inside out and turned"});
+              std::vector<std::string>{"1 closed part was inside out and reversed"});
     EXPECT_TRUE(sentencesOf(repaired(unitBox).report).empty());
     EXPECT_EQ(openText(repaired(without(unitBox, {2, 3})).report),
               "4 boundary edges around 1 hole, the largest with 4 edges and a rim of 4 in units of the file "

@@ -17,8 +17,8 @@ TEST(Repair, OfAPartIsWhatWasDoneInItsTriangles) {
     const std::vector<Case> cases{
         {soup(moved(sphere, {2, 0, 0}), 1e-7), " were joined with another one nearer than "},
         {without(moved(sphere, {3, 0, 0}), {7}), "1 hole was closed: 3 edges, 1 new triangle"},
-        {inverted(moved(sphere, {4, 0, 0})), "1 closed part was inside out and turned"},
-        {withFlipped(moved(sphere, {5, 0, 0}), 7), " were turned to face as the neighbours do"},
+        {inverted(moved(sphere, {4, 0, 0})), "1 closed part was inside out and reversed"},
+        {withFlipped(moved(sphere, {5, 0, 0}), 7), " were reversed to agree with their neighbours"},
         {[&] {
              TriangleMesh mesh = moved(sphere, {6, 0, 0});
              addJunction(mesh, 3, 0, 0.5);

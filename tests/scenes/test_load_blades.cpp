@@ -30,7 +30,7 @@ TEST_F(LoadBlades, MakesBodiesCuttable) {
     expectError(plain + "cuttable = 1\n",
                 "scene.toml:6: box[0].cuttable is the whole number 1: write true or false");
     EXPECT_NE(errorOfText(box + "[solver]\nname = \"jacobi\"\n")
-                  .find("may be cut, which solver jacobi has no form for"),
+                  .find("may be cut, which solver jacobi does not support"),
               std::string::npos);
 }
 
@@ -93,13 +93,13 @@ TEST_F(LoadBlades, RefusesBladesThatAreNone) {
     const std::string edge = "[[0, 0, 0], [0, 0, 1]]", two = "[" + edge + ", " + edge + "]";
     EXPECT_EQ(errorOfText(with("[0, 1]", two)), "");
     expectError(with("[1]", "[" + edge + "]"), "scene.toml:8: blade[0].times has 1: give at least two");
-    expectError(with("[1, 1]", two), "scene.toml:8: blade[0].times do not grow");
+    expectError(with("[1, 1]", two), "scene.toml:8: blade[0].times are not ascending");
     expectError(with("[-1, 1]", two), "scene.toml:8: blade[0].times is -1 s: must be from 0 to");
     expectError(with("1", two),
                 "scene.toml:8: blade[0].times is the whole number 1: write a list of numbers");
     expectError(with("[0, 1, 2]", two), "scene.toml:9: blade[0].edges are 2, but there are 3 times");
     expectError(with("[0, 1]", "[" + edge + ", [[0, 0, 0]]]"),
-                "scene.toml:9: blade[0].edges has one of 1 points");
+                "scene.toml:9: blade[0].edges has a line of 1 points");
     expectError(with("[0, 1]", "[[[0, 0], [0, 1]]]"),
                 "scene.toml:9: blade[0].edges is a list of 1: write a list of poly");
     expectError(with("[0, 1]", "[[[0, 0, 1e9], [0, 0, 1]], " + edge + "]"),

@@ -140,7 +140,7 @@ TEST_F(LoadContacts, GivesFacesToClothWithAThickness) {
     EXPECT_EQ(radiiOf(scene), std::set<float>{0.02f});
     EXPECT_EQ(scene.particles[0].contactOffset, 0.02f);
     expectError(smallCloth + "thickness = 0.04\ncollides = true\n",
-                "scene.toml:4: cloth[0].thickness stands beside collides: leave one of them out");
+                "scene.toml:4: cloth[0].thickness is given beside collides: leave one of them out");
     expectError(smallCloth + "thickness = 0\n", "scene.toml:4: cloth[0].thickness is 0 m: must be above 0");
 }
 
@@ -166,7 +166,7 @@ TEST_F(LoadContacts, MakesMeshesThatNeverMoveFaces) {
     expectError(balls + mesh + "thickness = -1\n",
                 "scene.toml:9: mesh_collider[0].thickness is -1 m: must be above 0");
     expectError(balls + mesh + "[solver]\nname = \"jacobi\"\n",
-                "scene.toml: solver jacobi has no form for particles that touch");
+                "scene.toml: solver jacobi does not support particles that touch");
 }
 
 TEST_F(LoadContacts, ReadsThePathOfAMeshCollider) {
@@ -412,7 +412,7 @@ TEST_F(LoadContacts, TakesWhatHoldsForAllFromTheirTable) {
     expectError(balls + "[contacts]\nroom = 1025\n",
                 "scene.toml:5: contacts.room is 1025 candidates: must be from 1");
     expectError(balls + "[solver]\nname = \"jacobi\"\n",
-                "scene.toml: solver jacobi has no form for particles that touch each other");
+                "scene.toml: solver jacobi does not support particles that touch each other");
 }
 
 TEST_F(LoadContacts, ReadsEveryShippedSceneOfContacts) {

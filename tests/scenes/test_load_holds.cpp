@@ -67,9 +67,8 @@ TEST_F(LoadHolds, ThatTakeNobodyOrNameNobodyAreRefusedInASentence) {
         beam + "[[hold]]\nname = \"left\"\nshape = \"sphere\"\ncenter = [-1, 0, 0]\nradius = 0.25\n",
         "scene.toml:8: hold[0].shape of hold \"left\" takes no particle: the nearest, of body \"beam\", "
         "is 0.75 m outside of this sphere: move it there, or make it larger");
-    expectError(
-        beam + "[[hold]]\nshape = \"sphere\"\nradius = 1\nbodies = [\"baem\"]\n",
-        "scene.toml:9: hold[0].bodies names \"baem\", which no body is called: did you mean \"beam\"?");
+    expectError(beam + "[[hold]]\nshape = \"sphere\"\nradius = 1\nbodies = [\"baem\"]\n",
+                "scene.toml:9: hold[0].bodies names \"baem\", which is no body: did you mean \"beam\"?");
     expectError(beam + "[[hold]]\nshape = \"sphere\"\nradius = 1\nbodies = []\n",
                 "scene.toml:9: hold[0].bodies names no body: name some, or leave the key out");
 }
@@ -112,10 +111,10 @@ TEST_F(LoadHolds, ThatTakeAWholeBodyAreNoted) {
                              "offset = -0.15\n",
                       path = "[[hold.keyframe]]\ntime = 0\n[[hold.keyframe]]\ntime = 1\ncenter = [0, 1, 0]\n";
     const auto notes = [&](const std::string& holds) { return load(beam + chain + holds).notes; };
-    const std::string only = "bodies = [\"beam\"]\n", is = "body \"beam\" is held whole by hold ";
+    const std::string only = "bodies = [\"beam\"]\n", is = "body \"beam\" is held completely by hold ";
     EXPECT_EQ(notes(all + only), std::vector<std::string>{is + "\"grip\": it cannot move"});
     EXPECT_EQ(notes(all + only + path),
-              std::vector<std::string>{is + "\"grip\": it moves along the path alone"});
+              std::vector<std::string>{is + "\"grip\": it moves only along the path"});
     EXPECT_TRUE(notes(left + only).empty());
     const std::string right = "[[hold]]\nname = \"right\"\nshape = \"half_space\"\nnormal = [1, 0, 0]\n"
                               "offset = 0.15\nbodies = [\"beam\"]\n";
@@ -139,9 +138,9 @@ TEST_F(LoadHolds, WithKeysOfAnotherShapeAreRefused) {
                 "scene.toml:9: hold[0].radius is given: a half_space has none: remove it");
     expectError(head + "\"half_space\"\nnormal = [0, 0.5, 0]\n",
                 "scene.toml:8: hold[0].normal has length 0.5");
-    expectError(
-        head + "\"sphere\"\nradius = 1\n[[hold.keyframe]]\ntime = 1\n",
-        "scene.toml:9: hold[0].keyframe is one alone, which leads nowhere: give at least two, or none");
+    expectError(head + "\"sphere\"\nradius = 1\n[[hold.keyframe]]\ntime = 1\n",
+                "scene.toml:9: hold[0].keyframe is a single one, which defines no motion: give at least two, "
+                "or none");
 }
 
 TEST_F(LoadHolds, ThatDriveOneParticleAlongTwoPathsAreRefused) {
@@ -149,7 +148,7 @@ TEST_F(LoadHolds, ThatDriveOneParticleAlongTwoPathsAreRefused) {
     const std::string one = "[[hold]]\nname = \"one\"\nshape = \"sphere\"\nradius = 0.05\n" + path,
                       other = "[[hold]]\nname = \"other\"\nshape = \"sphere\"\nradius = 0.15\n" + path;
     EXPECT_NE(errorOfText(beam + one + other)
-                  .find("of hold \"other\" takes particles that hold \"one\" takes along its path"),
+                  .find("of hold \"other\" takes particles that hold \"one\" moves along its path"),
               std::string::npos);
     const std::string still = "[[hold]]\nshape = \"sphere\"\nradius = 0.15\n";
     EXPECT_EQ(load(beam + one + still).scene.fixed.size(), 7u) << "up to face diagonals";

@@ -77,7 +77,7 @@ TEST_F(Load, LeavesWholeWhatOnlyMayBeCutWithASolverThatCannot) {
     const auto refusal = [&](const std::string& text) {
         return errorOf(write("scene.toml", text), {.solver = "jacobi"});
     };
-    const std::string refused = "may be cut, which solver jacobi has no form for: use split";
+    const std::string refused = "may be cut, which solver jacobi does not support: use split";
     EXPECT_NE(refusal(offered + "tear = 0.5\n").find(refused), std::string::npos);
     EXPECT_NE(refusal(offered + blade).find(refused), std::string::npos);
     EXPECT_NE(errorOfText("[solver]\nname = \"jacobi\"\n" + offered).find(refused), std::string::npos)

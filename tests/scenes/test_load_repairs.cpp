@@ -116,10 +116,10 @@ TEST_F(Load, SaysWhichPartAnObjectIs) {
     EXPECT_EQ(count(load(scene + "[\"part 3\", \"part 4\"]\n").warnings,
                     " of its open edges, and may give its parts other numbers"),
               1);
-    expectError(
-        scene + "\"part 2, piece 2\"\n",
-        "scene.toml:4: mesh[0].object names \"part 2, piece 2\", which only counts what a choice left "
-        "of \"part 2\": choose as before, and have its pieces as bodies by parts = \"apart\"");
+    expectError(scene + "\"part 2, piece 2\"\n",
+                "scene.toml:4: mesh[0].object names \"part 2, piece 2\", which only numbers a piece that a "
+                "choice left of \"part 2\": choose as before, and have its pieces as bodies by parts = "
+                "\"apart\"");
 }
 
 TEST_F(Load, NamesMeshesOfOneFileByTheirBodies) {
@@ -158,7 +158,7 @@ TEST_F(Load, WarnsOfAComponentThatIsInsideOut) {
     EXPECT_EQ(warned(true, false), 0);
     EXPECT_EQ(warned(false, false), 0);
     const std::string turned =
-        "turn its triangles (repair = \"close\" turns closed parts that lie in no other), or";
+        "reverse its triangles (repair = \"close\" reverses closed parts that lie in no other), or";
     EXPECT_EQ(
         count(load("[[mesh]]\nfile = \"m.obj\"\nresolution = 24\nrepair = \"weld\"\n").warnings, turned), 1);
 }

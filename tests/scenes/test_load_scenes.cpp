@@ -279,11 +279,11 @@ TEST_F(Load, RefusesVolumesThatItCannotCompute) {
     expectError(here + "poisson_ratio = 0.3\n[solver]\nname = \"jacobi\"\n",
                 "scene.toml: body \"box\": has cell volumes (a Poisson ratio above 1/4 or recovery), "
                 "which solver jacobi "
-                "has no form for: use split");
-    expectError(far + "poisson_ratio = 0.3\n", "scene.toml:9: box[0].poisson_ratio cannot be had: ");
+                "does not support: use split");
+    expectError(far + "poisson_ratio = 0.3\n", "scene.toml:9: box[0].poisson_ratio is not possible: ");
     expectError(atHome + "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.2\n"
                          "center = [1e6, 0, 0]\nrecovery = 2\n",
-                "scene.toml:11: mesh[0].recovery cannot be had: ");
+                "scene.toml:11: mesh[0].recovery is not possible: ");
 }
 
 TEST_F(Load, TakesEveryNumberOfACollider) {

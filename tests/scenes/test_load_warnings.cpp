@@ -82,11 +82,11 @@ TEST_F(LoadWarnings, SaysWhatContactsAskForWhereANumberIsGiven) {
                   "\n[[cloth]]\nsize = [33, 33]\nspacing = 0.03\n"
                   "thickness = 0.004\norigin = [0, 0.5, 0]\nright = [0, 1, 0]\n[[plane]]\n")
                  .warnings)
-            if (warning.find("for what may touch") != std::string::npos) found = warning;
+            if (warning.find("for these contacts") != std::string::npos) found = warning;
         return found;
     };
     const std::string said = few("4");
-    const std::string start = "4 substeps are few for what may touch: ",
+    const std::string start = "4 substeps are few for these contacts: ",
                       end = " substeps would keep a falling sheet from passing through its own folds";
     ASSERT_TRUE(said.starts_with(start) && said.ends_with(end)) << said;
     const std::string wanted = said.substr(start.size(), said.size() - start.size() - end.size());
@@ -249,8 +249,8 @@ TEST_F(LoadWarnings, WarnsOfTerminalSpeedsThatAreOff) {
     };
     EXPECT_TRUE(warnings("20").empty()); // 4 %
     EXPECT_EQ(warnings("200"), std::vector<std::string>{
-                                   "damping is so strong for 4 substeps that what falls has a terminal speed "
-                                   "some 36 % off: 34 substeps keep it within 5 %"});
+                                   "damping is so strong for 4 substeps that terminal speeds of bodies are "
+                                   "off by 36 %: 34 substeps keep them within 5 %"});
 }
 
 TEST_F(LoadWarnings, SaysWhereTheChoiceOfSubstepsStops) {
@@ -342,7 +342,7 @@ TEST_F(LoadWarnings, SayWhatNothingCanTouch) {
 TEST_F(LoadWarnings, AreRefusalsInTheWordsOfTheFileWhereASolverHasNoForm) {
     mesh::exportObj(folder_ / "t.obj", test::tetrahedron(0.1f));
     const std::string solver = "[solver]\nname = \"gauss_seidel\"\n",
-                      none = "scene.toml: solver gauss_seidel has no form for ",
+                      none = "scene.toml: solver gauss_seidel does not support ",
                       box = "[[box]]\nname = \"liver\"\nparticles = [3, 3, 3]\nspacing = 0.1\n"
                             "center = [0, 1, 0]\n",
                       path = "[[hold.keyframe]]\ntime = 0\n[[hold.keyframe]]\ntime = 1\n";
@@ -357,15 +357,15 @@ TEST_F(LoadWarnings, AreRefusalsInTheWordsOfTheFileWhereASolverHasNoForm) {
                        "leave them out");
     expectError(solver + "sleep = true\n" + box, none + "bodies that sleep, as solver.sleep asks");
     expectError(solver + box + "cuttable = true\n",
-                "scene.toml: body \"liver\": may be cut, which solver gauss_seidel has no form for");
+                "scene.toml: body \"liver\": may be cut, which solver gauss_seidel does not support");
     expectError(box + "cuttable = true\n[[cloth]]\nname = \"drape\"\nsize = [4, 4]\nspacing = 0.1\n"
                       "bending_stiffness = 1\n",
                 "scene.toml: body \"liver\": may be cut, but body \"drape\" has a bending stiffness (bends), "
-                "beside which split has no form for that: make it 0");
+                "beside which split does not support that: make it 0");
     expectError(
         "damping_time = 0.01\n" + box + "cuttable = true\n",
         "scene.toml: body \"liver\": may be cut, but the scene has a damping time (internal damping), "
-        "beside which split has no form for that: make it 0");
+        "beside which split does not support that: make it 0");
 }
 
 TEST_F(LoadWarnings, AreRefusalsInTheWordsOfTheFileWhereAPathIsNone) {

@@ -348,7 +348,7 @@ TEST(KeptForces, AreRefusedWhereTheyHaveNoRoom) {
     EXPECT_TRUE(validate(scene, settings).empty()); // 194 elements of 16 B for each
     settings.grabs = settings.pokes = 8;
     ASSERT_EQ(validate(scene, settings).size(), 1u); // 226
-    EXPECT_NE(validate(scene, settings)[0].find("no room in a buffer"), std::string::npos);
+    EXPECT_NE(validate(scene, settings)[0].find("do not fit in one buffer"), std::string::npos);
     settings.keepsForces = false;
     EXPECT_TRUE(validate(scene, settings).empty());
 }

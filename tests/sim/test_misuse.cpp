@@ -199,8 +199,8 @@ TEST(Misuse, OfRoomForContactsIsLoudAndHasACure) {
         EXPECT_EQ(status.stepsUndone, frame + 1);
         EXPECT_EQ(status.contactRoom, 10u);
     }
-    expectOne(simulation->complaints(),
-              {"undone", "10 candidates near one on average", "settings.contactRoom is 4", "recordTakeOver"});
+    expectOne(simulation->complaints(), {"undone", "10 candidates for a particle on average",
+                                         "settings.contactRoom is 4", "recordTakeOver"});
     step(*simulation, {.frame = 6});
     EXPECT_EQ(simulation->complaints(), Sentences{});
 

@@ -77,7 +77,7 @@ const Fault faults[] =
         {"settings.tolerance: is 1", [](Scene&, Settings& s) { s.tolerance = 1; }},
         {"settings.tolerance: is nan", [](Scene&, Settings& s) { s.tolerance = notANumber; }},
         {"bend[0]: is 8, but there are 8 particles", [](Scene& s, Settings&) { s.bends[0].c = 8; }},
-        {"bend[0]: particles 0, 1 and 1 are not three", [](Scene& s, Settings&) { s.bends[0].c = 1; }},
+        {"bend[0]: particles 0, 1 and 1 are not distinct", [](Scene& s, Settings&) { s.bends[0].c = 1; }},
         {"bend[0].compliance: is -1", [](Scene& s, Settings&) { s.bends[0].compliance = -1; }},
         {"attachment[0].particle: is 8", [](Scene& s, Settings&) { s.attachments[0].particle = 8; }},
         {"attachment[1]: particle 2 has an attachment already",
@@ -223,7 +223,7 @@ const Fault faults[] =
              s.skins[0].wholeTriangles = {{0, 1, 2}};
              s.skins[0].wholeOf = {1};
          }},
-        {"skin[0]: says of 2 of 1 triangles what they are parts of",
+        {"skin[0]: has wholeOf for 2 of 1 triangles",
          [](Scene& s, Settings&) {
              s.skins[0].wholeTriangles = {{0, 1, 2}};
              s.skins[0].wholeOf = {0, 0};

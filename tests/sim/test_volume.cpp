@@ -255,7 +255,7 @@ TEST(CellVolume, IsRefusedInASentenceWhereItWouldBeLost) {
     EXPECT_EQ(complaintAbout(scene), "none");
     const std::string has = "grid[0] \"lattice\": has cell volumes (a Poisson ratio above 1/4 or recovery), ";
     EXPECT_EQ(complaintAbout(scene, {.solver = Solver::jacobi}),
-              has + "which solver jacobi has no form for: use split");
+              has + "which solver jacobi does not support: use split");
     EXPECT_EQ(complaintAbout(scene, {.forms = {.usesGrids = false}}),
               has + "which need settings.forms.usesGrids");
     Scene tied = scene;
@@ -266,7 +266,7 @@ TEST(CellVolume, IsRefusedInASentenceWhereItWouldBeLost) {
     Scene damped = scene;
     damped.dampingTime = 0.01f;
     EXPECT_EQ(complaintAbout(damped), has + "but the scene has a damping time (internal damping), beside "
-                                            "which split has no form for that: make it 0");
+                                            "which split does not support that: make it 0");
     const Scene recovering = body({2, 2, 2}, {0.25f, 1});
     EXPECT_EQ(complaintAbout(recovering), "none");
     EXPECT_EQ(complaintAbout(recovering, {.omega = 3.1f}),

@@ -99,7 +99,7 @@ TEST_F(Study, GivesEverySolverTheSameMesh) {
     ASSERT_EQ(outcome.code, 0) << outcome.error;
     const Json json = Json::parse(text("study.json"))["scenes"][0];
     EXPECT_EQ(json["notes"], Json({"studied without the recovery that \"ball\" would have by default: jacobi "
-                                   "and gauss_seidel have no form for it",
+                                   "and gauss_seidel do not support it",
                                    "studied without the contacts that \"ball\" would have by default: jacobi "
                                    "and gauss_seidel have none"}));
     std::set<std::string> solvers;

@@ -149,15 +149,15 @@ template <typename Act> std::string refusalOf(const Act& act) {
     return "none";
 }
 
-// The scene asks for a cuttable block. Its contacts are a default and not a reason for the refusal.
-const std::string cuts = "grid[0] \"block\": may be cut, which solver jacobi has no form for: use split";
+// The scene asks for a block that may be cut. Its contacts come by default and are no reason.
+const std::string cuts = "grid[0] \"block\": may be cut, which solver jacobi does not support: use split";
 
 TEST(Beside, RefusesWhatItsSolverHasNoFormFor) {
     EXPECT_EQ(refusalOf([] { Pair({sim::Solver::jacobi, 8}, block); }), cuts);
     const std::string touching = refusalOf([] {
         Pair({sim::Solver::jacobi, 8}, changed(hanging, "young_", "collides = true\nyoung_"));
     });
-    EXPECT_NE(touching.find("no form for particles that touch each other"), std::string::npos) << touching;
+    EXPECT_NE(touching.find("not support particles that touch each other"), std::string::npos) << touching;
 }
 
 TEST(Stage, RefusesAShapeForWhatTheSceneAsksForAlone) {
@@ -169,7 +169,7 @@ TEST(Stage, RefusesAShapeForWhatTheSceneAsksForAlone) {
     };
     EXPECT_EQ(refusal(block), "none") << "it may be cut, and collides by default, but nothing has cut it";
     const std::string touching = refusal(changed(block, "young_", "collides = true\nyoung_"));
-    EXPECT_NE(touching.find("no form for particles that touch each other"), std::string::npos) << touching;
+    EXPECT_NE(touching.find("not support particles that touch each other"), std::string::npos) << touching;
 }
 
 const std::string sphere = "[solver]\nsubsteps = 4\n[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\n"

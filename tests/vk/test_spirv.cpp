@@ -97,7 +97,7 @@ TEST(KernelInterface, IsRefusedByNameWhereAKernelBreaksARule) {
     const std::pair<vk::ShaderCode, const char*> cases[] = {
         {kernels::uniformBlock, "uniform block Step has 16400 bytes, at most 16384 are allowed"},
         {kernels::secondSet, "Values must have a binding in set 0"},
-        {kernels::bindingGap, "Third has binding 2 where 1 comes next"},
+        {kernels::bindingGap, "Third has binding 2 instead of 1, which comes next"},
         {kernels::headerAndArray, "Contacts has fixed members and a run-time array"},
         {kernels::storageImage, "picture is no storage buffer"},
         {kernels::texture, "picture is no samplerBuffer"},

@@ -52,7 +52,7 @@ void Job::dispatchBytes(const vk::ShaderCode& code, std::uint32_t items,
     const vk::Kernel& kernel = kernels_[code];
     if (kernel.interface().pushConstantSize != push.size() ||
         kernel.interface().bindings.size() != buffers.size())
-        throw std::logic_error(std::string("kernel ") + code.name + ": other buffers or push constants");
+        throw std::logic_error(std::string("kernel ") + code.name + ": buffers or push constants differ");
     sim::Pass pass{.label = code.name, .items = items, .push = {push.begin(), push.end()}};
     vk::BindingRequest request{.kernel = &kernel};
     for (const BufferId buffer : buffers) {

@@ -153,7 +153,7 @@ std::optional<std::string> complaintAbout(const Scene& scene, const Grid& grid) 
             last < places.size() ? stepOf(grid, link, places[first], places[last]) : std::nullopt;
         if (!step || (isListed[first] >> *step & 1) != 0)
             return "distance[" + std::to_string(c) +
-                   "] is not the link that the grid has there: remove the grid from scene.grids or mend one "
+                   "] is not the link that the grid has there: remove the grid from scene.grids or fix one "
                    "of the two";
         isListed[first] |= 1u << *step;
     }

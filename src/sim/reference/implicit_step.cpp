@@ -52,7 +52,7 @@ private:
         for (double shift = 0; shift < 1e3; shift = shift == 0 ? 1e-6 : 10 * shift) {
             if (const auto step = solve(hessian + shift * mean * unit, gradient)) return *step;
         }
-        fail("finds no direction downhill");
+        fail("finds no descent direction");
     }
 
     // Empty if the matrix is not safely positive definite.
@@ -75,12 +75,12 @@ private:
             if (potential_.value(candidate) <= value + 1e-4 * factor * slope) return candidate;
             if (factor == 1 && potential_.gradient(candidate).norm() <= gradient.norm() / 2) return candidate;
         }
-        fail("finds no step downhill");
+        fail("finds no descent step");
     }
 
     [[noreturn]] void fail(const char* what) const {
         throw std::runtime_error("scene \"" + scene_.name + "\": Newton's method " + what +
-                                 " (does anything hold the scene?)");
+                                 " (is any particle fixed?)");
     }
 
     const Scene& scene_;

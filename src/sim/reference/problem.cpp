@@ -41,9 +41,9 @@ Problem::Problem(const Scene& scene)
       gravity(toEigen(scene.gravity)), damping(double{scene.damping}),
       dampingTime(double{scene.dampingTime}) {
     if (!scene.driven.empty())
-        throw std::invalid_argument("the scene has driven bodies, which the references have no form for");
+        throw std::invalid_argument("the scene has driven bodies, which the references do not support");
     if (!scene.colliders.empty())
-        throw std::invalid_argument("the scene has colliders, which the references have no form for");
+        throw std::invalid_argument("the scene has colliders, which the references do not support");
     for (const Particle& particle : scene.particles) {
         inverseMass.push_back(double{particle.inverseMass});
         contactOffset.push_back(double{particle.contactOffset});
@@ -90,7 +90,7 @@ void requireNoCells(const Scene& scene, const char* solver) {
     for (const Grid& grid : scene.grids)
         if (hasCellVolumes(grid))
             throw std::invalid_argument("grid \"" + grid.name + "\" has cell volumes, which " + solver +
-                                        " has no form for");
+                                        " does not support");
 }
 
 State initialState(const Scene& scene) {

@@ -118,7 +118,7 @@ Trajectory trueTrajectory(const Scene& scene, const TrajectoryOptions& options) 
         if (moved < options.tolerance) return {std::move(fine), h, moved};
         if (!(moved < options.tolerance * std::pow(4, left))) {
             throw std::runtime_error("scene \"" + scene.name + "\": halving h to " + std::to_string(1e6 * h) +
-                                     " us still moves the motion by " + std::to_string(moved) +
+                                     " us still changes the motion by " + std::to_string(moved) +
                                      " of body size; ask for fewer frames or a larger tolerance");
         }
         coarse = std::move(fine);

@@ -411,7 +411,7 @@ TEST(Cuttable, IsRefusedWhereNoLinksAreComputed) {
     Scene bent = cube(2);
     addCloth(bent, {.name = "curtain", .origin = {3, 0, 0}, .size = {4, 4}, .bendingStiffness = 1});
     EXPECT_NE(complaint(bent, {}).find("may be cut, but body \"curtain\" has a bending stiffness (bends), "
-                                       "beside which split has no form for that: make it 0"),
+                                       "beside which split does not support that: make it 0"),
               std::string::npos)
         << complaint(bent, {});
     EXPECT_THROW(addLattice(tied, {.origin = {1e6f, 0, 0}, .spacing = 0.01f, .isCuttable = true}),

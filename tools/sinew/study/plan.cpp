@@ -99,7 +99,7 @@ StudyScene forEverySolver(StudyScene study) {
     for (const std::uint32_t grid : defaults.recovery) names = withName(names, common.grids[grid].name);
     if (!names.empty())
         study.notes.push_back("studied without the recovery that " + names +
-                              " would have by default: jacobi and gauss_seidel have no form for it");
+                              " would have by default: jacobi and gauss_seidel do not support it");
     if (!untouched.empty())
         study.notes.push_back("studied without the contacts that " + untouched +
                               " would have by default: jacobi and gauss_seidel have none");
