@@ -21,7 +21,7 @@ table() { # NAME PANELS
     keys F7
     for _ in {1..300}; do (($(said) > before)) && break; sleep 0.1; done
     echo "$1, $2"
-    tac viewer.out | sed '/^frame times/q' | tac | grep -v '^hands waited'
+    tac viewer.out | sed '/^frame times/q' | tac | grep -v '^input waited'
 }
 anew() { # resets the scene; later tables exclude earlier pictures
     keys r

@@ -255,7 +255,8 @@ private:
         if (trouble->room == 0) throw app::Failure(app::diverged, "beside: " + trouble->why);
         queue_.waitIdle();
         goOnBeside(trouble->room);
-        std::fprintf(stderr, "note: beside: %s: it goes on where the first stands\n", trouble->why.c_str());
+        std::fprintf(stderr, "note: beside: %s: it continues from the first solver's state\n",
+                     trouble->why.c_str());
     }
 
     // A map's range is computed for each picture alone, so that it does not depend on which others are drawn.

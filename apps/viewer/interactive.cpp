@@ -97,7 +97,7 @@ std::unique_ptr<Opening> openFirst(const Options& asked, Options& options) {
         return std::make_unique<Opening>(open(options, aspectOf(options.size)));
     } catch (const std::exception& error) {
         if (options.scene == asked.scene && options.builtIn == asked.builtIn) throw;
-        std::fprintf(stderr, "warning: the last scene is not opened again: %s\n", error.what());
+        std::fprintf(stderr, "warning: the last scene cannot be opened: %s\n", error.what());
     }
     options.scene = asked.scene;
     options.builtIn = asked.builtIn;
@@ -248,7 +248,7 @@ private:
         lost_ = std::chrono::steady_clock::now();
         keeping_.renew();
         screen_.warn(error.what() +
-                     (": the scene begins anew on " + playing_.device->description().name + kept));
+                     (": the scene restarts on " + playing_.device->description().name + kept));
         return true;
     }
 
@@ -277,8 +277,8 @@ void play(std::unique_ptr<Opening> opening, const Options& options, const Prefer
     screen.beside() = parseBeside(options.beside);
     tell(*first, screen);
     if (isSoftware(*device))
-        std::printf("software device: small shadow maps, no multisampling and fewer pixels while things "
-                    "move, all of it when paused\n");
+        std::printf("software device: small shadow maps, no multisampling and fewer pixels during "
+                    "motion; full quality when paused\n");
     std::printf("H shows help, Ctrl + Q quits\n");
     std::fflush(stdout);
     Library library(

@@ -41,7 +41,7 @@ VkExtent2D parseSize(const std::string& text) {
     const auto isSensible = [](std::uint32_t length) { return length >= 16 && length <= 8192; };
     if (!hasCross || heightError != std::errc() || afterHeight != end || !isSensible(size.width) ||
         !isSensible(size.height))
-        refuse("--size " + text + " is no WIDTHxHEIGHT between 16x16 and 8192x8192");
+        refuse("--size " + text + " is not WIDTHxHEIGHT between 16x16 and 8192x8192");
     return size;
 }
 
@@ -49,7 +49,7 @@ VkExtent2D parseSize(const std::string& text) {
 Section parseSection(const std::vector<float>& numbers) {
     const Vector3 normal(numbers[0], numbers[1], numbers[2]);
     if (!(normal.norm() > 0) || !std::isfinite(normal.norm()) || !std::isfinite(numbers[3]))
-        refuse("--section wants a normal that is not 0, and finite numbers");
+        refuse("--section needs a nonzero normal and finite numbers");
     return {normal.normalized(), numbers[3]};
 }
 
@@ -61,9 +61,9 @@ void addSceneOptions(CLI::App& app, Options& options) {
     app.add_option("SCENE|MESH|STATE", options.scene,
                    "scene file, mesh or saved state; without one the built-in scenes/organ.toml");
     app.add_option("--device", options.device, "index as `sinew devices` prints it, or part of a name");
-    app.add_option("--solver", options.overrides.solver, "instead of the scene's")
+    app.add_option("--solver", options.overrides.solver, "solver, instead of the scene's")
         ->check(CLI::IsMember(sim::solverNames()));
-    app.add_option("--substeps", options.overrides.substeps, "per step, instead of the scene's")
+    app.add_option("--substeps", options.overrides.substeps, "substeps per step, instead of the scene's")
         ->check(within(sim::ranges::substeps));
     options.hasValidation = SINEW_VALIDATION_DEFAULT;
     app.add_flag(
@@ -73,20 +73,20 @@ void addSceneOptions(CLI::App& app, Options& options) {
 
 // Adds the options that keys can change in the window.
 void addWindowOptions(CLI::App& app, Options& options) {
-    constexpr const char* group = "In the window; what is not said is as it was left";
+    constexpr const char* group = "In the window; the default is the last choice";
     const auto add = [&](const char* name, std::optional<bool>& value, const char* help) {
         app.add_flag_function(
                name, [&value](std::int64_t count) { value = count > 0; }, help)
             ->group(group);
     };
-    add("--vsync,!--no-vsync", options.isVsync, "wait for the screen, or not");
-    add("--panels,!--no-panels", options.arePanelsShown, "show the panels, or not");
-    app.add_option("--scale", options.scale, "of texts and panels, on top of what the screen asks for")
+    add("--vsync,!--no-vsync", options.isVsync, "turn vsync on or off");
+    add("--panels,!--no-panels", options.arePanelsShown, "show or hide the panels");
+    app.add_option("--scale", options.scale, "scale of text and panels, times the scale of the screen")
         ->check(CLI::Range(Preferences::leastScale, Preferences::mostScale))
         ->group(group);
-    app.add_flag("--full-screen", options.isFullScreen, "begin in full screen")->group(group);
+    app.add_flag("--full-screen", options.isFullScreen, "start in full screen")->group(group);
     app.add_option("--blade-depth", options.bladeDepth,
-                   "how far below the surface the blade goes [m]; without it, through")
+                   "depth of the blade below the surface [m]; default: through")
         ->check(CLI::PositiveNumber)
         ->excludes("--replay") // the log has its own
         ->group(group);
@@ -96,7 +96,7 @@ void addWindowOptions(CLI::App& app, Options& options) {
 void checkWindow(const CLI::App& app, const Options& options) {
     if (!options.isHeadless) return;
     for (const char* name : {"--vsync", "--panels", "--scale", "--full-screen", "--blade-depth"})
-        if (app.count(name) > 0) refuse(std::string(name) + " is of the window: --headless has none");
+        if (app.count(name) > 0) refuse(std::string(name) + " has no effect with --headless");
 }
 
 void addHeadlessOptions(CLI::App& app, Options& options) {
@@ -109,27 +109,27 @@ void addHeadlessOptions(CLI::App& app, Options& options) {
     add("--frames", options.frames, "steps to take")->check(positive)->capture_default_str();
     add("--out", options.folder, "folder for frame_0000.png (the start) and the following pictures");
     add("--video", options.video, "MP4 of all pictures; needs ffmpeg on the PATH");
-    CLI::Option* every = add("--every", options.every, "take a picture of each so many frames")
+    CLI::Option* every = add("--every", options.every, "frames from one picture to the next")
                              ->check(positive)
                              ->capture_default_str();
-    add("--picture-frames", options.pictured, "take pictures of these frames only, such as 0,60,120,240")
+    add("--picture-frames", options.pictured, "only these frames, such as 0,60,120,240")
         ->delimiter(',')
         ->excludes(every);
 }
 
 // Rejects nan, which CLI11 accepts within any range.
 void checkNumbers(const Options& options) {
-    if (options.bladeDepth && std::isnan(*options.bladeDepth)) refuse("--blade-depth is no number");
-    if (options.scale && std::isnan(*options.scale)) refuse("--scale is no number");
+    if (options.bladeDepth && std::isnan(*options.bladeDepth)) refuse("--blade-depth is not a number");
+    if (options.scale && std::isnan(*options.scale)) refuse("--scale is not a number");
 }
 
 void checkHeadless(Options& options, bool hasFrames) {
     std::ranges::sort(options.pictured);
     if (!options.isHeadless) return;
     if (options.folder.empty() && options.video.empty() && options.replay.empty())
-        refuse("--headless without --out DIR, --video FILE or --replay FILE is for nobody");
+        refuse("--headless without --out DIR, --video FILE or --replay FILE has no output");
     if (options.pictured.empty()) return;
-    if (!options.video.empty()) refuse("--video takes even steps: use --every, not --picture-frames");
+    if (!options.video.empty()) refuse("--video needs equal steps: use --every, not --picture-frames");
     const std::uint64_t last = options.pictured.back();
     if (hasFrames && last > options.frames)
         refuse("--picture-frames " + std::to_string(last) + " is beyond --frames " +
@@ -153,25 +153,25 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     app.footer("In the window:\n" + helpText() + "\n" + exitCodes);
     addSceneOptions(app, options);
     app.add_option("--size", size,
-                   "of the window or the pictures in pixels, WIDTHxHEIGHT (default 1280x720, or as the "
-                   "window was left)");
-    app.add_option("--show", layers, "what is drawn beside skins or instead of them")
+                   "size of the window or the pictures in pixels, WIDTHxHEIGHT (default 1280x720, or the "
+                   "last size of the window)");
+    app.add_option("--show", layers, "layers to draw over skins or instead of them")
         ->delimiter(',')
         ->check(CLI::IsMember(layerNames()));
     app.add_option(
            "--section", section,
-           "a plane through the scene: what lies before it is not drawn; X,Y,Z of its normal and how far "
-           "along that it lies [m]")
+           "a plane through the scene that hides everything in front of it: X,Y,Z of its normal and its "
+           "distance from the origin along the normal [m]")
         ->delimiter(',')
         ->expected(4);
     app.add_option("--beside", options.beside,
-                   "another solver beside the first, in step with it: SOLVER or SOLVER:SUBSTEPS");
+                   "compare with a second solver side by side: SOLVER or SOLVER:SUBSTEPS");
     app.add_option("--replay", options.replay,
-                   "a log of input, as the window saves it: opens its scene and does the same again");
+                   "replay an input log that the window has saved: opens its scene and repeats the input");
     app.add_flag(
         "--timing", options.isTimed,
-        "say how long the first picture took, whenever hands had to wait for more than 0.1 s, and at the "
-        "end how long pictures took");
+        "print the time of the first picture, every delay of input above 0.1 s, and at the end the frame "
+        "times");
     addWindowOptions(app, options);
     addHeadlessOptions(app, options);
     try {
@@ -184,7 +184,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     for (const std::string& layer : layers) addLayer(layer, options.layers);
     if (!section.empty()) options.layers.section = parseSection(section);
     if (!options.beside.empty() && !parseBeside(options.beside))
-        refuse("--beside " + options.beside + " is no SOLVER or SOLVER:SUBSTEPS, such as gauss_seidel:4");
+        refuse("--beside " + options.beside + " is not SOLVER or SOLVER:SUBSTEPS, such as gauss_seidel:4");
     if (app.count("--size") > 0) options.size = parseSize(size);
     options.hasSize = app.count("--size") > 0;
     options.hasFrames = app.count("--frames") + app.count("--picture-frames") > 0;

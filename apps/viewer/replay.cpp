@@ -37,9 +37,9 @@ struct Player {
     void operator()(const Forgot& event) const { event.areOfSteps ? tools.forgetSteps() : tools.forget(); }
     void operator()(const Answered& event) const {
         if (event.pick && event.pick->particle >= stage.scene().particles.size())
-            throw app::Failure(app::badInput, "cannot play input: particle " +
-                                                  std::to_string(event.pick->particle) +
-                                                  ": the scene has no such one: open the scene it is of");
+            throw app::Failure(app::badInput,
+                               "cannot play input: particle " + std::to_string(event.pick->particle) +
+                                   ": the scene has no such particle: open the scene of the log");
         const std::optional<Question> question = tools.question();
         if (question && question->asker == event.asker) tools.answer(*question, event.pick, event.radius);
     }
@@ -102,7 +102,7 @@ Options withReplay(Options options, const InputFile& file) {
 void prepareForReplay(Opening& opening, const InputFile& file) {
     if (file.from && (!opening.run || opening.run->fileHash != file.from->hash))
         throw app::Failure(app::badInput, "cannot play input: it begins from a state: " + file.from->file +
-                                              ": what was opened is another one: open the file that was "
+                                              ": the opened state is another one: open the file that was "
                                               "loaded then");
     sim::Settings& settings = opening.loaded.settings;
     app::addHands(settings);

@@ -194,8 +194,8 @@ void Show::goOn() {
     if (!makingSince_) makingSince_ = Clock::now();
     if (isMakingSaid_ || Clock::now() - *makingSince_ < patience) return;
     isMakingSaid_ = true;
-    screen_.tell(stage_.lacksContactRoom() ? "more room for contacts is being made: steps wait for it"
-                                           : "what is to be shown is being prepared");
+    screen_.tell(stage_.lacksContactRoom() ? "preparing room for more contacts: steps wait for it"
+                                           : "the requested change is being prepared");
 }
 
 // Counts new pipelines, which this thread should not make.

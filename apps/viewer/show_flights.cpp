@@ -293,8 +293,7 @@ void Show::endGrowth() {
 // Warns once: only the picture is affected.
 void Show::warnOfSurface() {
     if (std::exchange(isSurfaceMissing_, true)) return;
-    screen_.warn(
-        "the cuts have more surface than there is memory for: what is beyond is not drawn, or drawn uncut");
+    screen_.warn("too little memory for the surface of the cuts: a part is not drawn, or drawn uncut");
 }
 
 void Show::stop(const std::string& why) {

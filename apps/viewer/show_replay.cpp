@@ -30,9 +30,9 @@ app::SavedView viewOf(const Camera& camera) {
 // Saves the log; waits, which is acceptable for a rare action.
 void Show::saveInput() {
     settleAll();
-    if (isBroken_) return screen_.tell("a state that is no more cannot be reached again");
+    if (isBroken_) return screen_.tell("not saved: the input no longer leads to this state");
     if (from_ && from_->file.empty())
-        return screen_.tell("the name of the state that this began from fits in no line of a log");
+        return screen_.tell("not saved: a log cannot hold the path of the loaded state");
     InputFile file = inputFile();
     vk::Queue queue(device_);
     file.hash = stateHash(device_, stage_, queue);
@@ -68,12 +68,12 @@ std::string Show::keepInput(const std::filesystem::path& otherwise) const {
             if (!folder.empty()) std::filesystem::create_directories(folder);
             const std::filesystem::path name = freeName(nameAt(stage_.steps()), ".input", folder);
             mesh::writeWhole(name, [&](std::ostream& stream) { stream << text; });
-            return ": --replay " + std::filesystem::absolute(name).string() + " does again what hands did";
+            return ": --replay " + std::filesystem::absolute(name).string() + " replays the input";
         } catch (const std::exception& error) { // mesh::ExportError, std::filesystem::filesystem_error
             why = error.what();
         }
     }
-    return ": what hands did is lost: " + why;
+    return ": the input is lost: " + why;
 }
 
 std::string Show::sceneName() const {
@@ -84,9 +84,9 @@ std::string Show::sceneName() const {
 // Saves the state; waits.
 void Show::saveState() {
     settleAll();
-    if (isDiverged_) return screen_.tell("a state that is no more cannot be saved");
+    if (isDiverged_) return screen_.tell("not saved: the simulation has diverged");
     if (stage_.lacksContactRoom())
-        return screen_.tell("not saved: steps wait for more room; again in a moment");
+        return screen_.tell("not saved: steps wait for more room; try again in a moment");
     vk::Queue queue(device_);
     try {
         app::SavedRun run = stage_.save(device_, queue);
@@ -96,7 +96,7 @@ void Show::saveState() {
         app::writeRun(name, run);
         std::printf("state: %s\n", name.c_str());
         std::fflush(stdout);
-        screen_.tell("state: " + name.string() + "; dropped here or opened, it goes on");
+        screen_.tell("state: " + name.string() + "; open it or drop it here to continue");
     } catch (const mesh::ExportError& error) {
         screen_.warn(error.what());
     } catch (const vk::Error& error) {
@@ -153,7 +153,7 @@ void Show::dropReplay() {
 bool Show::isOfReplay(Action action) {
     if (!replay_) return false;
     if (turnedBy(action, knobs_)) { // the log controls the scene
-        screen_.tell("a replay plays: " + std::string(keyOf(Action::drop)) + " ends it");
+        screen_.tell("a replay is running: " + std::string(keyOf(Action::drop)) + " ends it");
         return true;
     }
     switch (action) {
@@ -166,7 +166,7 @@ bool Show::isOfReplay(Action action) {
     case Action::undo:
     case Action::redo:
     case Action::stepBack:
-        screen_.tell("a replay plays: " + std::string(keyOf(Action::drop)) + " ends it");
+        screen_.tell("a replay is running: " + std::string(keyOf(Action::drop)) + " ends it");
         return true;
     default:
         return false;

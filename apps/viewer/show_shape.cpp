@@ -50,7 +50,7 @@ void Show::reopenWhereTurned() {
 }
 
 void Show::changeDevice(std::size_t index) {
-    if (replay_) return screen_.tell("a replay plays: " + std::string(keyOf(Action::drop)) + " ends it");
+    if (replay_) return screen_.tell("a replay is running: " + std::string(keyOf(Action::drop)) + " ends it");
     asked_ = madeKnobs();
     library_.reopenOn(requestFor(devices_.list(), index), again(), pictureAspect());
 }

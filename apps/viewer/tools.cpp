@@ -15,8 +15,7 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr const char* lost =
-    "warning: earlier cuts can no longer be undone: there is no memory to bring them over";
+constexpr const char* lost = "warning: earlier cuts can no longer be undone: their states could not be moved";
 
 } // namespace
 
@@ -75,7 +74,7 @@ void Tools::pinAt(const Ray& ray) {
 }
 
 void Tools::pin(const Hand& hand, float radius) {
-    if (!pins_.add(hand, radius)) note_ = "there are no more than " + std::to_string(Pins::most) + " pins";
+    if (!pins_.add(hand, radius)) note_ = "at most " + std::to_string(Pins::most) + " pins are possible";
 }
 
 const char* Tools::name() const {
@@ -108,14 +107,14 @@ void Tools::answer(const Question& question, const std::optional<Pick>& pick, fl
     else if (pick)
         pin({pick->particle, pick->offset, pick->point}, radius);
     else
-        note_ = "there is nothing to pin under the pointer";
+        note_ = "no body to pin under the pointer";
 }
 
 void Tools::sayHeld(std::uint32_t particle) {
     const sim::NamedHold* hold = sim::holdOf(holds_, particle);
     note_ = (hold != nullptr ? "hold \"" + hold->name + "\" of the scene holds this"
                              : std::string("the scene holds this")) +
-            ": it needs no pin, and N does not let it go";
+            ": it needs no pin, and N does not release it";
 }
 
 void Tools::press(const Camera& camera, bool isDown, const Vector2& at) {
@@ -216,7 +215,7 @@ void Tools::setDepth(const std::optional<float>& depth) {
 
 // Turns the blade on or off; one tool is active at a time.
 void Tools::takeBlade() {
-    if (!canCut_) return say("note: no body of this scene can be cut: cuttable = true makes it so");
+    if (!canCut_) return say("note: no body of this scene can be cut: cuttable = true allows it");
     if (poke_.isOn()) poke_.toggle();
     blade_.toggle();
 }

@@ -219,8 +219,7 @@ TEST_F(Run, WarnsOfRigidLinksThatAreTooLong) {
         ASSERT_EQ(soft["warnings"].size(), 1u) << solver;
         const std::string warning = soft["warnings"][0];
         EXPECT_TRUE(warning.starts_with("rigid links are up to ")) << warning;
-        EXPECT_NE(warning.find(" % too long at the end, where solver.tolerance is 5 %: take "),
-                  std::string::npos)
+        EXPECT_NE(warning.find(" % too long at the end; solver.tolerance is 5 %: take "), std::string::npos)
             << warning;
         EXPECT_LT(stiff["error"]["strain_max"], 0.1) << solver;
         EXPECT_EQ(stiff["warnings"], json::array()) << solver;

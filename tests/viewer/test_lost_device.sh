@@ -38,7 +38,7 @@ wait "$running" || code=$?
 grep -q '^error: .*VK_ERROR_DEVICE_LOST' viewer.err || fail "nothing was said of the device"
 expectFilm "$(sed -n 's/^recording //p' viewer.out)" $((640 * 480 * 4))
 grep -q '^vsync = false$' config/sinew/viewer.conf || fail "what V chose is not remembered"
-input=$(sed -n 's/.*: --replay \(.*\) does again what hands did$/\1/p' viewer.err)
+input=$(sed -n 's/.*: --replay \(.*\) replays the input$/\1/p' viewer.err)
 [[ $input == "$folder"/block-*.input ]] && grep -q '^press ' "$input" || fail "what hands did is not kept"
 rm lost
 "$player" --headless --replay "$input" >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
@@ -54,7 +54,7 @@ for _ in {1..300}; do [[ -s viewer.err ]] && break; sleep 0.1; done
 for _ in {1..300}; do [[ $(title) != *pieces* ]] && break; sleep 0.1; done
 [[ $(title) != *pieces* ]] || fail "it does not begin anew"
 [[ $(wc -l <viewer.err) == 1 ]] || fail "not one line"
-input=$(sed -n 's/^warning: .*VK_ERROR_DEVICE_LOST.*: the scene begins anew on .*: --replay \(.*\) does again what hands did$/\1/p' viewer.err)
+input=$(sed -n 's/^warning: .*VK_ERROR_DEVICE_LOST.*: the scene restarts on .*: --replay \(.*\) replays the input$/\1/p' viewer.err)
 grep -q '^press ' "$input" || fail "what hands did is not kept"
 [[ $(xdotool search --name '^Sinew' | head -n 1) == "$window_before" ]] || fail "it is another window"
 keys space

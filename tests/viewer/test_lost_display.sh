@@ -51,7 +51,7 @@ if [[ $4 == film || $4 == load ]]; then
     [[ -z $(find . -name '*.input') ]] || fail "hands did nothing, and that was kept"
 else
     grep -q '^vsync = false$' config/sinew/viewer.conf || fail "what V chose is not remembered"
-    input=$(sed -n 's/.*: --replay \(.*\) does again what hands did$/\1/p' viewer.err)
+    input=$(sed -n 's/.*: --replay \(.*\) replays the input$/\1/p' viewer.err)
     [[ $input == "$kept"/block-*.input && -s $input ]] || fail "what hands did is not kept"
     played() { # LOG: state at the end of its replay
         "$player" --headless --replay "$1" >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"

@@ -60,7 +60,7 @@ TEST(Preferences, TakeCommentsAndBlanks) {
 TEST(Preferences, IgnoreLinesThatMakeNoSenseAndSayWhich) {
     EXPECT_NE(complaintAbout("\nheight = -3\n").find("line 2: -3"), std::string::npos);
     EXPECT_NE(complaintAbout("width = 1e9").find("line 1"), std::string::npos);
-    EXPECT_NE(complaintAbout("width = 99999999999999999999").find("no number"), std::string::npos);
+    EXPECT_NE(complaintAbout("width = 99999999999999999999").find("not a number"), std::string::npos);
     EXPECT_NE(complaintAbout("scale = nan").find("nan"), std::string::npos);
     EXPECT_NE(complaintAbout("scale = 0").find("0.5"), std::string::npos);
     EXPECT_NE(complaintAbout("panels = maybe").find("maybe"), std::string::npos);

@@ -272,7 +272,7 @@ void addBench(CLI::App& app, Chosen& chosen) {
     command.add_option("--scene", options->scene)
         ->check(CLI::IsMember({"cloth", "cube", "clutter", "all"}))
         ->capture_default_str();
-    command.add_option("--seconds", options->seconds, "to measure, per scene")
+    command.add_option("--seconds", options->seconds, "seconds to measure, per scene")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
     command.add_flag("--peers", options->hasPeers,
@@ -281,24 +281,24 @@ void addBench(CLI::App& app, Chosen& chosen) {
                      "clutter (takes minutes)");
     CLI::Option* kernels = command
                                .add_flag("--kernels", options->hasKernels,
-                                         "instead: what a substep of split costs on bodies of many sizes")
+                                         "instead: time of a substep of split for bodies of many sizes")
                                ->excludes("--peers");
     addFormOptions(command, options->forms);
     command.get_option("--forms")->needs(kernels);
     command
         .add_flag("--by-form", options->isByForm,
-                  "instead: a step of bodies of many sizes in each form that the device may be given")
+                  "instead: time of a step in each form of the kernels, for bodies of many sizes")
         ->excludes("--peers")
         ->excludes(kernels);
     CLI::Option* contacts =
         command
             .add_flag("--contacts", options->hasContacts,
-                      "instead: what contacts cost where nothing touches, where bodies rest, and in shipped "
+                      "instead: cost of contacts without any touch, with bodies at rest, and in shipped "
                       "scenes (takes minutes)")
             ->excludes("--peers")
             ->excludes("--kernels")
             ->excludes("--by-form");
-    command.add_option("--only", options->only, "of the rows of --contacts those with this in their names")
+    command.add_option("--only", options->only, "only the rows of --contacts whose names contain this")
         ->needs(contacts)
         ->check(checkRow);
     command.add_option("--json", options->json, "file for the rows, or - for the standard output");

@@ -292,11 +292,11 @@ std::string contactsTable(const Json& measured) {
     }
     return text +
            fmt::format(
-               "passes, dispatches (direct, indirect) and barriers: of a substep; a/b: of a step with all "
-               "passes, of a calm one; builds: of lists, a step; B/part.: contact buffers, a particle\n"
-               "calm %: steps without passes that make lists after their first substep; again: steps "
-               "that were repeated, since such a pass was needed or room was short\n"
-               "GPU us: predicted, not measured: dispatches of a step x {} us + indirect ones, "
+               "passes, dispatches (direct, indirect) and barriers: per substep; a/b: in a step with all "
+               "passes, in a calm step; builds: list builds per step; B/part.: contact buffers per particle\n"
+               "calm %: steps without list passes after their first substep; again: steps that were "
+               "repeated, because such a pass or room was missing\n"
+               "GPU us: predicted, not measured: direct dispatches of a step x {} us + indirect ones, "
                "as if empty, x {} us\n",
                directUs, emptyUs);
 }

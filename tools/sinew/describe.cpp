@@ -23,7 +23,7 @@ int describe(const SceneOptions& options) {
 
 void addDescribe(CLI::App& app, Chosen& chosen) {
     CLI::App& command = *app.add_subcommand(
-        "describe", "print what a step of a scene does: passes, buffers, barriers, bytes; needs no device");
+        "describe", "print the passes, buffers and barriers of a scene's step; needs no device");
     const auto options = std::make_shared<SceneOptions>();
     addSceneOptions(command, *options);
     command.callback([options, &chosen] { chosen = [options] { return describe(*options); }; });

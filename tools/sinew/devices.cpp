@@ -28,7 +28,7 @@ std::string row(const DeviceDescription& device) {
     if (!device.driver.empty()) text += " (" + device.driver + ")";
     text += "\n";
     if (device.storageBuffers < vk::mostStorageBuffers)
-        text += fmt::format("        a kernel may bind {} storage buffers: scenes that need more, up to {}, "
+        text += fmt::format("        a kernel can bind {} storage buffers: scenes that need more, up to {}, "
                             "are refused\n",
                             device.storageBuffers, vk::mostStorageBuffers);
     for (const std::string& missing : device.missing) text += "        missing: " + missing + "\n";
@@ -36,8 +36,9 @@ std::string row(const DeviceDescription& device) {
 }
 
 std::string reason(const DeviceDescription& chosen, const std::string& wanted) {
-    if (!wanted.empty()) return "--device " + wanted + " names it";
-    if (chosen.type == "software") return "no GPU lacks nothing; a software device computes on the CPU";
+    if (!wanted.empty()) return "--device " + wanted + " matches it";
+    if (chosen.type == "software")
+        return "no GPU has all that is needed; a software device computes on the CPU";
     return "GPUs come before software devices, discrete ones first";
 }
 
@@ -64,7 +65,7 @@ int list(const std::string& wanted) {
     throw app::Failure(app::noDevice, wanted.empty()
                                           ? "no usable device: see the list: install a Vulkan 1.2 driver"
                                           : "no usable device: --device " + wanted +
-                                                ": names none of the list that lacks nothing: use another");
+                                                ": matches no usable device of the list: use another");
 }
 
 } // namespace

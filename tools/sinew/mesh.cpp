@@ -302,12 +302,13 @@ void addMesh(CLI::App& app, Chosen& chosen) {
             "an object of the file, or a component (\"part 1\" is the largest), by name; may be given "
             "several times, all without it")
         ->allow_extra_args(false);
-    command.add_option("--unit", options->unit, "of the coordinates in the file: " + scenes::unitNames())
+    command
+        .add_option("--unit", options->unit, "unit of the coordinates in the file: " + scenes::unitNames())
         ->check([](const std::string& name) {
-            return scenes::findUnit(name) ? "" : name + " is no unit: possible are " + scenes::unitNames();
+            return scenes::findUnit(name) ? "" : name + " is not a unit: possible are " + scenes::unitNames();
         })
         ->capture_default_str();
-    command.add_option("--scale", options->scale, "factor on the coordinates, beside --unit")
+    command.add_option("--scale", options->scale, "factor on the coordinates, in addition to --unit")
         ->check(checkPositive)
         ->capture_default_str();
     CLI::Option* voxel = command.add_option("--voxel", options->voxel, "edge of a voxel [m]");
@@ -318,7 +319,7 @@ void addMesh(CLI::App& app, Chosen& chosen) {
         ->excludes(voxel);
     command
         .add_option("--particles", options->particles,
-                    "at most this many particles: the finest voxels that make no more")
+                    "limit of particles: takes the finest voxels within it")
         ->check(CLI::Range(8, 2'000'000))
         ->excludes(voxel)
         ->excludes("--resolution");
@@ -330,10 +331,9 @@ void addMesh(CLI::App& app, Chosen& chosen) {
         ->check(CLI::IsMember({"none", "weld", "close"}))
         ->capture_default_str();
     command
-        .add_option(
-            "--weld", options->weld,
-            "open edges nearer than that are joined, in units of the file; a hundred-thousandth of its "
-            "size without it")
+        .add_option("--weld", options->weld,
+                    "distance below which open edges are joined, in units of the file; default: a "
+                    "hundred-thousandth of its size")
         ->check(checkPositive);
     addDeviceOptions(command, options->device);
     command.add_option("--json", options->json, "file for the report, or - for the standard output");

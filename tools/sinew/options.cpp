@@ -47,7 +47,7 @@ void setForm(FormOptions& options, const std::string& text) {
     else if (key == "resident")
         take(options.residentBytes, bytes);
     else
-        throw CLI::ValidationError("--forms", key + " is none of texels, grids, columns, chunk, resident");
+        throw CLI::ValidationError("--forms", key + " is not one of texels, grids, columns, chunk, resident");
 }
 
 void sayNews(const scenes::LoadedScene& loaded) {
@@ -60,7 +60,7 @@ void sayNews(const scenes::LoadedScene& loaded) {
 std::string checkPositive(const std::string& text) {
     double number = 0;
     const bool isRight = CLI::detail::lexical_cast(text, number) && number > 0 && number <= 1e6;
-    return isRight ? "" : text + " is no number above 0 and at most 1e6";
+    return isRight ? "" : text + " is not a number above 0 and at most 1e6";
 }
 
 sim::Forms FormOptions::in(sim::Forms forms) const {
@@ -85,9 +85,10 @@ void addFormOptions(CLI::App& command, FormOptions& options) {
             [&options](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) setForm(options, text);
             },
-            "forms of kernels, as columns=1,chunk=1,texels=0,grids=1,resident=0, instead of the fastest; "
+            "forms of kernels, such as columns=1,chunk=1,texels=0,grids=1,resident=0, instead of the "
+            "fastest; "
             "columns=1 "
-            "with chunk=1 computes one node an invocation")
+            "with chunk=1 computes one node per invocation")
         ->delimiter(',')
         ->type_name("KEY=N,...");
 }
@@ -98,7 +99,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         .add_option("SCENE|MESH", options.file,
                     "scene file (TOML), or a mesh to drop (OBJ, STL, PLY, glTF, GLB)")
         ->required();
-    command.add_option("--solver", overrides.solver, "instead of the scene's")
+    command.add_option("--solver", overrides.solver, "solver, instead of the scene's")
         ->check(CLI::IsMember(sim::solverNames()));
     command
         .add_option_function<std::string>(
@@ -106,7 +107,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
             [&overrides](const std::string& text) {
                 overrides.substeps = text == "auto" ? 0 : static_cast<std::uint32_t>(std::stoul(text));
             },
-            "per step, instead of the scene's; auto: as many as its tolerance asks for")
+            "substeps per step, instead of the scene's; auto: as many as its tolerance needs")
         ->check(checkSubsteps);
     command
         .add_option("--iterations", overrides.iterations,

@@ -301,10 +301,10 @@ std::string stiffnessText(const scenes::LoadedScene& loaded) {
     const sim::StiffnessReport report = sim::inspectStiffness(loaded.scene, loaded.settings);
     if (report.elastic == 0) return text;
     text += fmt::format(
-        "stiffness: {:.3g} % of what is asked in the mean, {:.3g} % at least, {} of {} links clamped\n",
+        "stiffness: {:.3g} % of the requested one on average, {:.3g} % at least, {} of {} links clamped\n",
         100 * report.mean, 100 * report.softest, report.clamped, report.elastic);
     if (loaded.scene.dampingTime > 0)
-        text += fmt::format("internal damping: {:.3g} s of {:.3g} s in the mean\n", report.dampingTime,
+        text += fmt::format("internal damping: {:.3g} s of {:.3g} s on average\n", report.dampingTime,
                             double{loaded.scene.dampingTime});
     return text;
 }

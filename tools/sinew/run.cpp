@@ -105,13 +105,12 @@ std::optional<std::string> stretchWarning(const RunRecord& record) {
     chosen.substeps = 0;
     const double ofAuto = sim::chooseSubsteps(record.loaded.scene, chosen).substeps;
     const double substeps = std::max(ofAuto, std::ceil(settings.substeps * std::sqrt(most / wanted)));
-    return fmt::format(
-               "rigid links are up to {:.3g} % too long at the end, where solver.tolerance is {:.3g} %{}: ",
-               100 * most, 100 * wanted,
-               settings.substeps >= ofAuto ? " of what hangs or lies still, and \"auto\" counts no motion"
-                                           : "") +
+    return fmt::format("rigid links are up to {:.3g} % too long at the end; solver.tolerance is {:.3g} %{}: ",
+                       100 * most, 100 * wanted,
+                       settings.substeps >= ofAuto ? " for bodies at rest, and \"auto\" ignores motion"
+                                                   : "") +
            (substeps <= sim::ranges::substeps.high
-                ? fmt::format("take about {:.0f} substeps in place of {}", substeps, settings.substeps)
+                ? fmt::format("take about {:.0f} substeps instead of {}", substeps, settings.substeps)
                 : std::string("take shorter steps (dt), or links that are elastic"));
 }
 
@@ -128,8 +127,8 @@ void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings,
              " a particle was slowed down, so that its contacts are found: momentum was lost, "
              "take more substeps");
     if (record.surfaceMissing > 0)
-        warn("the cuts have a surface of " + std::to_string(record.surfaceMissing) +
-             " triangles, for which the device has no room: skins are written uncut, take coarser voxels");
+        warn("the device has too little memory for the " + std::to_string(record.surfaceMissing) +
+             " triangles of the cut surface: skins are written uncut, take coarser voxels");
     if (const std::optional<std::string> stretch = stretchWarning(record)) warn(*stretch);
     if (!record.loaded.blades.empty() && record.cuts.links == 0 && !record.isInterrupted &&
         !record.divergence)
@@ -218,21 +217,21 @@ void addRun(CLI::App& app, Chosen& chosen) {
         ->capture_default_str();
     command.add_flag(
         "--pass-times", options->timesPasses,
-        "time every pass by itself: phase_ms of the report then has one entry a kind of pass (slower)");
+        "time every pass separately: phase_ms of the report has an entry per kind of pass (slower)");
     command.add_option(
         "--out", options->folder,
         "folder for report.json, state.ply, and an OBJ, a PLY and a GLB of every skin at the end");
     command.add_option("--json", options->json, "file for the report, or - for the standard output");
     command
         .add_option("--save", options->save,
-                    "file for the state at the end, FILE.state: `sinew run FILE.state` and sinew-viewer go "
-                    "on from it")
+                    "file for the state at the end, FILE.state: `sinew run FILE.state` and sinew-viewer "
+                    "continue from it")
         ->check([](const std::string& file) {
-            return app::isRunFile(file) ? std::string() : file + ": the name of a state ends in .state";
+            return app::isRunFile(file) ? std::string() : file + ": the name of a state must end in .state";
         });
     command.add_option("--trace", options->trace,
                        "file for energy, overlap and sleep over time as CSV, or - for the standard output");
-    command.add_option("--trace-every", options->traceEvery, "steps between two lines of it")
+    command.add_option("--trace-every", options->traceEvery, "steps between two of its lines")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
         ->capture_default_str();
     command.callback([options, &chosen] { chosen = [options] { return run(*options); }; });

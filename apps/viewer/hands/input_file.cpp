@@ -124,7 +124,7 @@ public:
     explicit Words(const std::string& line) : words_(line) {}
     std::string word() {
         std::string next;
-        if (!(words_ >> next)) throw std::runtime_error("something is missing at the end of the line");
+        if (!(words_ >> next)) throw std::runtime_error("the line is incomplete");
         return next;
     }
     template <typename Number> Number number(int base = 10) {
@@ -136,7 +136,7 @@ public:
             read = std::from_chars(text.data(), end, value);
         else
             read = std::from_chars(text.data(), end, value, base);
-        if (read.ec != std::errc() || read.ptr != end) throw std::runtime_error("no number: " + text);
+        if (read.ec != std::errc() || read.ptr != end) throw std::runtime_error("not a number: " + text);
         return value;
     }
     float finite() {
@@ -161,12 +161,12 @@ public:
     std::string rest() {
         std::string all;
         std::getline(words_ >> std::ws, all);
-        if (all.empty()) throw std::runtime_error("something is missing at the end of the line");
+        if (all.empty()) throw std::runtime_error("the line is incomplete");
         return all;
     }
     void end() {
         std::string more;
-        if (words_ >> more) throw std::runtime_error("too much on the line: " + more);
+        if (words_ >> more) throw std::runtime_error("unexpected text on the line: " + more);
     }
 
 private:
@@ -181,7 +181,7 @@ Camera readCamera(Words& words) {
     camera.fieldOfView = words.finite();
     camera.lowestEye = words.number<float>();
     if (!(camera.distance > 0) || !(camera.fieldOfView > 0) || std::isnan(camera.lowestEye))
-        throw std::runtime_error("no camera has these numbers");
+        throw std::runtime_error("invalid camera");
     return camera;
 }
 
@@ -192,7 +192,7 @@ template <bool isDown> void readPress(InputFile& to, Words& words) {
 Action readKey(Words& words) {
     const std::string shown = words.rest();
     const auto known = std::ranges::find(bindings(), shown, &Binding::shown);
-    if (known == bindings().end()) throw std::runtime_error("no key does anything that is called " + shown);
+    if (known == bindings().end()) throw std::runtime_error("unknown action: " + shown);
     return known->action;
 }
 
@@ -216,7 +216,7 @@ sim::Material readMaterial(Words& words) {
     const auto isFactor = [](float factor) { return factor > 0; };
     if (!isFactor(material.stiffness) || !std::ranges::all_of(material.bodies, isFactor) ||
         material.damping.value_or(0) < 0 || material.friction.value_or(0) < 0)
-        throw std::runtime_error("no material has these numbers");
+        throw std::runtime_error("invalid material");
     return material;
 }
 
@@ -239,7 +239,7 @@ SavedOrigin readOrigin(Words& words) {
 
 Forgot readForgot(Words& words) {
     if (words.isAtEnd()) return {};
-    if (words.word() != "steps") throw std::runtime_error("steps alone are forgotten without the rest");
+    if (words.word() != "steps") throw std::runtime_error("forget must be alone, or followed by steps");
     return {.areOfSteps = true};
 }
 
@@ -281,7 +281,7 @@ void readLine(const std::string& line, InputFile& file) {
     Words words(line);
     const std::string name = words.word();
     const auto* reader = std::ranges::find(readers, name, &Reader::name);
-    if (reader == readers.end()) throw std::runtime_error("nothing is called " + name);
+    if (reader == readers.end()) throw std::runtime_error("unknown event: " + name);
     reader->read(file, words);
     words.end();
 }
@@ -335,7 +335,7 @@ InputFile loadInput(const std::filesystem::path& file) {
         text << head;
         if (head == title || head == titleBefore) text << stream.rdbuf();
     } else if (std::filesystem::exists(file, error))
-        refuse(file.string(), "it is no file");
+        refuse(file.string(), "it is not a file");
     else
         refuse(file.string(), "there is no such file");
     return parseInput(text.str(), file.string());

@@ -43,7 +43,7 @@ void picker(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
         ImGui::EndCombo();
     }
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("the devices that Vulkan finds here; the scene goes on on another one");
+        ImGui::SetTooltip("the Vulkan devices; the scene continues on the chosen one");
 }
 
 } // namespace
@@ -59,8 +59,8 @@ void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
                                            : "no GPU");
         if (facts.reduced && ImGui::IsItemHovered())
             ImGui::SetTooltip(
-                "while things move: small shadow maps, one sample a pixel, drawn at %.0f %% of the "
-                "size and enlarged; all of it when paused",
+                "during motion: small shadow maps, one sample per pixel, drawn at %.0f %% of the "
+                "size and enlarged; full quality when paused",
                 100 * double{*facts.reduced});
     }
     if (facts.devices.empty()) // not known yet

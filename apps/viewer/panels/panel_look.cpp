@@ -65,7 +65,7 @@ void sleepLegend(const Facts& facts, std::size_t particles) {
 void legend(const Facts& facts, std::size_t particles) {
     const ColorMap map = facts.layers.map;
     if (map == ColorMap::sleep) return sleepLegend(facts, particles);
-    if (facts.mapRange <= 0) return wrapped("nothing here has a value", quiet());
+    if (facts.mapRange <= 0) return wrapped("no particle has a value", quiet());
     colorBar();
     const std::string middle = valueText(map, facts.mapRange / 2), end = valueText(map, facts.mapRange);
     const float left = ImGui::GetWindowContentRegionMin().x;
@@ -104,12 +104,12 @@ void linkLegend(const LinkFacts& links) {
         ImGui::Dummy({contentWidth(), rows * (side + between)});
     }
     wrapped(links.note, quiet());
-    if (links.fixed > 0) row("links that nobody corrects", grouped(links.fixed));
+    if (links.fixed > 0) row("links between fixed particles", grouped(links.fixed));
 }
 
 // Legend of cells: a bar of colours from one item to the fullest cell, for all grids, and their counts.
 void cellLegend(const std::vector<GridFacts>& grids) {
-    if (grids.empty()) return wrapped("no grid here: nothing can meet that is looked for in one", quiet());
+    if (grids.empty()) return wrapped("no hash grid: the scene has no contacts that need one", quiet());
     std::uint32_t most = 0, shared = 0;
     for (const GridFacts& grid : grids) {
         most = std::max(most, grid.most);
@@ -117,15 +117,15 @@ void cellLegend(const std::vector<GridFacts>& grids) {
     }
     if (most == 0) return wrapped("no step has been taken yet: the grids are empty", quiet());
     colorBar();
-    row("in a cell, from 0", grouped(most));
+    row("items in a cell, from 0", grouped(most));
     for (const GridFacts& grid : grids) {
         char text[64];
         std::snprintf(text, sizeof text, "%s, cells of %.3g m", grid.name.c_str(), double{grid.edge});
         row(text, grouped(grid.cells));
-        row("  in them, of slots", grouped(grid.held) + " / " + grouped(grid.slots));
+        row("  items / slots", grouped(grid.held) + " / " + grouped(grid.slots));
     }
     if (shared == 0) return;
-    colorSwatch(sharedColor, "share a slot with others");
+    colorSwatch(sharedColor, "cells that share a slot");
     row("", grouped(shared));
 }
 

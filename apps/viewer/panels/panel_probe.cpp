@@ -47,7 +47,7 @@ void probe(const Facts& facts, float scale, float free) {
     if (facts.found)
         rows(*facts.found);
     else
-        ImGui::TextColored(quiet(), "nothing is under the pointer");
+        ImGui::TextColored(quiet(), "no body under the pointer");
     ImGui::End();
     ImGui::PopStyleVar();
 }

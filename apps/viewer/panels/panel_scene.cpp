@@ -51,7 +51,7 @@ bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
     knob("stiffness");
     const bool isOne = turned.body >= 0 && static_cast<std::size_t>(turned.body) < turned.bodies.size();
     isTurned |= factorSlider(isOne ? turned.bodies[static_cast<std::size_t>(turned.body)] : turned.stiffness);
-    tip("Young's modulus by that of the file; acts at once; Ctrl + click to type");
+    tip("factor on the file's Young's modulus; acts at once; Ctrl + click to type");
     if (scene.bodies.size() > 1) {
         knob("  of");
         const int before = turned.body;
@@ -60,10 +60,10 @@ bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
     }
     knob("damping");
     isTurned |= ImGui::SliderFloat("##damping", &turned.damping, 0, 20, "%.2f 1/s");
-    tip("of all motion; acts at once");
+    tip("damping of all motion; acts at once");
     knob("friction");
     isTurned |= ImGui::SliderFloat("##friction", &turned.friction, 0, 2, "%.2f");
-    tip("of planes, colliders and bodies; acts at once");
+    tip("friction of planes, colliders and bodies; acts at once");
     if (isTurned) limitMaterial(turned);
     return isTurned;
 }
@@ -77,7 +77,7 @@ bool bladeKnob(const Facts& facts, Knobs& turned) {
     const bool isTurned =
         ImGui::SliderFloat("##depth", &depth, least, through, turned.bladeDepth ? "%.3g m" : "through",
                            ImGuiSliderFlags_Logarithmic);
-    tip("below the surface under the pointer; the right end: through; acts at once");
+    tip("depth below the surface under the pointer; right end: through; acts at once");
     if (isTurned) turned.bladeDepth = depth > most ? std::nullopt : std::optional(std::max(depth, least));
     return isTurned;
 }
@@ -171,7 +171,7 @@ void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     if (scene.canCut) isTurned |= bladeKnob(facts, turned);
     knob("substeps");
     isTurned |= ImGui::InputInt("##substeps", &turned.substeps, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
-    tip("act when they are worked out; 0 = as many as the scene needs");
+    tip("act once prepared; 0 = as many as the scene needs");
     knob("solver");
     const auto solver = static_cast<std::size_t>(turned.solver);
     if (ImGui::BeginCombo("##solver", solver < scene.solvers.size() ? scene.solvers[solver].c_str() : "")) {
@@ -182,7 +182,7 @@ void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
             }
         ImGui::EndCombo();
     }
-    tip("acts when it is worked out");
+    tip("acts once prepared");
     Knobs shown = facts.knobs;
     shown.body = scene.fromFile.body; // the selected body is not a change
     if (shown != scene.fromFile && ImGui::Button("As in the file", {contentWidth(), 0})) {

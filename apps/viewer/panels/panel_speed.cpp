@@ -127,7 +127,7 @@ void speed(const Facts& facts) {
         phasePlot(facts.phases);
         legend(facts.phases);
     } else {
-        wrapped(facts.phases.empty() ? "This device has no clock for it." : "No step yet.", quiet());
+        wrapped(facts.phases.empty() ? "This device has no timestamps." : "No step yet.", quiet());
     }
     const bool isBehind = !facts.isPaused && facts.keptPace < 0.95 * facts.pace;
     pair("frame", number("%.0f ms", double{facts.frameMs.median()}), "pace",

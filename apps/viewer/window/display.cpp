@@ -31,7 +31,7 @@ template <typename Function> Function find(const char* name) {
     try {
         if (keep) kept = keep();
     } catch (const std::exception& error) { // it must not reach Xlib
-        kept = std::string(": nothing was kept: ") + error.what();
+        kept = std::string(": nothing was saved: ") + error.what();
     }
     leave(kept);
 }

@@ -29,7 +29,7 @@ template <typename Number> Number numberIn(const std::string& value, Number low,
     const auto [after, error] = std::from_chars(value.data(), end, number);
     if (error == std::errc() && after == end && number >= low && number <= high) return number;
     std::ostringstream why;
-    why << value << " is no number from " << low << " to " << high;
+    why << value << " is not a number from " << low << " to " << high;
     throw std::runtime_error(why.str());
 }
 
@@ -80,7 +80,7 @@ void readLine(const std::string& line, Preferences& preferences) {
     const std::string text = trimmed(line);
     if (text.empty() || text.front() == '#') return;
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) throw std::runtime_error("this is no key = value");
+    if (equals == std::string::npos) throw std::runtime_error("this is not key = value");
     const std::string name = trimmed(text.substr(0, equals));
     const auto* key = std::ranges::find(keys, name, &Key::name);
     if (key == keys.end()) throw std::runtime_error("there is no setting of this name");
@@ -99,7 +99,7 @@ std::string readWhole(const std::filesystem::path& file) {
     constexpr std::uintmax_t most = 64 * 1024; // a larger file is not ours
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error) || std::filesystem::file_size(file, error) > most)
-        throw std::runtime_error("this is no file of settings: it is ignored");
+        throw std::runtime_error("this is not a settings file: it is ignored");
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream text;
     text << stream.rdbuf();
@@ -110,7 +110,7 @@ std::string readWhole(const std::filesystem::path& file) {
 } // namespace
 
 std::string toText(const Preferences& preferences) {
-    std::string text = "# As sinew-viewer was left; it writes this file when it ends.\n";
+    std::string text = "# Preferences of sinew-viewer, which writes this file when it ends.\n";
     for (const Key& key : keys)
         if (const std::string value = key.write(preferences); !value.empty())
             text.append(key.name).append(" = ").append(value).append("\n");

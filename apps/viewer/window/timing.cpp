@@ -37,7 +37,7 @@ void Timing::beforeInput(bool isIdle) {
     if (lastPicture_) times_.add(FrameTimes::Kind::thread, worked);
     if (isIdle) lastPicture_.reset();
     if (!isOn_ || !hasPicture_ || passed <= tooLong) return;
-    std::printf("hands waited %.0f ms, %.0f ms of processor time\n", milliseconds(passed), worked);
+    std::printf("input waited %.0f ms, %.0f ms of processor time\n", milliseconds(passed), worked);
     std::fflush(stdout);
 }
 

@@ -130,8 +130,8 @@ std::string truthText(const SceneResult& scene) {
         fmt::format("the truth is known to {:.1g} of body size", scene.truth.selfDifference);
     if (!scene.isOfContacts) return known;
     return fmt::format(
-        "the truth is what split does with {} substeps: half as many, or a disturbance, leave an "
-        "error of 1 % comparable over {} frames",
+        "the truth is split with {} substeps; by half as many, and by a disturbance, an error of 1 % "
+        "is comparable over {} frames",
         truthSubsteps, framesAtTarget(scene.truth));
 }
 
@@ -174,27 +174,23 @@ std::string toHtml(const StudyRecord& record) {
                        "<title>Sinew: speed against error</title>\n<style>\n";
     html += pageStyle + plotStyle() + "</style></head><body>\n<h1>Speed against error</h1>\n";
     html += fmt::format(
-        "<p>How long a frame of soft body takes until the motion is right to 1 % of the body's size, on "
+        "<p>Time of a frame of a soft body for a motion with an error of 1 % of the body's size, on "
         "<b>{}</b>.</p>\n<p class=\"quiet\">{}, {}; sinew {}{}</p>\n",
         escaped(record.device.name), escaped(record.device.driver), escaped(record.device.type),
-        SINEW_VERSION, record.isComplete ? "" : "; <b>interrupted: not every run is here</b>");
+        SINEW_VERSION, record.isComplete ? "" : "; <b>interrupted: some runs are missing</b>");
     html += headline(record);
     html +=
         "<p class=\"quiet\">Error: root mean square over all frames and particles of the distance to the "
-        "true motion "
-        "(velocity Verlet in double precision, halved until it agrees with itself), by the diagonal of the "
-        "body. A "
-        "solid mark is a choice of substeps and iterations that no other of its solver undercuts, a faint "
-        "one is "
-        "undercut, a wedge at the top edge has diverged; the grey band joins the best of all solvers, rings "
-        "mark "
-        "where a curve meets 1 %. Where a disturbance of the truth by 1e-7 grows to a tenth of an error, the "
-        "comparison stops; growth below 1e-6 counts as none, so that an error below 1e-5 (0.001 %) may hold "
-        "as "
-        "much of chaos as of the solver. Where things touch, the truth is what split tends to with short "
-        "substeps, and comparison stops as well where half as many of them differ by a tenth of an error. "
-        "Penetration is that of the deepest particle in another, in a plane or in a collider; things are at "
-        "rest when kinetic energy stays below a thousandth of its peak.</p>\n";
+        "true motion (velocity Verlet in double precision, with a step halved until the result converges), "
+        "divided by the diagonal of the body. A solid mark is a choice of substeps and iterations that no "
+        "other choice of its solver undercuts; a faint one is undercut; a wedge at the top edge has "
+        "diverged. The grey band joins the best of all solvers; rings mark where a curve meets 1 %. "
+        "Comparison stops where a disturbance of the truth by 1e-7 grows to a tenth of an error; growth "
+        "below 1e-6 is ignored, so an error below 1e-5 (0.001 %) may be due to chaos as much as to the "
+        "solver. With contacts, the truth is the limit of split for short substeps, and comparison also "
+        "stops where half as many substeps differ by a tenth of an error. Penetration is that of the "
+        "deepest particle in another, in a plane or in a collider; bodies are at rest when the kinetic "
+        "energy stays below a thousandth of its peak.</p>\n";
     for (const SceneResult& scene : record.scenes) html += section(scene);
     return html + "</body></html>\n";
 }

@@ -100,7 +100,7 @@ void addStudy(CLI::App& app, Chosen& chosen) {
         ->capture_default_str();
     command
         .add_option("--out", options->folder,
-                    "folder for the results; what it holds of an earlier study is not run again")
+                    "folder for the results; results of an earlier study in it are reused")
         ->capture_default_str();
     command
         .add_option("--points", options->points,

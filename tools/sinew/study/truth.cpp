@@ -40,7 +40,7 @@ reference::Trajectory trajectory(const StudyScene& scene, double disturbance) {
             {.frames = scene.frames, .dt = double{scene.loaded.scene.dt}, .perturbation = disturbance});
     } catch (const std::invalid_argument& error) {
         refuse(scene, error.what() + std::string(": use a scene of elastic bodies without damping, or one "
-                                                 "in which they touch something"));
+                                                 "with contacts"));
     } catch (const std::runtime_error& error) {
         refuse(scene, error.what() + std::string(": use fewer --frames"));
     }
@@ -175,7 +175,7 @@ double largestBody(const sim::Scene& scene) {
 }
 
 Truth truthOf(Session& session, const StudyScene& scene) {
-    if (!scene.loaded.blades.empty()) refuse(scene, "it has a [[blade]], and what cuts is not studied");
+    if (!scene.loaded.blades.empty()) refuse(scene, "it has a [[blade]], and cutting is not studied");
     return isOfContacts(scene.loaded.scene) ? contactTruth(session, scene) : elasticTruth(scene);
 }
 
