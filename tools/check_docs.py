@@ -1,22 +1,34 @@
 #!/usr/bin/env python3
-"""Fails when a page names a file, folder, kernel or identifier that does not exist, when a link leads nowhere, or when a page
-leaves the form of the house: length, width, first words of sentences."""
+"""Fails if a page names a file, folder, kernel or identifier that does not exist, if a link leads nowhere, if a page breaks a
+rule of form (length, width, first words of sentences), or if comments do (first words, citations)."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# Pages that explain: at most so many lines and columns.
+# Pages that explain, with limits of length and width.
 PAGES = ["README.md"] + [f"docs/{name}.md" for name in (
     "overview", "step", "features", "contacts", "contact-lists", "self-contact", "contact-rules", "cutting", "skins", "import",
     "embedding", "viewer", "viewer-inside", "extending", "limits", "glossary")]
 MOST_LINES, MOST_COLUMNS = 150, 110
-# A sentence says its subject first.
+# Pages of reference, of any length and width.
+REFERENCES = ["CHANGELOG.md"] + [f"docs/{name}.md" for name in ("scene-files", "report", "accuracy", "performance")]
+# The first words that no sentence of a page may have: a sentence names its subject first.
 FIRST_WORDS = re.compile(r"(?:^|[.:;!?]\s+|\|\s+)(?:[*]+ ?)?(Of|What|Which|Likewise|Where|Who|As|The same)\b")
 SOURCES = ("src", "shaders", "apps", "tools", "tests", "cmake", "scenes")
 SUFFIXES = {".cpp", ".hpp", ".h", ".inc", ".comp", ".glsl", ".vert", ".frag", ".cmake", ".txt", ".toml", ".sh", ".py", ".json"}
 FOLDERS = ("", "src/", "src/sim/", "apps/viewer/", "shaders/glsl/", "docs/", "tests/", "src/mesh/", "src/sim/solvers/", "src/sim/collision/",
            "tests/sim/collision/", "tests/scenes/", "tests/viewer/")
+# Rules for comments of these folders: the largest share that may begin with one of these words, and no citation of a document
+# by a section, in brackets, that is not in the repository.
+COMMENTED = ("src", "include", "shaders", "apps", "tools", "tests")
+MOST_UNCLEAR = 0.02
+UNCLEAR_FIRST_WORDS = re.compile(r"(?:Of|What|Who|Whoever|Where|Which|Likewise)\b")
+CITATION = re.compile(r"\((?:(?:methods|contacts|cases|lattice|cutting|skins|platform|reliability): |[a-z-]+: (?:[A-Z]\d?|\d[\d.]*)[,;)])")
+PAGE = re.compile(r"[\w/-]+\.md\b")
+# A comment of C++ or GLSL behind code: strings and characters come first, since they may hold slashes.
+COMMENT = re.compile(r'"(?:\\.|[^"\\])*"|(?<!\w)\'(?:\\.|[^\'\\])*\'|//[/!]?<?\s*(.*)')
+SCRIPT_COMMENT = re.compile(r"^\s*#(?!!)\s*(.*)")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 CODE = re.compile(r"`([^`]+)`")
 PATH = re.compile(r"^[\w.-]+(?:/[\w.-]+)*/?$")
@@ -24,16 +36,16 @@ NAME = re.compile(r"[A-Za-z_]\w{3,}")
 
 
 def isThere(path):
-    """A file or folder of that name, from the root or from a folder that pages leave out; .hpp and .cpp may be left out."""
+    """Whether a file or folder exists: relative to the root or to one of FOLDERS, with or without .hpp or .cpp."""
     return any((ROOT / (folder + path + ending)).exists() for folder in FOLDERS for ending in ("", ".hpp", ".cpp"))
 
 
 def words():
-    """Every identifier of the sources, and the stems of their files."""
+    """Every identifier of the sources, and every file name without its ending."""
     found = set()
     files = [path for top in SOURCES for path in (ROOT / top).rglob("*") if path.suffix in SUFFIXES]
     for path in files + [ROOT / "CMakeLists.txt", ROOT / "CMakePresets.json"]:
-        if path.name in ("check_docs.py", "figures.py"):  # they speak of the sources as pages do
+        if path.name in ("check_docs.py", "figures.py"):  # they name sources like pages do
             continue
         found.update(NAME.findall(path.read_text(encoding="utf-8", errors="replace")))
         found.add(path.stem)
@@ -41,16 +53,62 @@ def words():
 
 
 def sentences(text):
-    """Text without blocks of code and without code in a line, a paragraph, item or row of a table at a time."""
+    """Paragraphs, items, rows of tables and headings of a page, without code."""
     text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    text = re.sub(r"^(#+ .*)$", r"\1\n", text, flags=re.M)  # a heading is no part of the sentence below it
     text = CODE.sub("code", text)
     for block in re.split(r"\n\s*\n|\n(?=\s*[*|#]|\s*\d+\. )", text):
         yield " ".join(block.split()).lstrip("*# ")
 
 
-def complaints(name, known):
-    text = (ROOT / name).read_text(encoding="utf-8")
+def commentsOf(name, text):
+    """Lines and texts of the comments in a source."""
+    isScript = name.endswith((".py", ".sh", ".cmake", ".txt"))
+    for i, line in enumerate(text.splitlines(), 1):
+        matches = [SCRIPT_COMMENT.match(line)] if isScript else COMMENT.finditer(line)
+        for comment in (match[1] for match in matches if match):
+            if comment:
+                yield i, comment
+
+
+def commentComplaints(sources):
+    """Complaints about the comments of `sources`, pairs of a name and a text."""
+    count, unclear = 0, []
+    for name, text in sources:
+        for i, comment in commentsOf(name, text):
+            count += 1
+            if UNCLEAR_FIRST_WORDS.match(comment):
+                unclear.append(f"{name}:{i}: {comment[:60]}")
+            if CITATION.search(comment):
+                yield f"{name}:{i}: cites a document that is not here: {comment[:60]}"
+            for page in PAGE.findall(comment):
+                if not isThere(page):
+                    yield f"{name}:{i}: cites {page}, which is not there"
+    if len(unclear) > MOST_UNCLEAR * count:
+        yield (f"comments: {len(unclear)} of {count} begin with Of, What, Who, Whoever, Where, Which or Likewise, at most "
+               f"{100 * MOST_UNCLEAR:g} %:\n  " + "\n  ".join(unclear[:20]))
+
+
+def sources():
+    """Names and texts of the sources whose comments are checked."""
+    for path in sorted(path for top in COMMENTED for path in (ROOT / top).rglob("*")):
+        if path.suffix in SUFFIXES - {".toml", ".json"} and path.is_file():
+            yield path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8", errors="replace")
+
+
+def sentenceComplaints(name, text):
+    """Complaints about the links and the first words of sentences in a page."""
     folder = (ROOT / name).parent
+    for target in LINK.findall(text):
+        if "://" not in target and not (folder / target).exists():
+            yield f"{name}: links to {target}, which is not there"
+    for sentence in sentences(text):
+        for first in FIRST_WORDS.findall(sentence):
+            yield f"{name}: a sentence begins with \"{first}\": {sentence[:60]}"
+
+
+def complaints(name, text, known):
+    """Complaints about the form of a page and the names in it."""
     lines = text.splitlines()
     if len(lines) > MOST_LINES:
         yield f"{name}: {len(lines)} lines, at most {MOST_LINES}"
@@ -59,12 +117,6 @@ def complaints(name, known):
         isCode ^= line.startswith("```")
         if len(line) > MOST_COLUMNS and not isCode:
             yield f"{name}:{i}: {len(line)} columns, at most {MOST_COLUMNS}"
-    for target in LINK.findall(text):
-        if "://" not in target and not (folder / target).exists():
-            yield f"{name}: links to {target}, which is not there"
-    for sentence in sentences(text):
-        for first in FIRST_WORDS.findall(sentence):
-            yield f"{name}: a sentence begins with \"{first}\": {sentence[:60]}"
     prose = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
     for code in CODE.findall(prose):
         if "/" in code and PATH.match(code) and not code.startswith(("out/", "build/")):
@@ -88,10 +140,16 @@ def ofFigure(path, known):
 
 def main():
     known = words()
-    found = [complaint for page in PAGES for complaint in complaints(page, known)]
+    found = []
+    for page in PAGES + REFERENCES:
+        text = (ROOT / page).read_text(encoding="utf-8")
+        found += sentenceComplaints(page, text)
+        if page in PAGES:
+            found += complaints(page, text, known)
     for path in sorted((ROOT / "docs" / "images").glob("*.svg")):
         found += ofFigure(path, known)
-    print("\n".join(found) if found else f"documents: {len(PAGES)} pages, all that they name is there")
+    found += commentComplaints(sources())
+    print("\n".join(found) if found else f"documents: {len(PAGES + REFERENCES)} pages and the comments keep the rules")
     return 1 if found else 0
 
 
