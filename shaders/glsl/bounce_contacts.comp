@@ -25,19 +25,22 @@ void main() {
     const float own = bouncing[i];
     const uvec2 list = lists[i];
 #ifdef FORCES
-    const uint end = list.x + list.y; // static particles receive forces too
+    const uint words = wordsOf(list); // what never moves is struck
 #else
-    const uint end = own > 0.0 ? list.x + list.y : list.x; // static particles do not rebound
+    const uint words = own > 0.0 ? wordsOf(list) : 0u; // what never moves rebounds from nothing
 #endif
     const Self self = selfOf(i);
     const vec4 velocity = VELOCITY(i);
     vec3 sum = vec3(0.0);
-    for (uint slot = list.x; slot < end; ++slot) {
-        const Bounce bounce = bounceFrom(i, slot, self);
-        const float both = own + bouncing[CONTACT(slot).x];
-        if (bounce.speed == 0.0 || both == 0.0) continue; // two static particles exchange nothing
-        const float missing = bounce.speed - dot(bounce.n, velocity.xyz - VELOCITY(CONTACT(slot).x).xyz);
-        sum += max(0.0, missing) / both * bounce.n;
+    for (uint word = 0u; word < words; ++word) {
+        for (uint at = hits[hitWord(push.count, i, list, word)].x; at != 0u; at &= at - 1u) {
+            const uint slot = list.x + 32u * word + findLSB(at);
+            const Bounce bounce = bounceFrom(i, slot, self);
+            const float both = own + bouncing[CONTACT(slot).x];
+            if (bounce.speed == 0.0 || both == 0.0) continue; // two that never move give each other nothing
+            const float missing = bounce.speed - dot(bounce.n, velocity.xyz - VELOCITY(CONTACT(slot).x).xyz);
+            sum += max(0.0, missing) / both * bounce.n;
+        }
     }
 #ifdef FORCES
     addContactForce(i, sum);

@@ -28,12 +28,14 @@ layout(std430, binding = 7) readonly buffer Firsts { float firsts[]; }; // time 
 layout(std430, binding = 8) readonly buffer Surfaces { uint surfaces[]; }; // one per particle
 layout(std430, binding = 9) readonly buffer Pairs { SurfacePair pairs[]; };
 #define RESTITUTION(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]].restitution
-#define SLIPS_BINDING 10
+#define HITS_BINDING 10
 #else
 #define RESTITUTION(i, j) push.restitution
-#define SLIPS_BINDING 8
+#define HITS_BINDING 8
 #endif
-layout(std430, binding = SLIPS_BINDING) readonly buffer Slips { vec4 slips[]; }; // see contact_memory.glsl; used by contacts that keep a rest distance
+#include "hit_masks.glsl"
+#define SLIPS_BINDING (HITS_BINDING + 1)
+layout(std430, binding = SLIPS_BINDING) readonly buffer Slips { vec4 slips[]; }; // as in contact_memory.glsl, where a rest distance is kept
 #define BOUNCE_BINDING (SLIPS_BINDING + 1)
 layout(constant_id = 5) const bool keepsRest = false;
 layout(push_constant) uniform Push { ContactPush push; };
@@ -52,6 +54,7 @@ struct Bounce {
     float speed; // at which the two must part [m/s]; 0 = they do not rebound
 };
 
+// From a marked candidate.
 Bounce bounceFrom(uint i, uint slot, Self self) {
     const uvec2 candidate = CONTACT(slot);
     const uint j = candidate.x;
@@ -59,7 +62,7 @@ Bounce bounceFrom(uint i, uint slot, Self self) {
     const vec3 d = self.x.xyz - xj.xyz, change = self.before - BEFORE(j);
     const vec3 way = step.h * (self.predicted - PREDICTED(j));
     const float reach = uintBitsToFloat(candidate.y) - (keepsRest ? nearerBy(slips[slot].w) : 0.0);
-    Contact contact = Contact(touches(d, reach), false, d);
+    Contact contact = Contact(true, false, d);
     if (bounds.isSwept != 0u)
         contact = contactOf(d, way, reach, min(firsts[i], firsts[j]), areFreeOf(self.x.w, xj.w));
     const bool hasPassed = keepsRest && !contact.isMet && isKept(slips[slot].w) && reach > 0.0 && passes(d, way);

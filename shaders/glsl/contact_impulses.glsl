@@ -20,18 +20,18 @@ vec3 held(uint slot, vec3 n, vec3 way, vec3 wayBefore, float slides, float holds
 }
 #endif
 
-// Clears the slip of a pair that does not touch; the remaining overlap stays.
-void forget(uint slot, float offset) {
-#ifdef HAS_MEMORY
-    slips[slot] = vec4(0.0, 0.0, 0.0, offset);
-#endif
-}
-
 float offsetOf(uint slot) {
 #ifdef HAS_MEMORY
     return hasRecovery ? slips[slot].w : 0.0;
 #else
     return 0.0;
+#endif
+}
+
+// Nothing is remembered of what does not touch but an overlap.
+void forget(uint slot) {
+#ifdef HAS_MEMORY
+    slips[slot] = vec4(0.0, 0.0, 0.0, offsetOf(slot));
 #endif
 }
 
@@ -62,7 +62,7 @@ vec3 impulseAlong(vec3 n, float depth, uint i, uint other, uint slot, vec3 veloc
     return impulse;
 }
 
-// The impulse from the candidate in `slot`.
+// The impulse from the candidate in `slot`, which is marked as touching.
 vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
     const uvec2 candidate = CONTACT(slot);
     const vec4 other = TOUCHING(candidate.x);
@@ -74,17 +74,13 @@ vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
         way = step.h * (velocity - VELOCITY(candidate.x).xyz);
         hasPassed = passes(d, way);
     }
-    if (!touches(d, reach) && !hasPassed) {
-        forget(slot, offset);
-        return vec3(0.0);
-    }
     Direction direction = directionOf(d, i, candidate.x);
     if (hasPassed) direction = passedDirection(d, way);
     return impulseAlong(direction.n, reach - direction.distance, i, candidate.x, slot, velocity, self.w + other.w, offset);
 }
 
-// The impulse from the candidate in `slot` in a substep with fast particles. A pair that met stays at the point of
-// contact: it loses its approach, and is not moved.
+// The same in a substep with fast particles. Those that met stay where they did: they lose their approach, and are not moved. A marked
+// candidate may have met another before: then the two do not meet.
 void addSwept(uint i, uint slot, vec4 self, vec3 velocity, inout vec3 moving, inout vec3 stopping) {
     const uvec2 candidate = CONTACT(slot);
     const uint j = candidate.x;
@@ -94,7 +90,7 @@ void addSwept(uint i, uint slot, vec4 self, vec3 velocity, inout vec3 moving, in
     const Contact contact = contactOf(d, way, reach, min(firsts[i], firsts[j]), areFreeOf(xi.w, xj.w));
     const bool hasPassed = !contact.isMet && keepsRestOf(offset) && reach > 0.0 && passes(d, way);
     if (!contact.exists && !hasPassed) {
-        forget(slot, offset);
+        forget(slot);
         return;
     }
     Direction direction = directionOf(contact.at, i, j);

@@ -12,7 +12,8 @@ void main() {
     const uvec2 list = lists[i];
     const Self self = selfOf(i);
     float bounces = 0.0;
-    for (uint slot = list.x; slot < list.x + list.y; ++slot)
-        bounces += float(bounceFrom(i, slot, self).speed > 0.0);
+    for (uint word = 0u; word < wordsOf(list); ++word)
+        for (uint at = hits[hitWord(push.count, i, list, word)].x; at != 0u; at &= at - 1u)
+            bounces += float(bounceFrom(i, list.x + 32u * word + findLSB(at), self).speed > 0.0);
     bouncing[i] = bounces * velocities[i].w;
 }

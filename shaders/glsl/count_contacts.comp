@@ -1,7 +1,8 @@
 #version 460
-// Contacts, first pass: counts the contacts of a particle at its predicted position, by which its mass is divided.
-// Counted exactly in every substep: with counts of the substep before, shares add up to more than the whole particle
-// and bodies explode. In a substep with fast particles, impacts on the way count too.
+// Contacts, first pass: marks the others that a particle touches where the substep has taken it (hit_masks.glsl), and counts them,
+// which is what it is divided by.
+// Counted exactly in every substep: with counts of the one before, shares add up to more than the whole particle and
+// bodies explode (contacts: 1). In a substep with fast particles, also those that it met on the way.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"
@@ -25,25 +26,42 @@ layout(std430, binding = 2) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // time of each particle's first impact; only if isSwept
+layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // when each first met another; only if isSwept
+#define HITS_BINDING 8
+#define HITS_ACCESS
+#include "hit_masks.glsl"
 #ifdef HAS_RECOVERY
-layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m], below 0 = keeps its rest distance
+layout(std430, binding = 9) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m], below 0 = stays
 layout(constant_id = 5) const bool keepsRest = false;
 layout(constant_id = 6) const bool canOpen = false; // a cut can let pairs touch
-#define MARKS_BINDING 9
+#define MARKS_BINDING 10
 #include "linked_marks.glsl"
 #endif
 layout(push_constant) uniform Push { ContactPush push; };
 
 #include "contact_reach.glsl"
 
+// Whether particle i, at x, touches the candidate in a slot at the end of the substep.
+bool touchesAtEnd(uint slot, vec3 x, vec3 velocity) {
+    const uvec2 candidate = CONTACT(slot);
+    const vec3 d = x - PREDICTED(candidate.x).xyz;
+    return touches(d, reachOf(slot, uintBitsToFloat(candidate.y))) || hasPassed(slot, d, velocity);
+}
+
+// The same in a substep with fast particles. `first`: when it first met another.
+bool touchesOnWay(uint slot, vec4 x, vec3 velocity, float first) {
+    const Pair pair = pairOf(slot, x, velocity);
+    const Contact contact = contactOf(pair.d, pair.way, pair.reach, first, pair.areFree);
+    return contact.exists || !contact.isMet && hasPassed(slot, pair.d, velocity);
+}
+
 void main() {
     const uint i = itemIndex(push.count);
     const uvec2 list = lists[i];
     const uint end = list.x + list.y;
-    // Loops of which some are empty: on a software device, code under a condition costs its time even if it does not
-    // run.
-    const uint resting = bounds.isSwept != 0u ? list.x : end, sweeping = bounds.isSwept != 0u ? end : list.x;
+    // Loops of which some are empty: what stands under a condition costs a software device its time nevertheless.
+    const bool isSwept = bounds.isSwept != 0u;
+    const uint sweeping = isSwept ? end : list.x;
     const vec4 start = PREDICTED(i);
     vec3 x = start.xyz;
     const vec4 velocity = VELOCITY(i);
@@ -51,19 +69,20 @@ void main() {
 #ifdef HAS_RECOVERY
     for (uint slot = list.x; slot < end; ++slot) recover(i, slot, x);
 #endif
-    for (uint slot = list.x; slot < resting; ++slot) {
-        const uvec2 candidate = CONTACT(slot);
-        const vec3 d = x - PREDICTED(candidate.x).xyz;
-        contactCount += float(touches(d, reachOf(slot, uintBitsToFloat(candidate.y))) || hasPassed(slot, d, velocity.xyz));
-    }
     for (uint slot = list.x; slot < sweeping; ++slot) {
         const Pair pair = pairOf(slot, start, velocity.xyz);
         first = min(first, meetingOf(pair.d, pair.way, pair.reach, pair.areFree).time);
     }
-    for (uint slot = list.x; slot < sweeping; ++slot) {
-        const Pair pair = pairOf(slot, start, velocity.xyz);
-        const Contact contact = contactOf(pair.d, pair.way, pair.reach, first, pair.areFree);
-        contactCount += float(contact.exists || !contact.isMet && hasPassed(slot, pair.d, velocity.xyz));
+    for (uint word = 0u; word < wordsOf(list); ++word) {
+        const uint from = list.x + 32u * word, to = min(from + 32u, end);
+        uint hit = 0u;
+        for (uint slot = from; slot < (isSwept ? from : to); ++slot)
+            hit |= uint(touchesAtEnd(slot, x, velocity.xyz)) << slot - from;
+        for (uint slot = from; slot < (isSwept ? to : from); ++slot)
+            hit |= uint(touchesOnWay(slot, start, velocity.xyz, first)) << slot - from;
+        contactCount += float(bitCount(hit));
+        const uint place = hitWord(push.count, i, list, word);
+        hits[place] = uvec2(hit, hits[place].x & ~hit);
     }
     if (sweeping > list.x) {
         firsts[i] = first;

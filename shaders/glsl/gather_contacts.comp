@@ -36,7 +36,9 @@ layout(std430, binding = 5) writeonly buffer NextPositions { vec4 nextPositions[
 layout(std430, binding = 6) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 layout(std140, binding = 7) uniform Step { StepParams step; };
 layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // time of each particle's first impact, where isSwept
+layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // when each first met another, where isSwept
+#define HITS_BINDING 10
+#include "hit_masks.glsl"
 #include "contact_memory.glsl"
 layout(push_constant) uniform Push { ContactPush push; };
 
@@ -47,13 +49,20 @@ layout(push_constant) uniform Push { ContactPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     const uvec2 list = lists[i];
-    const uint end = list.x + list.y;
     const vec4 self = TOUCHING(i), velocity = VELOCITY(i);
     const float w = velocity.w, h = step.h;
     vec3 sum = vec3(0.0), stopping = vec3(0.0);
-    const uint resting = bounds.isSwept != 0u ? list.x : end, sweeping = bounds.isSwept != 0u ? end : list.x; // see count_contacts
-    for (uint slot = list.x; slot < resting; ++slot) sum += impulseFrom(i, slot, self, velocity.xyz);
-    for (uint slot = list.x; slot < sweeping; ++slot) addSwept(i, slot, self, velocity.xyz, sum, stopping);
+    const bool isSwept = bounds.isSwept != 0u;
+    for (uint word = 0u; word < wordsOf(list); ++word) {
+        const uvec2 hit = hits[hitWord(push.count, i, list, word)];
+        const uint from = list.x + 32u * word;
+        // loops of which some are empty, as in count_contacts
+        for (uint lost = hit.y; lost != 0u; lost &= lost - 1u) forget(from + findLSB(lost));
+        for (uint at = isSwept ? 0u : hit.x; at != 0u; at &= at - 1u)
+            sum += impulseFrom(i, from + findLSB(at), self, velocity.xyz);
+        for (uint at = isSwept ? hit.x : 0u; at != 0u; at &= at - 1u)
+            addSwept(i, from + findLSB(at), self, velocity.xyz, sum, stopping);
+    }
 #ifdef FORCES
     addContactForce(i, (sum + stopping) / h);
 #endif

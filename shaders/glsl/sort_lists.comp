@@ -31,7 +31,14 @@ layout(std430, binding = 7) writeonly buffer Memory { vec4 memory[]; };
 layout(std430, binding = 8) readonly buffer Kept { vec4 kept[]; };
 layout(std430, binding = 9) readonly buffer KeptOthers { uint keptOthers[]; };
 layout(std430, binding = 10) readonly buffer KeptLists { uvec2 keptLists[]; };
+#if defined FACES || defined EDGES
 #define GROUPS_BINDING 11
+#else
+#define HITS_BINDING 11
+#define HITS_ACCESS
+#include "hit_masks.glsl"
+#define GROUPS_BINDING 12
+#endif
 #else
 #define GROUPS_BINDING 7
 #endif
@@ -81,8 +88,22 @@ void put(uint element, uint entry) {
 }
 #include "sort_pairs.glsl"
 
+#ifdef HITS_BINDING
+// Until contacts are counted, what is remembered of a candidate says whether it has touched.
+void clearHits(uvec2 list, uint i) {
+    for (uint word = 0u; word < wordsOf(list); ++word) hits[hitWord(OWNERS, i, list, word)] = uvec2(0u);
+}
+void setHit(uvec2 list, uint i, uint element) {
+    const uint place = element - list.x;
+    hits[hitWord(OWNERS, i, list, place / 32u)].x |= 1u << place % 32u;
+}
+#endif
+
 // Both lists are sorted.
 void returnMemory(uvec2 list, uint i) {
+#ifdef HITS_BINDING
+    clearHits(list, i);
+#endif
 #ifdef HAS_MEMORY
     uint next = keptLists[i].x, end = next + keptLists[i].y;
     for (uint element = list.x; element < list.x + list.y; ++element) {
@@ -90,6 +111,9 @@ void returnMemory(uvec2 list, uint i) {
         while (next < end && keptOthers[next] < other) ++next;
         const bool isKept = next < end && keptOthers[next] == other;
         memory[element] = isKept ? kept[next] : vec4(0.0);
+#ifdef HITS_BINDING
+        if (isKept) setHit(list, i, element);
+#endif
     }
 #endif
 }

@@ -134,7 +134,7 @@ void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuf
     const auto& pairs = sleep.pairs;
     if (pairs.contacts != BufferId{})
         add(k::joinIslands,
-            {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.lists, pairs.touching});
+            {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.lists, pairs.hits});
     for (const SeenRows& rows : sleep.rows) {
         std::vector<BufferId> buffers{sleep.weights, velocities, sleep.islands};
         buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());

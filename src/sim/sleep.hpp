@@ -24,10 +24,9 @@ struct Sleep {
     BufferId state, weights, limits, rests, components, islands, least, marks;
     BufferId groups, listed, passes, arguments, waking;
     BufferId attachments, anchors, seenAnchors, colliders, contactOffsets, ways, seenPoses;
-    /// Lists of contacts between particles, and the bounds in which contacts are counted. Invalid without
-    /// such contacts.
+    /// Particles that touch: their lists, and which candidates touch. Invalid without.
     struct {
-        BufferId contacts, lists, touching, bounds;
+        BufferId contacts, lists, hits, bounds;
     } pairs;
     std::vector<SeenRows> rows;                ///< contacts with faces and between edges
     std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`

@@ -67,6 +67,7 @@ constexpr std::array<std::array<const vk::ShaderCode*, 2>, 2> sorting{
 void addSorting(ProgramBuilder& program, const Lists& lists) {
     const hash_grid::Grid& grid = lists.grid;
     std::vector<BufferId> buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, grid.radii);
+    if (lists.pooled.memory) buffers.push_back(lists.hits);
     const bool listsGroups = lists.touching != BufferId{};
     if (listsGroups) buffers.insert(buffers.end(), {grid.touching.arguments, lists.marks, lists.touching});
     program.dispatchIndirect(*sorting[lists.pooled.memory ? 1 : 0][listsGroups ? 1 : 0], grid.particles,
@@ -99,6 +100,8 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                .hasMemory = request.hasMemory,
                                                .initial = request.initial});
     lists.push.room = lists.pooled.room;
+    lists.hits =
+        program.scratch<std::array<std::uint32_t, 2>>("pairs.hits", count + lists.push.room / 32 + 1);
     lists.large = program.upload("contacts.large", large);
     if (request.listsGroups) {
         lists.touching = program.scratch<std::uint32_t>("contacts.groups", count / GROUP_ITEMS);

@@ -46,6 +46,7 @@ struct Lists {
     layout::FindPush push{};
     pooled_lists::Lists pooled;
     BufferId large, excluded;
+    BufferId hits; ///< which candidates touch (shaders/glsl/hit_masks.glsl)
     bool hasOneRadius = false;
     BufferId touching, marks; ///< work groups with a candidate; only if requested
 };

@@ -204,8 +204,8 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
     const contact_lists::Lists& lists = contacts.lists;
     std::vector<BufferId> buffers{predicted.positions,  lists.pooled.contacts, lists.pooled.ranges,
                                   predicted.velocities, contacts.touching,     predicted.step,
-                                  lists.grid.bounds,    contacts.firsts};
-    if (contacts.hasRecovery) // if no cut lets pairs touch, no kernel reads the last
+                                  lists.grid.bounds,    contacts.firsts,       lists.hits};
+    if (contacts.hasRecovery) // where no cut lets pairs touch, no kernel reads the last
         buffers.insert(buffers.end(), {contacts.lists.pooled.memory->memory,
                                        contacts.isCuttable() ? contacts.marks : lists.grid.radii});
     addOverContacts(
@@ -221,10 +221,17 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next) {
     const contact_lists::Lists& lists = contacts.lists;
-    std::vector<BufferId> buffers{contacts.touching,   lists.pooled.contacts, predicted.velocities,
-                                  lists.pooled.ranges, predicted.positions,   next.positions,
-                                  next.velocities,     predicted.step,        lists.grid.bounds,
-                                  contacts.firsts};
+    std::vector<BufferId> buffers{contacts.touching,
+                                  lists.pooled.contacts,
+                                  predicted.velocities,
+                                  lists.pooled.ranges,
+                                  predicted.positions,
+                                  next.positions,
+                                  next.velocities,
+                                  predicted.step,
+                                  lists.grid.bounds,
+                                  contacts.firsts,
+                                  lists.hits};
     ProgramBuilder::Constants constants = remainderConstants(next.layout);
     if (contacts.hasMemory() || contacts.hasRebound) buffers.push_back(contacts.before);
     if (contacts.hasMemory()) {
@@ -343,7 +350,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 }
 
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
-    sleep.pairs = {contacts.lists.pooled.contacts, contacts.lists.pooled.ranges, contacts.touching,
+    sleep.pairs = {contacts.lists.pooled.contacts, contacts.lists.pooled.ranges, contacts.lists.hits,
                    contacts.lists.grid.bounds};
 }
 
@@ -370,7 +377,8 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
                                  predicted.velocities, lists.pooled.ranges,   next.step,
                                  lists.grid.bounds,    contacts.firsts};
     if (isTable) shared.insert(shared.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
-    // no kernel reads it if no rest distance is kept
+    shared.push_back(lists.hits);
+    // where no rest distance is kept, no kernel reads it
     shared.push_back(contacts.hasKept ? lists.pooled.memory->memory : contacts.before);
     shared.push_back(next.velocities);
     shared.push_back(contacts.bouncing);

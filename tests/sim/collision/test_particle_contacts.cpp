@@ -12,12 +12,15 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <numbers>
 #include <random>
 #include <span>
+#include <string>
+#include <vector>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -214,8 +217,82 @@ TEST(ParticleContacts, KeepAFallingPileBelowItsStartAndOutOfItself) {
     EXPECT_LE(rms(runner.velocities()), 0.01) << "at rest after 2.5 s";
 }
 
-// Blocks on a grid, whose state has slots without particles, and blocks of listed links. Particles touch
-// those of the other body and none of their own.
+namespace {
+
+template <typename T> std::vector<T> contentOf(test::Runner& runner, const std::string& label) {
+    const std::vector<BufferSpec>& buffers = runner.simulation().program().buffers;
+    const auto found = std::ranges::find(buffers, label, &BufferSpec::label);
+    const auto index = static_cast<std::uint32_t>(found - buffers.begin());
+    return test::queue().download<T>(runner.simulation().view({index}));
+}
+
+// A ball of radius 0.2 m and a tenth of the others' inverse mass, and small ones spread evenly around it.
+// Every third touches it after a substep, by `depth`; all are near enough to be in its list.
+Scene crowd(std::uint32_t count, float depth, float way) {
+    constexpr float wide = 0.2f, small = 0.01f;
+    Scene scene = weightless();
+    scene.particles.push_back({.inverseMass = 0.1f, .radius = wide});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double height = 1 - (2 * i + 1.0) / count, around = 2.399963 * i;
+        const double across = std::sqrt(1 - height * height);
+        const Vector3d n{across * std::cos(around), across * std::sin(around), height};
+        const double end = double{wide} + double{small} + (i % 3 == 0 ? -double{depth} : 1e-3);
+        const double speed = double{way} / double{scene.dt};
+        scene.particles.push_back({.position = test::toFloats((end + double{way}) * n),
+                                   .velocity = test::toFloats(-speed * n),
+                                   .radius = small});
+    }
+    return scene;
+}
+
+} // namespace
+
+// Its list is of several words of marks.
+TEST(ParticleContacts, ShareABallAmongAllThatTouchItOfManyCandidates) {
+    constexpr float depth = 5e-4f, way = 1e-3f;
+    const Scene scene = crowd(150, depth, way);
+    test::Runner runner(scene, {.substeps = 1, .contactRoom = 16});
+    runner.run(1);
+    const std::vector<Vector3d> x = runner.positions();
+    constexpr double touching = 50, lambda = double{depth} / (touching * 0.1 + 1);
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 1; i < x.size(); ++i) {
+        const Vector3d n = test::toVector(scene.particles[i].position).normalized();
+        const Vector3d end = test::toVector(scene.particles[i].position) - double{way} * n;
+        const bool touches = i % 3 == 1;
+        EXPECT_NEAR((x[i] - end - (touches ? lambda : 0) * n).norm(), 0, 1e-6) << "ball " << i;
+        if (touches) sum -= lambda * n;
+    }
+    EXPECT_NEAR((x[0] - 0.1 * sum).norm(), 0, 1e-6);
+}
+
+// Friction forgets a pair in the substep in which the two part.
+TEST(ParticleContacts, RememberNothingOfCandidatesThatDoNotTouch) {
+    test::Runner runner(clutter(6, 0.02f, 0.3f), {.substeps = 16});
+    std::size_t remembered = 0;
+    for (int step = 0; step < 60; ++step) {
+        runner.run(1);
+        const auto lists = contentOf<std::array<std::uint32_t, 2>>(runner, "pairs.lists");
+        const auto contacts = contentOf<std::array<float, 2>>(runner, "pairs.contacts");
+        const auto memory = contentOf<std::array<float, 4>>(runner, "pairs.memory");
+        const auto touching = contentOf<std::array<float, 4>>(runner, "contacts.touching");
+        for (std::size_t i = 0; i < lists.size(); ++i)
+            for (std::uint32_t element = lists[i][0]; element < lists[i][0] + lists[i][1]; ++element) {
+                const auto other = std::bit_cast<std::uint32_t>(contacts[element][0]);
+                const auto at = [&](std::size_t p) {
+                    return Vector3d(double{touching[p][0]}, double{touching[p][1]}, double{touching[p][2]});
+                };
+                const bool isRemembered = memory[element][0] != 0 || memory[element][1] != 0;
+                remembered += isRemembered ? 1 : 0;
+                const double apart = (at(i) - at(other)).norm() - double{contacts[element][1]};
+                ASSERT_FALSE(isRemembered && apart > 1e-6) << "step " << step << ", " << i << ", " << other;
+            }
+    }
+    EXPECT_GT(remembered, 1000u);
+}
+
+// Bodies on grids, whose state has slots that hold nobody, and as listed links: their particles touch those
+// of the other body and none of their own.
 TEST(ParticleContacts, LayABlockOntoABlock) {
     constexpr float spacing = 0.1f;
     Scene scene = test::block(2, spacing, 2e5f);
