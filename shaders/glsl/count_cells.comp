@@ -28,7 +28,7 @@ layout(push_constant) uniform Push { GridPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     const vec4 x = POSITION(i);
-    const Frame frame = frameOf(bounds, push.cells, push.edge);
+    const Frame frame = frameOf(bounds, push.cells);
     detected[i] = vec4(x.xyz, watched[i] < 0.0 ? FRAME_NONE : bodies[i]);
     uvec2 place = uvec2(~0u);
     if (isInGrid(RADIUS(i), push.most)) {

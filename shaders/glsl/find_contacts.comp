@@ -69,7 +69,7 @@ void main() {
     const vec3 x = POSITION(i).xyz;
     const float radius = RADIUS(i);
     const bool isSmall = isInGrid(radius, push.most) && !isFast(i);
-    if (isSmall) searchCells(i, x, radius, frameOf(bounds, push.cells, push.edge));
+    if (isSmall) searchCells(i, x, radius, frameOf(bounds, push.cells));
     if (radius < 0.0) return;
     for (uint l = 0u; l < push.large; ++l)
         if (RADIUS(large[l]) >= 0.0) searchOne(i, x, radius, isSmall, large[l]);

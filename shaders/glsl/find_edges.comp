@@ -100,7 +100,7 @@ void searchRows(Searched one, float range, Rows rows, Frame frame, uint total) {
 }
 
 void searchGrid(Searched one, uint total) {
-    const Frame frame = frameOf(bounds, push.cells, push.edge);
+    const Frame frame = frameOf(bounds, push.cells);
     const vec3 top = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)), size = abs(one.middle);
     // slightly larger because of rounding
     const float range = 1.01 * (one.edge.radius + one.way + uintBitsToFloat(points.widest) + push.margin) +

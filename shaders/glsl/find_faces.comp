@@ -83,7 +83,7 @@ void main() {
     if (f == ~0u) return;
     const Searched face = searchedOf(f);
     const uint total = START(push.cells);
-    const Frame frame = frameOf(bounds, push.cells, push.edge);
+    const Frame frame = frameOf(bounds, push.cells);
     Cells cells = Cells(ivec3(0), ivec3(-1), 0u);
     if (total > 0u) cells = cellsAround(face, frame);
     if (max(cells.points, points.apart) > FACE_MOST_POINTS) {

@@ -23,14 +23,14 @@ struct Frame {
     uint strideY, strideZ, mask;
 };
 
-// Cells are slightly larger than `edge`: rounding of (x - low) perLength must not put two particles that are `edge`
-// apart two cells apart, however large the box is.
-Frame frameOf(GridBounds bounds, uint cells, float edge) {
+// Cells a little larger than bounds.edge: rounding of (x - low) perLength must not put two particles that are `edge` apart
+// two cells apart, however large the box is.
+Frame frameOf(GridBounds bounds, uint cells) {
     Frame frame;
     frame.low = vec3(valueOf(bounds.lowX), valueOf(bounds.lowY), valueOf(bounds.lowZ));
     const vec3 extent = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)) - frame.low;
     const float longest = max(extent.x, max(extent.y, extent.z));
-    const float perLength = 1.0 / (1.015625 * edge + longest / 1048576.0);
+    const float perLength = 1.0 / (1.015625 * bounds.edge + longest / 1048576.0);
     frame.perLength = perLength;
     frame.mask = cells - 1u;
     const vec3 size = floor(extent * perLength) + 3.0; // with an empty cell at every end, so that searches beyond the box find nothing

@@ -281,6 +281,7 @@ struct GridBounds {
     // lists; links from faces to entries.
     uint pairs, entries, links;
     uint lacksLists; // StatusWords::lacksLists of the last step
+    float edge;      // of the cells of the grid that was built last, at least [m]
 };
 
 #include "frames_layout.h"
@@ -306,8 +307,9 @@ struct GridBounds {
 struct GridPush {
     uint count;  // number of particles; whole work groups
     uint cells;  // a power of two
-    float edge;  // smallest size of a cell [m]
-    float most;  // largest radius in the grid [m]; larger particles are searched one by one
+    float edge;  // of a cell where contacts may lie on somebody's way, at least [m]
+    float quietEdge; // of a cell elsewhere [m]
+    float most;  // radius in the grid [m]; particles with more are searched one by one
     uint others; // items of further passes that run with a build; 0 = none
     float quiet; // motion in a substep up to which no contact can lie on a path [m]
     uint bodies; // bodies with a frame
@@ -323,9 +325,9 @@ struct ContactCandidate {
 
 struct FindPush {
     uint count, cells;
-    float edge, most;
-    float margin;  // distance beyond the reach up to which a pair is listed [m]
-    uint room;     // capacity of the pool, in entries of all lists together
+    float most;    // as in GridPush
+    float margin;  // beyond touching, up to which a pair is listed [m]
+    uint room;     // entries of the pool, of all lists together
     uint large;    // particles that are searched one by one
     float quiet;   // see GridPush
 };
@@ -403,14 +405,13 @@ struct ListRange {
 #define FACE_MOST_WIDE 50000   // largest number of faces that a point tests itself
 
 struct FaceFindPush {
-    uint points, searched; // particles; small faces; in whole work groups
-    uint cells;            // cells of the grid
-    float edge;
-    float most;    // largest radius + motion of a point in the grid [m]
-    float margin;  // distance beyond the reach up to which a pair is listed [m]
-    uint room;     // capacity of the pool, in entries of all lists together
-    uint moving;   // faces below this index have a corner that moves
-    uint large;    // number of faces that every point is tested with, besides wide ones
+    uint points, searched; // particles; small faces; whole work groups
+    uint cells;            // of the grid
+    float most;    // radius and way of a point that the grid is searched for [m]
+    float margin;  // beyond touching, up to which a pair is listed [m]
+    uint room;     // entries of the pool, of all lists together
+    uint moving;   // faces before that one have a corner that moves
+    uint large;    // faces that every point is compared with, beside wide ones
 };
 
 // An edge of faces that takes part in contacts with other edges. The grid holds its midpoint.

@@ -55,6 +55,7 @@ void planPasses(bool isBuilt, bool isComplete) {
         bounds.pairs = bounds.entries = bounds.links = 0u;
         bounds.lowX = bounds.lowY = bounds.lowZ = ~0u;
         bounds.highX = bounds.highY = bounds.highZ = 0u;
+        bounds.edge = isSwept ? push.edge : push.quietEdge;
         ++bounds.builds;
         bounds.drift -= strayOf(bounds.moved);
     }

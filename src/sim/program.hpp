@@ -214,7 +214,6 @@ struct GridBuffers {
     BufferId sorted;         ///< capacity of `sorted`
     std::uint32_t count = 0; ///< elements that `sorted` may have
     std::uint32_t cells = 0; ///< slots of the table
-    float edge = 0;          ///< layout::GridPush::edge [m]
 };
 
 /// The vertices of a sheet's skin along cuts, and what they depend on (surface/sheet_pieces.hpp).

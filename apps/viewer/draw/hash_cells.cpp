@@ -44,7 +44,7 @@ HashCells::HashCells(const vk::Device& device, const sim::Simulation& simulation
     std::uint32_t first = 0;
     for (const sim::GridBuffers& grid : simulation.program().grids) {
         const auto index = static_cast<std::uint32_t>(grids_.size());
-        grids_.push_back({shownName(grid.name), {grid.count, grid.cells, grid.edge, index, first}});
+        grids_.push_back({shownName(grid.name), {grid.count, grid.cells, index, first}});
         first += grid.count;
     }
 }

@@ -107,9 +107,8 @@ struct CellDraw {
 struct CellPush {
     uint count; // elements that may be sorted
     uint cells; // slots of the table
-    float edge; // GridPush::edge [m]
-    uint grid;  // index among all grids
-    uint first; // index of the first mark
+    uint grid;  // among all
+    uint first; // mark
 };
 
 #ifdef __cplusplus

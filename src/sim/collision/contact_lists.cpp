@@ -78,20 +78,23 @@ void addSorting(ProgramBuilder& program, const Lists& lists) {
 
 Lists add(ProgramBuilder& program, const Request& request) {
     const std::size_t count = request.radii.size();
+    const float margin = request.margin + (request.isKept ? 3 * REST_SLACK * largestOf(request.radii) : 0);
+    const float quietMost = hash_grid::largestUpTo(request.radii, hash_grid::largestInGrid(request.radii));
     Lists lists{.grid = hash_grid::add(program, {.radii = request.radii,
                                                  .margin = request.margin,
+                                                 .quietEdge = 2 * quietMost + margin,
                                                  .quiet = quietWay(request),
                                                  .usesTexels = request.usesTexels,
                                                  .bodies = request.bodies,
                                                  .reach = 2 * largestOf(request.radii),
                                                  .substeps = request.substeps}),
+                .quietMost = quietMost,
                 .hasOneRadius = hasOneRadius(request.radii)};
     const std::vector<std::uint32_t> large = slotsAbove(request.radii, lists.grid.push.most);
     lists.push = {.count = lists.grid.push.count,
                   .cells = lists.grid.push.cells,
-                  .edge = lists.grid.push.edge,
                   .most = lists.grid.push.most,
-                  .margin = request.margin + (request.isKept ? 3 * REST_SLACK * largestOf(request.radii) : 0),
+                  .margin = margin,
                   .large = static_cast<std::uint32_t>(large.size()),
                   .quiet = lists.grid.push.quiet};
     lists.pooled = pooled_lists::add(program, {.name = "pairs",
@@ -131,7 +134,9 @@ void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Move
                                   grid.bounds, pooled.chains, pooled.pairs,    lists.large};
     if (lists.excluded != BufferId{}) buffers.push_back(lists.excluded);
     const ProgramBuilder::Constants constants{{hasOneRadiusId, lists.hasOneRadius}};
-    program.dispatchIndirect(form(lists, unswept), grid.unswept, buffers, lists.push, constants);
+    layout::FindPush quiet = lists.push;
+    quiet.most = lists.quietMost;
+    program.dispatchIndirect(form(lists, unswept), grid.unswept, buffers, quiet, constants);
     buffers.insert(buffers.end(), {moved.velocities, grid.fast, moved.step});
     program.dispatchIndirect(form(lists, swept), grid.swept, buffers, lists.push, constants);
     addSorting(program, lists);

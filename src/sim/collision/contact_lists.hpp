@@ -44,6 +44,7 @@ struct Request {
 struct Lists {
     hash_grid::Grid grid;
     layout::FindPush push{};
+    float quietMost = 0; ///< the largest radius of a particle that is in the grid [m]
     pooled_lists::Lists pooled;
     BufferId large, excluded;
     BufferId hits; ///< which candidates touch (shaders/glsl/hit_masks.glsl)

@@ -73,7 +73,6 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.push = {.points = grid.count,
                   .searched = 0,
                   .cells = grid.cells,
-                  .edge = grid.edge,
                   .most = widestInCells * largest,
                   .margin = request.margin + request.beyond,
                   .moving = grid.count,

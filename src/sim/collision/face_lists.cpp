@@ -80,7 +80,6 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.push = {.points = grid.count,
                   .searched = grid.others,
                   .cells = grid.cells,
-                  .edge = grid.edge,
                   .most = edge,
                   .margin = request.margin + request.beyond,
                   .moving = request.moving,

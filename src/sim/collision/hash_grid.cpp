@@ -53,17 +53,26 @@ float largestInGrid(std::span<const float> radii) {
     return std::max(most, sorted[last - std::min(last, mostLarge)]);
 }
 
+float largestUpTo(std::span<const float> radii, float most) {
+    float largest = 0;
+    for (const float radius : radii)
+        if (radius <= most) largest = std::max(largest, radius);
+    return largest;
+}
+
 Grid add(ProgramBuilder& program, const Request& request) {
     const std::size_t count = request.radii.size();
     const std::uint32_t cells = cellsFor(count);
     const float most = largestInGrid(request.radii);
-    // Initial positions so far away that the first check finds every particle strayed.
+    const float edge = std::max(2 * most + request.margin, request.edge);
+    // Nowhere: so far away that the first watch finds everybody gone.
     const std::vector<layout::vec4> nowhere(request.particles > 0 ? request.particles : count,
                                             {1e18f, 1e18f, 1e18f, 0});
     const std::string name = request.name;
     Grid grid{.push = {.count = static_cast<std::uint32_t>(count),
                        .cells = cells,
-                       .edge = std::max(2 * most + request.margin, request.edge),
+                       .edge = edge,
+                       .quietEdge = request.quietEdge > 0 ? request.quietEdge : edge,
                        .most = most,
                        .others = request.others,
                        .quiet = std::max(request.quiet, 0.0f)},
@@ -110,8 +119,7 @@ Grid add(ProgramBuilder& program, const Request& request) {
                                        .starts = grid.starts,
                                        .sorted = grid.sorted,
                                        .count = grid.push.count,
-                                       .cells = cells,
-                                       .edge = grid.push.edge});
+                                       .cells = cells});
     return grid;
 }
 

@@ -15,11 +15,13 @@ namespace sinew::sim::collision::hash_grid {
 /// The contents of a grid.
 struct Request {
     std::span<const float> radii; ///< by state slot, whole work groups [m]; below 0 = no particle there
-    float margin = 0;             ///< distance beyond contact up to which pairs must be found [m]
-    float edge = 0;               ///< minimum size of a cell [m]
-    std::uint32_t others = 0;     ///< items of further passes that run with a build; 0 = none
-    /// Distance that a particle may move in a substep before contacts are searched along its way [m]; below 0
-    /// if particles are not checked.
+    float margin = 0; ///< how much farther than touching two particles may be and must still be found [m]
+    float edge = 0;   ///< of a cell, at least [m]
+    /// The same while no particle moves farther than `quiet` in a substep [m]; 0 = no other width.
+    float quietEdge = 0;
+    std::uint32_t others = 0; ///< items of further passes that run with a build; 0 = none
+    /// How far a particle may move in a substep before contacts are looked for on its way [m]; below 0 where
+    /// nobody watches.
     float quiet = -1;
     bool usesTexels = true;
     /// The bodies whose motion particles are expected to share; null = they are expected to stay in place.
@@ -44,6 +46,8 @@ struct Moved {
 /// The largest radius in the grid [m]: twice the median, so that a few large particles do not enlarge all
 /// cells; more if that would leave out more than `mostLarge`.
 float largestInGrid(std::span<const float> radii);
+/// The largest radius of those up to that [m].
+float largestUpTo(std::span<const float> radii, float most);
 constexpr std::size_t mostLarge = 64;
 
 struct Grid {

@@ -80,6 +80,9 @@ public:
                 result[i].push_back(entries[lists[i].first + s].other);
         return result;
     }
+    float edge() const {
+        return test::queue().download<layout::GridBounds>(executor_->view(lists_.grid.bounds))[0].edge;
+    }
     std::uint32_t builds() const {
         return test::queue().download<layout::GridBounds>(executor_->view(lists_.grid.bounds))[0].builds;
     }
@@ -406,6 +409,21 @@ TEST(HashGrid, KeepsItsCellsSmallWhereAFewParticlesAreLarge) {
     radii[1] = 1;
     EXPECT_EQ(largestInGrid(radii), 1.0f) << "too many to search one by one";
     EXPECT_EQ(largestInGrid(std::vector<float>(128, -1.0f)), 0.0f);
+}
+
+// Cells need room for ways only in a substep in which a particle moves far enough to touch another on its
+// way.
+TEST(HashGrid, HasCellsAsWideAsTwoThatTouchWhileNobodyIsFast) {
+    Cloud cloud{.radii = std::vector<float>(128, 0.05f), .margin = 0.025f};
+    std::mt19937 random(23);
+    const auto x = placed(random, placings()[0].place, cloud.radii.size());
+    std::vector<layout::vec4> v(cloud.radii.size());
+    Device device(cloud);
+    device.update(x, v);
+    EXPECT_FLOAT_EQ(device.edge(), 0.125f);
+    v[3].x = 0.2f;
+    device.update(placed(random, placings()[0].place, cloud.radii.size()), v);
+    EXPECT_FLOAT_EQ(device.edge(), 0.225f);
 }
 
 namespace {

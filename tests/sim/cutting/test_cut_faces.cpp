@@ -419,8 +419,8 @@ TEST(CutFaces, HoldABodyWithoutFaces) {
 
 namespace {
 
-// Parameters of the search for faces in the grid.
-layout::FaceFindPush searchOf(bool isCuttable) {
+// The numbers with which a pass of the search for faces runs, the first with that label.
+template <typename Push> Push searchOf(const char* label, bool isCuttable) {
     Scene scene{.name = "mixed"};
     addCloth(scene, {.size = {12, 12}, .spacing = 0.4f, .thickness = 0.01f});
     Lattice lattice = latticeOf({4, 4, 4}, 1e5f);
@@ -428,10 +428,10 @@ layout::FaceFindPush searchOf(bool isCuttable) {
     addLattice(scene, lattice);
     addSurfaceFaces(scene, scene.grids.back());
     const StepProgram program = compile(scene, {.substeps = 4});
-    const auto pass = std::ranges::find_if(
-        program.step, [](const Pass& each) { return each.label.starts_with("find_faces"); });
+    const auto pass =
+        std::ranges::find_if(program.step, [&](const Pass& each) { return each.label.starts_with(label); });
     EXPECT_NE(pass, program.step.end());
-    layout::FaceFindPush push;
+    Push push;
     EXPECT_EQ(pass->push.size(), sizeof(push));
     std::memcpy(&push, pass->push.data(), sizeof(push));
     return push;
@@ -441,8 +441,12 @@ layout::FaceFindPush searchOf(bool isCuttable) {
 
 // Faces that do not exist yet change no margin and no grid of others, and are not compared with every point.
 TEST(CutFaces, ChangeNoSearchUntilTheyAreThere) {
-    const layout::FaceFindPush whole = searchOf(false), cuttable = searchOf(true);
-    EXPECT_EQ(cuttable.edge, whole.edge);
+    const auto grid = searchOf<layout::GridPush>("plan_grid", false),
+               cuttableGrid = searchOf<layout::GridPush>("plan_grid", true);
+    EXPECT_EQ(cuttableGrid.edge, grid.edge);
+    EXPECT_EQ(cuttableGrid.quietEdge, grid.quietEdge);
+    const auto whole = searchOf<layout::FaceFindPush>("find_faces", false),
+               cuttable = searchOf<layout::FaceFindPush>("find_faces", true);
     EXPECT_EQ(cuttable.most, whole.most);
     EXPECT_EQ(cuttable.margin, whole.margin);
     EXPECT_EQ(cuttable.large, whole.large);
