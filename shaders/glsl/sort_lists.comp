@@ -82,6 +82,9 @@ uint owner;
 float own; // radius, or thickness [m]
 void put(uint element, uint entry) {
     contacts[element] = ContactCandidate(otherOf(entry), reachOf(own, entry));
+#ifdef HAS_MEMORY
+    memory[element] = vec4(0.0);
+#endif
 #ifdef OWNERS_BINDING
     owners[element] = owner;
 #endif
@@ -99,20 +102,22 @@ void setHit(uvec2 list, uint i, uint element) {
 }
 #endif
 
-// Both lists are sorted.
+// Gives back what is kept of candidates that are listed again; put() has cleared all. Both lists are sorted.
 void returnMemory(uvec2 list, uint i) {
 #ifdef HITS_BINDING
     clearHits(list, i);
 #endif
 #ifdef HAS_MEMORY
-    uint next = keptLists[i].x, end = next + keptLists[i].y;
-    for (uint element = list.x; element < list.x + list.y; ++element) {
-        const uint other = contacts[element].other;
-        while (next < end && keptOthers[next] < other) ++next;
-        const bool isKept = next < end && keptOthers[next] == other;
-        memory[element] = isKept ? kept[next] : vec4(0.0);
+    const uint end = list.x + list.y;
+    uint element = list.x;
+    for (uint place = keptLists[i].x; place < keptLists[i].x + keptLists[i].y; ++place) {
+        const uint other = keptOthers[place];
+        while (element < end && contacts[element].other < other) ++element;
+        if (element == end) break;
+        if (contacts[element].other != other) continue;
+        memory[element] = kept[place];
 #ifdef HITS_BINDING
-        if (isKept) setHit(list, i, element);
+        setHit(list, i, element);
 #endif
     }
 #endif
