@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "colliders.glsl"
+#include "many_items.glsl"
 #ifndef OPEN
 #include "remainder.glsl"
 #endif
@@ -33,29 +34,60 @@ layout(std430, binding = 7) readonly buffer PredictedVelocities { vec4 predicted
 layout(push_constant) uniform Push { ColliderPush push; };
 #include "forces.glsl"
 
-void main() {
-    const uint i = itemIndex(push.count);
+// A particle before colliders act on it.
+struct Start {
+    vec4 velocity;       // w = inverse mass
+    vec3 velocityBefore; // of the substep; only where something may rebound
+    Movement movement;
+};
+
+// Part of v that has not moved x.
+vec3 lateOf(float h) { return push.lateKick * h * step.gravity.xyz; }
+
+Start startOf(uint i) {
     const vec4 velocity = velocities[i];
     const float h = step.h;
-    const vec3 late = push.lateKick * h * step.gravity.xyz; // part of v that has not moved x
+    const vec3 late = lateOf(h);
 #ifdef OPEN
-    const vec3 correction = corrections[i].xyz, velocityBefore = velocity.xyz - h * step.gravity.xyz;
-    Movement movement = Movement(positions[i].xyz + correction, velocity.xyz + correction / h,
-                                 h * (velocity.xyz - late) + correction, vec3(0.0));
+    const vec3 correction = corrections[i].xyz;
+    return Start(velocity, velocity.xyz - h * step.gravity.xyz,
+                 Movement(positions[i].xyz + correction, velocity.xyz + correction / h,
+                          h * (velocity.xyz - late) + correction, vec3(0.0)));
 #else
     const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz;
-    Movement movement = Movement(x, velocity.xyz, h * (velocity.xyz - late), vec3(0.0));
+    Start start = Start(velocity, vec3(0.0), Movement(x, velocity.xyz, h * (velocity.xyz - late), vec3(0.0)));
 #ifdef HAS_REBOUND
-    movement.way = x - before[2u * i].xyz;
-    const vec3 velocityBefore = before[2u * i + 1u].xyz;
+    start.movement.way = x - before[2u * i].xyz;
+    start.velocityBefore = before[2u * i + 1u].xyz;
 #elif defined HAS_CONTACTS
     const vec3 way = x - (predicted[i].xyz - h * predictedVelocities[i].xyz);
-    if (largest(way - movement.way) > 1e-4 * largest(way) + 1e-5 * largest(x)) { // else h v is more exact
-        movement.pushed = way - movement.way;
-        movement.way = way;
+    if (largest(way - start.movement.way) > 1e-4 * largest(way) + 1e-5 * largest(x)) { // else h v is finer
+        start.movement.pushed = way - start.movement.way;
+        start.movement.way = way;
     }
 #endif
+    return start;
 #endif
+}
+
+bool isAbsent(uint c) { return c < pokeCount && colliders[c].isAbsent != 0u; }
+
+// Whether a particle can have come near a collider in the substep.
+bool hasWork(uint i) {
+    const Start start = startOf(i);
+    bool can = false;
+    for (uint c = 0u; c < colliderCount; ++c) {
+        const Approach approach = approachOf(colliders[c], contactOffsets[i], poses[push.before + c], poses[push.after + c], start.movement);
+        can = can || !isAbsent(c) && canTouch(approach, largest(start.movement.x));
+    }
+    return can && start.velocity.w != 0.0;
+}
+
+void workOn(uint i) {
+    const Start start = startOf(i);
+    const vec4 velocity = start.velocity;
+    const float h = step.h;
+    Movement movement = start.movement;
     if (velocity.w == 0.0) return;
     const vec3 wayBefore = movement.way;
     vec3 rebound = vec3(0.0);
@@ -63,15 +95,15 @@ void main() {
     for (uint c = 0u; c < colliderCount; ++c) {
         vec3 n, surfaceVelocity;
         const Collider collider = colliders[c];
-        if (c < pokeCount && collider.isAbsent != 0u) continue;
-        const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // equal where nothing moves
+        if (isAbsent(c)) continue;
+        const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // the same where nothing moves
 #ifdef FORCES
         const vec3 unforced = movement.v + rebound;
 #endif
         if (!projectOut(collider, contactOffsets[i], from, to, h, movement, n, surfaceVelocity)) continue;
         isTouching = true;
 #if defined OPEN || defined HAS_REBOUND
-        rebound += reboundFrom(collider, step.restSpeed, n, surfaceVelocity, velocityBefore, movement.v + rebound);
+        rebound += reboundFrom(collider, step.restSpeed, n, surfaceVelocity, start.velocityBefore, movement.v + rebound);
 #endif
 #ifdef FORCES
         addRowForce(c, i, (movement.v + rebound - unforced) / velocity.w, movement.x - to.position.xyz);
@@ -79,9 +111,8 @@ void main() {
     }
     if (!isTouching) return;
 #ifdef OPEN
-    // Closing the substep adds the corrections / h to v: the part that must not add velocity is subtracted from v
-    // beforehand.
-    corrections[i].xyz = movement.way - h * (velocity.xyz - late);
+    // Closing makes v of the corrections: what they must not give it is taken from v beforehand.
+    corrections[i].xyz = movement.way - h * (velocity.xyz - lateOf(h));
     velocities[i].xyz = velocity.xyz + rebound - movement.pushed / h;
 #else
     const vec3 v = movement.v + rebound;
@@ -97,3 +128,5 @@ void main() {
     }
 #endif
 }
+
+void main() { forEachItem(push.count); }

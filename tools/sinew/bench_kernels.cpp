@@ -87,8 +87,9 @@ std::string formOf(const sim::Forms& forms, bool isListed) {
 Json measure(Session& session, const Body& body, const FormOptions& forms) {
     sim::Settings settings{.substeps = body.scene.particles.size() >= largeBody ? shortStep : longStep};
     settings.forms.usesGrids = !body.isListed;
+    settings.forms = forms.in(settings.forms);
     if (forms.isGiven())
-        settings.forms = sim::completed(forms.in(settings.forms), sim::kindOf(session.device));
+        settings.forms = sim::completed(settings.forms, sim::kindOf(session.device));
     else
         settings = sim::tuned(session.device, session.queue, body.scene, settings);
     sim::Simulation simulation(session.device, body.scene, settings);

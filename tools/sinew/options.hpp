@@ -17,8 +17,9 @@ namespace sinew::tools {
 /// Kernel forms requested by the user; empty ones are chosen by defaults or tune().
 struct FormOptions {
     std::optional<bool> usesTexels, usesGrids;
-    std::optional<std::uint32_t> columns, chunk, residentBytes;
+    std::optional<std::uint32_t> columns, chunk, residentBytes, items;
 
+    /// Whether any is that tune() chooses.
     bool isGiven() const { return usesTexels || usesGrids || columns || chunk || residentBytes; }
     /// `forms` with the requested values.
     sim::Forms in(sim::Forms forms) const;

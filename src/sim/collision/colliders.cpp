@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "sim/collision/collider_paths.hpp"
 #include "sim/forces.hpp"
+#include "sim/many_items.hpp"
 
 #include <algorithm>
 #include <array>
@@ -97,13 +98,14 @@ void addShapes(ProgramBuilder& program, const Scene& scene, const StateLayout& l
     colliders.contactOffsets = program.upload("colliders.contact_offsets", offsets);
 }
 
-// Appends a pass over all particles.
+// Over all particles, `each` of them an invocation.
 template <typename Push>
-void dispatchTouching(ProgramBuilder& program, const Colliders& colliders, const vk::ShaderCode& code,
-                      std::span<const BufferId> buffers, const Push& push,
+void dispatchTouching(ProgramBuilder& program, const Colliders& colliders, std::uint32_t each,
+                      const vk::ShaderCode& code, std::span<const BufferId> buffers, const Push& push,
                       const ProgramBuilder::Constants& constants = {}) {
-    dispatch(program, colliders, colliders.count > colliders.pokes, {{}, POKES_TOUCHING, colliders.particles},
-             code, buffers, push, constants);
+    const std::uint32_t invocations = many_items::invocationsFor(colliders.particles, each);
+    dispatch(program, colliders, colliders.count > colliders.pokes, {{}, POKES_TOUCHING, invocations}, code,
+             buffers, push, constants);
 }
 
 layout::ColliderPush pushOf(const Colliders& colliders, std::uint32_t substep, Kick kick) {
@@ -112,9 +114,20 @@ layout::ColliderPush pushOf(const Colliders& colliders, std::uint32_t substep, K
 }
 
 ProgramBuilder::Constants constantsOf(const Colliders& colliders) {
-    return {{colliderCountId, colliders.count},
-            {isMovingId, colliders.areMoving},
-            {pokeCountId, colliders.pokes}};
+    ProgramBuilder::Constants constants = many_items::constantsFor(colliders.itemsEach);
+    constants.insert({{colliderCountId, colliders.count},
+                      {isMovingId, colliders.areMoving},
+                      {pokeCountId, colliders.pokes}});
+    return constants;
+}
+
+// One where passes run for groups in which somebody is awake, and where all passes of pokes have one number
+// of groups.
+std::uint32_t itemsEachOf(const Colliders& colliders, const Settings& settings) {
+    if (settings.sleeps || colliders.count == colliders.pokes) return 1;
+    constexpr std::uint32_t turnsOfOne =
+        12; // loops of a particle and a collider: those of `entered`, and more
+    return many_items::fitting(settings.forms.items, turnsOfOne * (colliders.count + 1));
 }
 
 } // namespace
@@ -136,6 +149,7 @@ Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& setti
         (std::ranges::any_of(scene.colliders, rebounds) || std::ranges::any_of(scene.planes, rebounds) ||
          rebounds(scene.contacts) ||
          std::ranges::any_of(scene.contacts.surfaces, rebounds)); // the way is then not h v
+    colliders.itemsEach = itemsEachOf(colliders, settings);
     addShapes(program, scene, layout, colliders);
     addPoses(program, scene, settings.substeps, colliders);
     return colliders;
@@ -151,7 +165,7 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const
                 bool isFirst) {
     if (!colliders.hasRebound) return;
     const std::array buffers{particles.positions, particles.velocities, colliders.before, particles.step};
-    dispatchTouching(program, colliders, kernels::openColliders, buffers,
+    dispatchTouching(program, colliders, 1, kernels::openColliders, buffers,
                      layout::SubstepPush{colliders.particles, isFirst});
 }
 
@@ -172,7 +186,8 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Co
     constants.merge(remainderConstants(particles.layout));
     const vk::ShaderCode& code =
         forces::formFor(particles, forms, &forces::Forces::ofColliders, buffers, constants);
-    dispatchTouching(program, colliders, code, buffers, pushOf(colliders, substep, kick), constants);
+    dispatchTouching(program, colliders, colliders.itemsEach, code, buffers, pushOf(colliders, substep, kick),
+                     constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
@@ -185,7 +200,8 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
     const vk::ShaderCode& code =
         forces::formFor(particles, {&kernels::solveCollidersOpen, &kernels::solveCollidersOpenForces},
                         &forces::Forces::ofColliders, buffers, constants);
-    dispatchTouching(program, colliders, code, buffers, pushOf(colliders, substep, Kick::half), constants);
+    dispatchTouching(program, colliders, colliders.itemsEach, code, buffers,
+                     pushOf(colliders, substep, Kick::half), constants);
 }
 
 } // namespace sinew::sim::collision::colliders

@@ -9,6 +9,7 @@
 #include "sim/cutting/cut_faces.hpp"
 #include "sim/forces.hpp"
 #include "sim/lattice/squares.hpp"
+#include "sim/many_items.hpp"
 #include "sim/sleep.hpp"
 
 #include <algorithm>
@@ -264,14 +265,20 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
     return rows;
 }
 
+// Loops of stop_at_faces for a point and a face: as often as the point may be stopped, and one more, a search
+// in the list, one for when it passes, one in the table of those that never touch; besides two over the list.
+constexpr std::uint32_t turnsOfStop = 5 * 3 + 2;
+
 void addStopBuffers(ProgramBuilder& program, const Scene& scene, const ParticleBuffers& particles,
-                    const Faces& faces, Contacts& contacts) {
+                    const Faces& faces, std::uint32_t items, Contacts& contacts) {
     const StateLayout& layout = particles.layout;
     contacts.linkedPositions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
     contacts.linkedVelocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
     const std::vector<std::uint32_t> points = movingPoints(scene, inverseMasses(scene), layout);
     contacts.movingPoints = program.upload("faces.moving_points", points);
     contacts.movingPointCount = static_cast<std::uint32_t>(points.size());
+    const std::uint32_t stills = contacts.faces - faces.moving;
+    contacts.pointsEach = many_items::fitting(items, turnsOfStop * std::max(stills, 1u));
     if (particles.forces && !particles.forces->stops.rows.empty())
         contacts.stopRows =
             program.upload("faces.stop_rows", stopRowsOf(faces, particles.forces->stops, layout));
@@ -317,8 +324,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     shown.faceLists = contacts.lists.pooled.ranges;
     if (std::ranges::find(faces.isOfCells, true) != faces.isOfCells.end())
         contacts.opened = program.scratch<std::uint32_t>("faces.opened", faces.faces.size());
-    if (contacts.hasStops()) addStopBuffers(program, scene, particles, faces, contacts);
-    // Without static or driven faces no kernel reads the first two.
+    if (contacts.hasStops()) addStopBuffers(program, scene, particles, faces, settings.forms.items, contacts);
+    // Without a face that can stop something no kernel reads the first two.
     const bool hasRows = contacts.stopRows != BufferId{};
     contacts.rows.forceRows = {hasRows ? contacts.stopRows : contacts.lists.pooled.ranges,
                                hasRows ? contacts.linkedPositions : contacts.rows.weights,
@@ -353,11 +360,13 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                                   state.step,
                                   lists.pooled.memory->memory};
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
+    constants.merge(many_items::constantsFor(contacts.pointsEach));
     const vk::ShaderCode& code = forces::formFor(state, {&k::stopAtFaces, &k::stopAtFacesForces},
                                                  &forces::Forces::ofStops, buffers, constants);
     if (state.forces) buffers.insert(buffers.end(), {contacts.stopRows, contacts.linkedPositions});
     buffers.push_back(contacts.movingPoints);
-    program.dispatch(code, push.count, buffers, push, constants);
+    program.dispatch(code, many_items::invocationsFor(push.count, contacts.pointsEach), buffers, push,
+                     constants);
 }
 
 } // namespace sinew::sim::collision::face_contacts
