@@ -12,15 +12,21 @@ void list(uint i, uint j) {
     pairs[pair] = uvec4(i, j, next, nextOfOther);
 }
 
-// Lists the near particles of particle i in three rows of cells. The rows are visited in one loop, because lanes wait
-// for the longest list among them, and the length of three rows together exceeds the mean by less than that of one. A
-// batch is measured first and only the few that may be near are processed then: branches are what costs.
-void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], uint cells[3], Frame frame, uint total) {
+// Three rows of cells: of the own layer in z those behind the own cell, and that; or all of the next layer.
+ivec3 firstCellOf(ivec3 home, int layer, int row) {
+    return home + ivec3(layer == 1 || row == 1 ? -1 : 0, row - layer, layer);
+}
+uint cellsOf(int layer, int row) { return layer == 1 || row == 1 ? 3u : row == 0 ? 2u : 0u; }
+
+// Lists those near particle i among three rows of cells. The rows are visited in one loop, because lanes
+// wait for the longest list among them: of three rows together it is less above the mean than of one. A batch is measured
+// first and the few that may be near are looked at then: what stands under a condition is what costs.
+void searchRows(uint i, vec3 x, float radius, ivec3 home, int layer, Frame frame, uint total) {
     uint start[3], count[3];
     [[unroll]] for (int row = 0; row < 3; ++row) {
-        const uint slot = slotOf(firstCells[row], frame);
+        const uint slot = slotOf(firstCellOf(home, layer, row), frame);
         start[row] = START(slot);
-        count[row] = START(slot + cells[row]) - start[row];
+        count[row] = START(slot + cellsOf(layer, row)) - start[row];
     }
     const uint second = count[0], third = second + count[1], all = third + count[2];
     start[1] -= second;
@@ -40,20 +46,18 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], u
             const uvec4 other = SORTED(k < total ? k : k - total);
             const vec3 xj = uintBitsToFloat(other.xyz);
             const ivec3 cell = cellOf(xj, frame);
-            const ivec2 row = firstCells[visit < second ? 0 : visit < third ? 1 : 2].yz;
-            if (cell.yz != row || cell == home && other.w <= i) continue; // the first of two in one cell lists the pair
+            const ivec3 rowStart = firstCellOf(home, layer, visit < second ? 0 : visit < third ? 1 : 2);
+            if (cell.yz != rowStart.yz || cell == home && other.w <= i) continue; // of two in one cell the first lists both
             if (isFast(other.w) || !isNear(i, other.w, radius, x - xj)) continue;
             list(i, other.w);
         }
     }
 }
 
-// Searches half of the 27 cells around a particle: those after its own in z, y, x, and its own. A pair is found once.
+// Half of the 27 cells around a particle: those behind its own in z, y, x, and its own. A pair is found once. One copy of the search serves
+// both layers: the kernel is half as large.
 void searchCells(uint i, vec3 x, float radius, Frame frame) {
     const ivec3 home = cellOf(x, frame);
     const uint total = START(push.cells);
-    searchRows(i, x, radius, home, ivec3[3](home, home + ivec3(-1, 1, 0), home), uint[3](2u, 3u, 0u), frame, total);
-    searchRows(i, x, radius, home,
-               ivec3[3](home + ivec3(-1, -1, 1), home + ivec3(-1, 0, 1), home + ivec3(-1, 1, 1)), uint[3](3u, 3u, 3u),
-               frame, total);
+    [[dont_unroll]] for (int layer = 0; layer < 2; ++layer) searchRows(i, x, radius, home, layer, frame, total);
 }
