@@ -318,6 +318,11 @@ std::vector<std::string> Simulation::complaints() {
     return sentences;
 }
 
+std::vector<std::string> Simulation::complaintsOfUse() {
+    state_->untold.clear();
+    return complaints();
+}
+
 std::optional<std::uint64_t> Simulation::oldestInFlight() const noexcept {
     return state_->ring.oldestUnfinished();
 }

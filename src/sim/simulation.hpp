@@ -289,7 +289,10 @@ public:
     /// has less room than `from`, or if `copy` is too small.
     void recordTakeOver(VkCommandBuffer commands, const Simulation& from, const vk::BufferView& copy = {},
                         const SavedState* saved = nullptr);
-    /// Size of the data that recordTakeOver() copies from this simulation [B].
+    /// Throws what recordTakeOver() of the same arguments would throw; records nothing.
+    void checkTakeOver(const Simulation& from, const vk::BufferView& copy = {},
+                       const SavedState* saved = nullptr) const;
+    /// Size of what recordTakeOver() copies from this [B].
     std::uint64_t handOverSize() const noexcept;
     /// Records the copy of that data into `to`, of handOverSize() bytes, which the host may read afterwards.
     /// With `saved`, of stateSize() bytes, the data is that of a state that this simulation saved there.
@@ -400,9 +403,12 @@ public:
     /// first call also returns warnings() of validate.hpp. Each kind is returned once, by the next call after
     /// it occurred; show it to the host's developer. Allocates only if there is something to return.
     std::vector<std::string> complaints();
-    /// The oldest of the last Settings::framesInFlight steps that was recorded and has not finished. Empty if
-    /// all have finished; after a recorded step was discarded it names that step until others take its slot.
-    /// For diagnosis: only the host's own fence says when the simulation may be destroyed.
+    /// The same without the warnings of the scene, for a host that showed them when it loaded the scene.
+    std::vector<std::string> complaintsOfUse();
+    /// The oldest of the last Settings::framesInFlight steps that was recorded and has not finished. Nothing
+    /// where all have, and after a recorded step was thrown away it names that one until others take its
+    /// place. For finding what is missing: only the host's own fence says when the simulation may be
+    /// destroyed.
     std::optional<std::uint64_t> oldestInFlight() const noexcept;
 
     const StepProgram& program() const noexcept;

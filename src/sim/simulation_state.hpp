@@ -221,7 +221,13 @@ struct Simulation::State {
         ring.recordEnd(commands, frame, executor.view(program.status));
     }
 
-    // Throws std::invalid_argument, with the reason, if this state cannot continue from one of `other`.
+    // True if both have the same solver and order of particles: a take-over then carries all that a step
+    // leaves.
+    bool isAlike(const State& other) const noexcept {
+        return chosen.solver == other.chosen.solver && program.order == other.program.order;
+    }
+
+    // Throws std::invalid_argument where this state cannot go on from one of `other`, with the reason.
     void requireSameScene(const State& other, const vk::BufferView& copy, std::uint64_t copied, bool isAlike,
                           bool isUncut) const;
 

@@ -48,14 +48,19 @@ SceneChange::SceneChange(SceneChange&&) noexcept = default;
 SceneChange& SceneChange::operator=(SceneChange&&) noexcept = default;
 SceneChange::~SceneChange() = default;
 
-void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, const vk::BufferView& copy,
-                                const SavedState* saved) {
+void Simulation::checkTakeOver(const Simulation& from, const vk::BufferView& copy,
+                               const SavedState* saved) const {
     from.state_->goBack();
     const State& other = *from.state_;
-    const bool isAlike =
-        state_->chosen.solver == other.chosen.solver && state_->program.order == other.program.order;
-    state_->requireSameScene(other, copy, from.handOverSize(), isAlike,
+    state_->requireSameScene(other, copy, from.handOverSize(), state_->isAlike(other),
                              saved != nullptr ? saved->isUncut : other.isUncut);
+}
+
+void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, const vk::BufferView& copy,
+                                const SavedState* saved) {
+    checkTakeOver(from, copy, saved);
+    const State& other = *from.state_;
+    const bool isAlike = state_->isAlike(other);
     recordReset(buffer);
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();

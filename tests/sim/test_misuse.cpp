@@ -184,7 +184,18 @@ TEST(Misuse, OfTheNumberOfStepsInFlightIsRefused) {
                   std::string::npos);
 }
 
-// The code of docs/embedding.md for a host without GrowingSimulation.
+TEST(Misuse, IsToldWithoutTheWarningsOfTheScene) {
+    Scene scene = test::chain(6);
+    for (Particle& particle : scene.particles) particle.position.x += 4000;
+    ASSERT_EQ(warnings(scene).size(), 1u);
+    Simulation told(test::device(), scene, fewSubsteps), ofUse(test::device(), scene, fewSubsteps);
+    for (Simulation* simulation : {&told, &ofUse}) step(*simulation, {.frame = 0}); // without a reset
+    EXPECT_EQ(told.complaints().size(), 2u);
+    expectOne(ofUse.complaintsOfUse(), {"step 0", "recordReset"});
+    EXPECT_EQ(ofUse.complaints(), Sentences{}) << "they are not told later";
+}
+
+// The lines of docs/embedding.md.
 TEST(Misuse, OfRoomForContactsIsLoudAndHasACure) {
     const Scene scene = crowd(128);
     Settings settings = fewSubsteps;

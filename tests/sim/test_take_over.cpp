@@ -224,7 +224,10 @@ std::string refusedTakeOver(const Scene& from, const Scene& to, const Settings& 
     first.run(1);
     second.run(2);
     const std::uint64_t hash = second.stateHash();
+    const std::string checked = test::refusal([&] { second.simulation().checkTakeOver(first.simulation()); });
+    EXPECT_EQ(second.stateHash(), hash) << "a check records nothing";
     const std::string said = test::refusal([&] { second.takeOver(first); });
+    EXPECT_EQ(checked, said);
     EXPECT_EQ(second.stateHash() == hash, said != goesOn) << "what is refused records nothing";
     return said;
 }
