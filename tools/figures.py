@@ -92,7 +92,7 @@ def layers():
     f.box(536, 36, 240, 62, ["*tests", "mirrors src; cases, hard cases"], YELLOW)
     f.text(24, 132, "between programs and core", 12, "start", QUIET)
     f.box(24, 140, 364, 62, ["*src/scenes", "scene files (TOML) become Scene and Settings"], GREEN)
-    f.box(412, 140, 364, 62, ["*src/app", "exit codes, signals, progress, GrowingSimulation"], GREEN)
+    f.box(412, 140, 364, 62, ["*src/app", "exit codes, signals, progress, take-over"], GREEN)
     f.box(24, 234, 752, 62, ["*src/mesh", "import, repair, voxels, skins, export; only mesh/gpu sees Vulkan"], GREEN)
     f.text(24, 330, "core: all that an engine embeds", 12, "start", QUIET)
     f.box(24, 338, 364, 76, ["*src/sim", "scene, compile, step program, solvers,", "contacts, cutting, skins, façade"], BLUE)

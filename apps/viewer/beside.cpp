@@ -109,11 +109,12 @@ std::optional<Beside::Trouble> Beside::settle(std::uint32_t slot) {
     const Flight flight = std::exchange(flights_[slot], {});
     for (std::uint32_t i = 0; i < flight.steps; ++i) {
         const std::uint64_t step = flight.firstStep + i;
-        if (const std::uint32_t needed = stage_.neededRoom(step); needed > sim::ranges::mostContactRoom)
-            return Trouble{app::tooCrowded(step)};
-        else if (needed > 0)
-            return Trouble{"its contacts need more room",
-                           std::min(needed + needed / 2, sim::ranges::mostContactRoom)};
+        if (const std::uint32_t needed = stage_.neededRoom(step); needed > 0) {
+            const sim::Settings& settings = stage_.settings();
+            const auto roomy = sim::Rooms(settings).forContacts(settings, needed);
+            if (!roomy) return Trouble{app::tooCrowded(step)};
+            return Trouble{"its contacts need more room", roomy->contactRoom};
+        }
         if (const std::optional<Divergence> divergence = stage_.check(step))
             return Trouble{divergence->sentence()};
         const sim::Status status = stage_.simulation().status(step);

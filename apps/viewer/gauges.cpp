@@ -176,7 +176,7 @@ Facts Gauges::facts(const Stage& stage) const {
     facts.time = static_cast<double>(stage.played()) * dt_;
     const auto& skipped = stage.simulation().program().skipped;
     if (std::ranges::find(skipped, "contacts") == skipped.end()) {
-        const app::ContactRoom& room = stage.contactRoom();
+        const sim::ContactRoom& room = stage.contactRoom();
         facts.contactRoom = room.room;
         facts.contactsNeeded = room.needed;
         facts.timesGrown = room.grown;

@@ -218,7 +218,7 @@ private:
     std::unique_ptr<Beside> makeBeside(const sim::Settings& room) const {
         try {
             return std::make_unique<Beside>(device_, opening_.loaded,
-                                            app::withRoomOf(stage_.settings(), room), stage_.material(),
+                                            sim::withRoomsOf(stage_.settings(), room), stage_.material(),
                                             *besideShape_, sim::Simulation::framesInFlight);
         } catch (const std::invalid_argument& error) {
             const std::string why = error.what();

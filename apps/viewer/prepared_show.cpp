@@ -17,7 +17,7 @@ sim::Settings fastest(const vk::Device& device, const Opening& opening) {
     vk::Queue queue(device);
     sim::Settings settings = opening.loaded.settings;
     app::addHands(settings);
-    if (opening.again) settings = app::withRoomOf(settings, opening.again->settings);
+    if (opening.again) settings = sim::withRoomsOf(settings, opening.again->settings);
     return opening.run ? settings : sim::tuned(device, queue, opening.loaded.scene, settings);
 }
 

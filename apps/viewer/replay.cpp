@@ -106,7 +106,7 @@ void prepareForReplay(Opening& opening, const InputFile& file) {
                                               "loaded then");
     sim::Settings& settings = opening.loaded.settings;
     app::addHands(settings);
-    if (!file.from) settings = app::withRoomOf(settings, roomOf(file));
+    if (!file.from) settings = sim::withRoomsOf(settings, roomOf(file));
     opening.bladeDepth.reset(); // the log has its own
 }
 

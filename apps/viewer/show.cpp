@@ -87,9 +87,7 @@ std::unique_ptr<Opening> Show::takeOpened() {
     try {
         std::unique_ptr<Opening> opened = library_.take();
         const auto hasRoom = [this](const Again& other) {
-            const sim::Settings& room = stage_.settings();
-            return other.settings.contactRoom >= room.contactRoom &&
-                   other.settings.cutSurfaceRoom >= room.cutSurfaceRoom;
+            return sim::haveRoomsOf(other.settings, stage_.settings());
         };
         if (!opened || !opened->again || hasRoom(*opened->again)) return opened;
         library_.askAgain({opened->again->material, stage_.settings()}, pictureAspect());
@@ -208,8 +206,8 @@ void Show::countPipelines() {
 Plan Show::plan(double elapsed) {
     const bool isOneByOne = recording_ || replay_;
     const std::uint32_t most = isOneByOne ? 1 : budget_.steps(Playback::maxSteps);
-    const bool isWaiting = stage_.lacksContactRoom() || stage_.wantsShape(); // until it is ready
     const std::uint64_t undone = isDiverged_ ? 0 : stage_.undoneSteps();
+    const bool isWaiting = stage_.lacksContactRoom() || (stage_.wantsShape() && undone == 0);
     Plan plan = controller_.playback.plan(elapsed, isWaiting ? 0 : most, undone);
     if (recording_ && !isWaiting && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
     if (plan.isReset && replay_ && from_) { // loads the state again in the background

@@ -246,7 +246,7 @@ private:
     bool isBroken_ = false;                        // has diverged or failed: no longer repeatable
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, wantsCount_ = false,
          isRefused_ = false, wantsScreenshot_ = false, wantsProbe_ = false, isInputDue_ = false,
-         isMakingSaid_ = false, isSurfaceGrowing_ = false, isBesideOut_ = false, isButtonDown_ = false;
+         isMakingSaid_ = false, isBesideOut_ = false, isButtonDown_ = false;
 };
 
 } // namespace sinew::viewer

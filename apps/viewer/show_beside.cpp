@@ -53,7 +53,7 @@ bool Show::isBesideFit() const {
 // Starts to make the second simulation with the first one's capacities, and at least those of `room`.
 void Show::makeBeside(const BesideShape& shape, const sim::Settings& room) {
     besideAsked_ = shape;
-    const sim::Settings settings = app::withRoomOf(stage_.settings(), room);
+    const sim::Settings settings = sim::withRoomsOf(stage_.settings(), room);
     besideMaking_ = std::async(std::launch::async, [this, shape, settings, material = stage_.material()] {
         return std::make_unique<Beside>(device_, opening_.loaded, settings, material, shape,
                                         Presenter::framesInFlight);

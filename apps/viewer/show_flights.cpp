@@ -259,19 +259,18 @@ void Show::settleCells(std::uint32_t slot) {
 
 // Grows the surface of cuts: only the picture is incomplete, and steps go on.
 void Show::makeSurfaceRoom() {
-    if (isSurfaceMissing_ || stage_.isGrowing()) return; // impossible or already growing
+    if (isSurfaceMissing_ || stage_.isGrowing()) return; // there is no such room, or it comes
+    if (stage_.wantsShape()) return;                     // first
     const std::uint32_t needed = std::exchange(surfaceMissing_, 0);
-    if (needed == 0) return; // an earlier state was restored
-    isSurfaceGrowing_ = stage_.beginSurfaceRoom(needed);
-    if (!isSurfaceGrowing_) warnOfSurface();
+    if (needed == 0) return; // somebody has gone back to before
+    if (!stage_.beginSurfaceRoom(needed)) warnOfSurface();
 }
 
 // Changes to a larger simulation once no picture is in flight.
 void Show::takeGrowth() {
-    if (!stage_.isGrowing() || backstage_.isMaking()) return; // layers in the making come first
-    if (stage_.wantsShape()) return;                          // which replaces it
+    if (!stage_.isGrowing() || backstage_.isMaking()) return; // layers that are being made first
     const Stage::Growth growth = stage_.askGrowth();
-    if (growth == Stage::Growth::none && std::exchange(isSurfaceGrowing_, false)) warnOfSurface();
+    if (growth == Stage::Growth::none) warnOfSurface();
     if (growth != Stage::Growth::made) return;
     settleAll();
     backstage_.forget();
@@ -284,7 +283,6 @@ void Show::takeGrowth() {
 void Show::endGrowth() {
     stage_.endGrowth();
     restartViews();
-    isSurfaceGrowing_ = false;
     tools_.moveOn();
     if (surfaceMissing_ <= stage_.settings().cutSurfaceRoom)
         surfaceMissing_ = 0; // otherwise more was cut meanwhile

@@ -145,12 +145,12 @@ void readView(SavedRun& run, Reader& reader) {
 
 } // namespace
 
-SavedRun saveRun(const vk::Device& device, const GrowingSimulation& growing, vk::Queue& queue) {
-    const sim::Simulation& simulation = growing.simulation();
+SavedRun saveRun(const vk::Device& device, const sim::Simulation& simulation, const sim::Settings& settings,
+                 vk::Queue& queue) {
     queue.waitIdle();
     const vk::Buffer copy = bufferFor(device, simulation.stateSize(), vk::MemoryKind::readback);
     const VkCommandBuffer commands = queue.begin();
-    SavedRun run{.settings = growing.settings(), .key = simulation.stateKey()};
+    SavedRun run{.settings = settings, .key = simulation.stateKey()};
     run.settings.forms = sim::completed(run.settings.forms, sim::kindOf(device)); // on other kinds as well
     run.host = simulation.recordSaveState(commands, copy.view());
     run.host.pokes.clear();
@@ -161,8 +161,7 @@ SavedRun saveRun(const vk::Device& device, const GrowingSimulation& growing, vk:
     return run;
 }
 
-void loadRun(const vk::Device& device, GrowingSimulation& growing, const SavedRun& run, vk::Queue& queue) {
-    sim::Simulation& simulation = growing.simulation();
+void loadRun(const vk::Device& device, sim::Simulation& simulation, const SavedRun& run, vk::Queue& queue) {
     if (simulation.stateKey() != run.key || simulation.stateSize() != run.bytes.size())
         throw Failure(badInput, "cannot resume from a state: it is of another simulation than " + run.scene +
                                     " makes now: has the scene, the version or the device changed?");

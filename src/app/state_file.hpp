@@ -1,8 +1,9 @@
 // A simulation between two steps as a file, to go on from in another run.
 #pragma once
 
-#include "app/growing_simulation.hpp"
 #include "sim/material.hpp"
+#include "sim/simulation.hpp"
+#include "vk/queue.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -32,15 +33,16 @@ struct SavedRun {
     std::uint64_t fileHash = 0;    ///< of all that the file has that it was read from
 };
 
-/// The state of a simulation whose steps have all been submitted to `queue`, which it waits for. What stands
-/// before `host` but settings and key, and what stands after `bytes`, is the caller's to fill in. Throws
-/// vk::Error.
-SavedRun saveRun(const vk::Device& device, const GrowingSimulation& growing, vk::Queue& queue);
+/// The state of a simulation of `settings` whose steps have all been submitted to `queue`; waits for that.
+/// The caller fills in the members before `host`, but for settings and key, and those after `bytes`.
+/// Throws vk::Error.
+SavedRun saveRun(const vk::Device& device, const sim::Simulation& simulation, const sim::Settings& settings,
+                 vk::Queue& queue);
 
 /// Puts a simulation of the same scene, settings and material into that state, instead of
 /// Simulation::recordReset(). `queue` as above. Throws Failure (badInput) where the state is of another
 /// simulation, and vk::Error.
-void loadRun(const vk::Device& device, GrowingSimulation& growing, const SavedRun& run, vk::Queue& queue);
+void loadRun(const vk::Device& device, sim::Simulation& simulation, const SavedRun& run, vk::Queue& queue);
 
 /// `settings` of the scene as the state was saved with.
 sim::Settings withRun(sim::Settings settings, const SavedRun& run);

@@ -129,8 +129,8 @@ TEST(Beside, GoesOnWithTheRoomAndTheMaterialThatTheFirstHas) {
     ASSERT_EQ(pair.stage.material(), sim::Material{.stiffness = 0.5f});
     EXPECT_FALSE(pair.beside.stage().hasRoomOf(pair.stage));
     Beside next(test::device(), pair.opening.loaded,
-                app::withRoomOf(pair.beside.stage().settings(), pair.stage.settings()), pair.stage.material(),
-                pair.beside.shape(), 1);
+                sim::withRoomsOf(pair.beside.stage().settings(), pair.stage.settings()),
+                pair.stage.material(), pair.beside.shape(), 1);
     EXPECT_TRUE(next.stage().hasRoomOf(pair.stage));
     EXPECT_EQ(next.stage().material(), pair.stage.material());
     pair.run([&](VkCommandBuffer commands) { next.recordTakeOver(commands, pair.stage); });

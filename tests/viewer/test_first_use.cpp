@@ -123,6 +123,72 @@ TEST(StageGrowth, HasTheMaterialOfTheStepsTakenMeanwhile) {
     EXPECT_EQ(played.hash(), other.hash());
 }
 
+// Steps that found too little room are taken again by the solver that took them.
+TEST(StageGrowth, OfContactsComesBeforeAnotherShape) {
+    Played played(crowd);
+    const std::uint64_t crowded = playUntilCrowded(played);
+    ASSERT_GT(crowded, 0u);
+    ASSERT_TRUE(played.stage.beginRoom(crowded));
+    played.stage.wantShape(sim::Solver::split, 9);
+    EXPECT_FALSE(played.stage.isShapeMade());
+    EXPECT_TRUE(played.stage.lacksContactRoom()) << "it goes on being made";
+    ASSERT_EQ(await(played.stage), Stage::Growth::made);
+    EXPECT_FALSE(played.stage.isShapeMade());
+    take(played);
+    EXPECT_EQ(played.stage.settings().substeps, 6u);
+    played.tools.restart(played.stage, {}, 1);
+    ASSERT_EQ(played.stage.undoneSteps(), 1u);
+    EXPECT_FALSE(played.stage.isShapeMade()) << "the undone step comes first";
+    step(played, 1);
+    while (!played.stage.isShapeMade()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    played.stage.reshape(test::queue(), played.tools.bring());
+    EXPECT_EQ(played.stage.settings().substeps, 9u);
+}
+
+// One simulation is made at a time: room for the surface makes way, and is asked for again by what lacks it.
+TEST(StageGrowth, OfTheSurfaceMakesWayForAnotherShape) {
+    Played played;
+    played.turn({}, 2);
+    ASSERT_TRUE(played.stage.beginSurfaceRoom(200000));
+    played.stage.wantShape(sim::Solver::split, 9);
+    while (!played.stage.isShapeMade()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    EXPECT_FALSE(played.stage.isGrowing());
+    played.stage.reshape(test::queue(), played.tools.bring());
+    EXPECT_EQ(played.stage.settings().substeps, 9u);
+    EXPECT_LT(played.stage.settings().cutSurfaceRoom, 200000u);
+    EXPECT_EQ(played.stage.askGrowth(), Stage::Growth::none);
+    ASSERT_TRUE(played.stage.beginSurfaceRoom(200000));
+    ASSERT_EQ(await(played.stage), Stage::Growth::made);
+    take(played);
+    EXPECT_GE(played.stage.settings().cutSurfaceRoom, 200000u);
+    EXPECT_EQ(played.stage.settings().substeps, 9u);
+}
+
+// None after 20 s.
+Stage::Turn awaitTurn(Stage& stage) {
+    Stage::Turn turn = Stage::Turn::none;
+    for (int i = 0; i < 10000 && turn == Stage::Turn::none; ++i) {
+        turn = stage.takeTurn(false);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return turn;
+}
+
+// Prepared for a simulation that makes way, a material that cannot be had is still refused aloud.
+TEST(StageTurn, ThatFailsWhileASimulationIsReplacedIsTold) {
+    Played played;
+    played.turn({}, 2);
+    played.stage.turn({.friction = -1.0f});
+    ASSERT_TRUE(played.stage.makeSurfaceRoom(200000, test::queue()));
+    EXPECT_THROW(awaitTurn(played.stage), std::invalid_argument);
+    EXPECT_EQ(played.stage.takeTurn(false), Stage::Turn::none) << "told once";
+    played.stage.turn({.stiffness = 0.5f});
+    ASSERT_TRUE(played.stage.makeSurfaceRoom(400000, test::queue()));
+    EXPECT_EQ(awaitTurn(played.stage), Stage::Turn::ready) << "prepared again for the other one";
+    step(played, 1);
+    EXPECT_EQ(played.stage.material().stiffness, 0.5f);
+}
+
 TEST(Backstage, MakesAndRehearsesLayersInOtherThreads) {
     const Opening opening = openText(crowd);
     constexpr VkFormat format = VK_FORMAT_B8G8R8A8_UNORM;

@@ -3,6 +3,7 @@
 #include "played.hpp"
 
 #include "app/guard.hpp"
+#include "vk/allocator.hpp"
 #include "vk/loader.hpp"
 
 #include <algorithm>
@@ -364,14 +365,19 @@ TEST(StageReshape, ThatCannotBeHadLeavesAllAsItIs) {
     played.tools.pull(played.stage, 3);
     cutAt(played, 0.1f); // only one solver supports cuts
     const std::uint64_t hash = played.hash();
+    const std::uint32_t buffers = test::device().allocator().statistics().buffers;
     played.stage.wantShape(sim::Solver::jacobi, 4);
     EXPECT_TRUE(played.stage.wantsShape());
-    EXPECT_THROW(played.stage.reshape(test::queue()), std::invalid_argument);
+    EXPECT_THROW(played.stage.reshape(test::queue(), played.tools.bring()), std::invalid_argument);
     EXPECT_FALSE(played.stage.wantsShape());
     EXPECT_EQ(played.stage.settings().solver, sim::Solver::split);
     EXPECT_EQ(played.hash(), hash);
+    EXPECT_EQ(test::device().allocator().statistics().buffers, buffers) << "what was refused is gone";
+    EXPECT_EQ(played.tools.history().undos(), 1u) << "states stay with the simulation that they are of";
     played.turn({}, 2);
     EXPECT_NE(played.hash(), hash);
+    played.turn({.actions = {Action::undo}}, 1);
+    EXPECT_EQ(played.stage.simulation().status(played.stage.steps()).linksCutInAll, 0u);
 }
 
 // Another thread makes the new simulation. Meanwhile pictures continue, and another change may be requested.

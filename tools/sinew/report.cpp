@@ -141,8 +141,8 @@ Json sleepJson(const RunRecord& record) {
 }
 
 Json overflowJson(const RunRecord& record) {
-    Json overflow = Json::object(); // empty: no list of fixed size is in use
-    const app::ContactRoom& contacts = record.contactRoom;
+    Json overflow = Json::object(); // empty: no list of a bounded size is in use
+    const sim::ContactRoom& contacts = record.contactRoom;
     const sim::ContactBuffers& lists = record.program.contacts;
     if (lists.pairs != sim::BufferId{} || lists.facePairs != sim::BufferId{})
         overflow["contacts"] = {{"room", contacts.room},
@@ -151,7 +151,7 @@ Json overflowJson(const RunRecord& record) {
                                 {"slowed", record.slowed},
                                 {"calm_steps", record.lists.calm},
                                 {"repeated_steps", record.lists.repeated}};
-    const app::SurfaceRoom& surface = record.surfaceRoom;
+    const sim::SurfaceRoom& surface = record.surfaceRoom;
     if (record.program.cutting.counts != sim::BufferId{})
         overflow["cut_surface"] = {{"needed", surface.needed > 0 ? Json(surface.needed) : Json(nullptr)},
                                    {"grown", surface.grown}};

@@ -25,8 +25,8 @@ struct RunRecord {
     double recordMs = 0;
     std::uint64_t wantedFrames = 0, frames = 0; ///< requested; done with a finite state
     std::optional<Divergence> divergence;
-    app::ContactRoom contactRoom;
-    app::SurfaceRoom surfaceRoom;
+    sim::ContactRoom contactRoom;
+    sim::SurfaceRoom surfaceRoom;
     std::uint32_t surfaceMissing = 0; ///< at the end
     std::uint64_t slowed = 0;         ///< see Runner::slowed()
     ListFigures lists;

@@ -1,6 +1,7 @@
 // `sinew run`: simulates a scene without a window and writes the results.
 #include "app/guard.hpp"
 #include "app/progress.hpp"
+#include "app/take_over.hpp"
 #include "mesh/export.hpp"
 #include "sim/counted.hpp"
 #include "sim/gpu_compile.hpp"

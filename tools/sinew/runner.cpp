@@ -4,9 +4,11 @@
 
 #include "app/cut_links.hpp"
 #include "app/guard.hpp"
+#include "app/take_over.hpp"
 #include "sim/compile.hpp"
 #include "sinew/cut_mesh.hpp"
 #include "sinew/skin_mesh.hpp"
+#include "vk/check.hpp"
 
 #include <chrono>
 #include <numeric>
@@ -33,8 +35,8 @@ std::string bodyOf(const sim::Scene& scene, std::uint32_t particle) {
 
 Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings,
                scenes::ScriptedBlades blades)
-    : session_(session), scene_(scene), settings_(settings), blades_(std::move(blades)),
-      growing_(session.device, scene, settings), drain_(session.queue) {
+    : session_(session), scene_(scene), settings_(settings), blades_(std::move(blades)), rooms_(settings),
+      simulation_(std::make_unique<sim::Simulation>(session.device, scene, settings)), drain_(session.queue) {
     const auto phases = static_cast<std::uint32_t>(simulation().phases().size());
     for (std::uint32_t i = 0; i < sim::Simulation::framesInFlight; ++i)
         timestamps_.emplace_back(session.device, phases);
@@ -59,19 +61,19 @@ void Runner::restart() {
 }
 
 app::SavedRun Runner::save() {
-    app::SavedRun run = app::saveRun(session_.device, growing_, session_.queue);
+    app::SavedRun run = app::saveRun(session_.device, *simulation_, settings_, session_.queue);
     run.played = played_ + done_;
     return run;
 }
 
 void Runner::load(const app::SavedRun& run) {
-    app::loadRun(session_.device, growing_, run, session_.queue);
+    app::loadRun(session_.device, *simulation_, run, session_.queue);
     played_ = run.played;
 }
 
 void Runner::submitReset() {
     const VkCommandBuffer commands = session_.queue.begin();
-    growing_.simulation().recordReset(commands);
+    simulation_->recordReset(commands);
     session_.queue.submit(commands);
 }
 
@@ -79,14 +81,14 @@ void Runner::submitStep(std::uint64_t frame) {
     const double start = nowMs();
     const std::size_t slot = frame % submitted_.size();
     const VkCommandBuffer commands = session_.queue.begin();
-    growing_.simulation().record(commands,
-                                 {.dt = scene_.dt,
-                                  .gravity = scene_.gravity,
-                                  .frame = frame,
-                                  .anchors = {},
-                                  .repeats = true,
-                                  .blade = blades_.at(played_ + frame)},
-                                 &timestamps_[slot]);
+    simulation_->record(commands,
+                        {.dt = scene_.dt,
+                         .gravity = scene_.gravity,
+                         .frame = frame,
+                         .anchors = {},
+                         .repeats = true,
+                         .blade = blades_.at(played_ + frame)},
+                        &timestamps_[slot]);
     submitted_[slot] = session_.queue.submit(commands);
     recordSum_ += nowMs() - start;
     ++recorded_;
@@ -101,7 +103,7 @@ bool Runner::finishStep(std::uint64_t frame) {
     const sim::Status status = simulation().status(frame);
     if (status.frame != static_cast<std::uint32_t>(frame))
         throw std::logic_error("the status of step " + std::to_string(frame) + " is that of another");
-    if (status.contactRoom > 0 && growing_.grow(status.contactRoom, session_.queue)) return false;
+    if (status.contactRoom > 0 && makeRoom(status.contactRoom)) return false;
     if (status.lacksLists) {
         session_.queue.waitIdle(); // for later steps
         return false;
@@ -141,10 +143,35 @@ void Runner::countTime(std::size_t slot, double end) {
     timed_ += phases.empty() ? 0 : 1;
 }
 
-/// Grows the surface of cuts; all steps have finished.
-void Runner::growSurface() {
-    if (!growing_.lacksSurface(surfaceMissing_)) return;
-    if (growing_.growSurface(surfaceMissing_, session_.queue)) surfaceMissing_ = 0;
+/// Goes on in a simulation with these settings: from the state before the steps that were undone, else after
+/// the newest.
+void Runner::continueWith(const sim::Settings& settings) {
+    successor_.request({session_.device, [this] { return scene_; }, settings});
+    sim::Successor::Made next = successor_.take();
+    app::takeOver(*next.simulation, *simulation_, session_.queue);
+    simulation_ = std::move(next.simulation);
+    settings_ = next.settings;
+    rooms_.adopt(settings_);
+}
+
+/// False if there can be no such room.
+bool Runner::makeRoom(std::uint32_t needed) {
+    const std::optional<sim::Settings> settings = rooms_.forContacts(settings_, needed);
+    if (settings) continueWith(*settings);
+    return settings.has_value();
+}
+
+/// All steps have finished.
+void Runner::makeSurfaceRoom() {
+    if (!rooms_.lackSurface(surfaceMissing_)) return;
+    const std::optional<sim::Settings> settings = rooms_.forSurface(settings_, surfaceMissing_);
+    if (!settings) return;
+    try {
+        continueWith(*settings);
+        surfaceMissing_ = 0;
+    } catch (const vk::Error&) { // of memory, or a longer buffer than the device has
+        rooms_.refuseSurface();
+    }
 }
 
 void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
@@ -153,9 +180,9 @@ void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
     std::uint64_t next = done_, waiting = done_;
     lastEnd_ = nowMs();
     while (waiting < end) {
-        if (waiting == next && !divergence_) growSurface();
+        if (waiting == next && !divergence_) makeSurfaceRoom();
         const bool mayGoOn =
-            next < end && !growing_.lacksSurface(surfaceMissing_) && !divergence_ && !app::isInterrupted();
+            next < end && !rooms_.lackSurface(surfaceMissing_) && !divergence_ && !app::isInterrupted();
         if (mayGoOn && next - waiting < inFlight) {
             submitStep(next++);
         } else if (waiting < next && !finishStep(waiting)) {
@@ -168,12 +195,12 @@ void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
             break;
         }
     }
-    if (!divergence_) growSurface();
+    if (!divergence_) makeSurfaceRoom();
 }
 
 std::vector<std::string> Runner::complaints() {
     if (divergence_ && divergence_->isCrowded) return {};
-    return growing_.complaints();
+    return simulation_->complaintsOfUse();
 }
 
 std::vector<double> Runner::phaseMs() const {
@@ -215,7 +242,7 @@ SkinMeshes Runner::readSkins() {
     meshes.count.fragments = cuts_.pieces;
     if (scene_.skins.empty()) return meshes;
     const VkCommandBuffer commands = session_.queue.begin();
-    growing_.simulation().recordSkin(commands);
+    simulation_->recordSkin(commands);
     session_.queue.wait(session_.queue.submit(commands));
     const app::Drawn drawn = app::downloadDrawn(session_.queue, simulation(), scene_, settings_);
     meshes.count = app::countPieces(scene_, drawn, cuts_.pieces);

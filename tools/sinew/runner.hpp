@@ -1,11 +1,12 @@
 // Runs a scene on a device: one submission per step, a few steps in flight, no wait inside a step.
 #pragma once
 
-#include "app/growing_simulation.hpp"
 #include "app/piece_count.hpp"
 #include "app/state_file.hpp"
 #include "mesh/export_gltf.hpp"
 #include "scenes/blades.hpp"
+#include "sim/rooms.hpp"
+#include "sim/successor.hpp"
 #include "sinew/measure.hpp"
 #include "sinew/session.hpp"
 
@@ -67,12 +68,12 @@ public:
     std::uint64_t steps() const { return done_; } ///< with a finite state
     const std::optional<Divergence>& divergence() const { return divergence_; }
     std::uint64_t slowed() const { return slowed_; } ///< sum of Status::slowed over those steps
-    const sim::Simulation& simulation() const { return growing_.simulation(); }
+    const sim::Simulation& simulation() const { return *simulation_; }
     const ListFigures& lists() const { return lists_; }
-    const app::ContactRoom& contactRoom() const { return growing_.contactRoom(); }
-    const app::SurfaceRoom& surfaceRoom() const { return growing_.surfaceRoom(); }
-    std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing of these
-    /// Figures of the newest step with a finite state.
+    const sim::ContactRoom& contactRoom() const { return rooms_.contacts(); }
+    const sim::SurfaceRoom& surfaceRoom() const { return rooms_.surface(); }
+    std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing, likewise
+    /// Of the newest step with a finite state.
     const CutFigures& cuts() const { return cuts_; }
     /// Forces in that step; empty without Settings::keepsForces.
     const sim::Impulses& forces() const { return forces_; }
@@ -98,15 +99,19 @@ private:
     void submitReset();
     void submitStep(std::uint64_t frame);
     bool finishStep(std::uint64_t frame);
-    void growSurface();
+    bool makeRoom(std::uint32_t needed);
+    void makeSurfaceRoom();
+    void continueWith(const sim::Settings& settings);
     void countTime(std::size_t slot, double end);
 
     Session& session_;
     const sim::Scene& scene_;
-    sim::Settings settings_;
+    sim::Settings settings_; // of simulation_
     scenes::ScriptedBlades blades_;
-    app::GrowingSimulation growing_;
-    std::vector<vk::Timestamps> timestamps_;                                 // one per step in flight
+    sim::Rooms rooms_;
+    std::unique_ptr<sim::Simulation> simulation_;
+    sim::Successor successor_;
+    std::vector<vk::Timestamps> timestamps_;                                 // one a step in flight
     std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values
     std::uint64_t done_ = 0, slowed_ = 0;
     std::uint64_t played_ = 0; // steps before the first one, in the loaded state

@@ -22,8 +22,9 @@ std::string Divergence::sentence() const {
 
 Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings,
              const sim::Material& material)
-    : given_(std::move(scene)), scene_(sim::withMaterial(given_, material)), settings_(settings),
-      stiffness_(sim::inspectStiffness(scene_, settings)), growing_(device, scene_, settings_),
+    : device_(device.anchored()), given_(std::move(scene)), scene_(sim::withMaterial(given_, material)),
+      first_(settings), settings_(settings), stiffness_(sim::inspectStiffness(scene_, settings)),
+      rooms_(settings), simulation_(std::make_unique<sim::Simulation>(device, scene_, settings)),
       gravity_(scene_.gravity), material_(material) {
     const sim::Vec3& g = scene_.gravity;
     const float length = std::hypot(g.x, g.y, g.z);
@@ -35,12 +36,12 @@ Stage::~Stage() {
 }
 
 void Stage::recordReset(VkCommandBuffer commands) noexcept {
-    growing_.simulation().recordReset(commands);
+    simulation_->recordReset(commands);
     steps_ = newest_ = played_ = 0;
 }
 
 app::SavedRun Stage::save(const vk::Device& device, vk::Queue& queue) const {
-    app::SavedRun run = app::saveRun(device, growing_, queue);
+    app::SavedRun run = app::saveRun(device, *simulation_, settings_, queue);
     run.played = played_;
     run.material = material_;
     run.gravity = gravity_;
@@ -51,11 +52,11 @@ void Stage::load(const vk::Device& device, const app::SavedRun& run, vk::Queue& 
     if (run.material != material_) {
         turnNow(run.material);
         const VkCommandBuffer commands = queue.begin();
-        growing_.simulation().recordReset(commands);
+        simulation_->recordReset(commands);
         recordTurn(commands);
         queue.wait(queue.submit(commands));
     }
-    app::loadRun(device, growing_, run, queue);
+    app::loadRun(device, *simulation_, run, queue);
     gravity_ = run.gravity;
     steps_ = newest_ = 0;
     played_ = run.played;
@@ -72,7 +73,7 @@ void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std
     step.pokes = pokes;
     step.repeats = repeats_;
     step.blade = scripted.from.empty() ? blade : scripted;
-    growing_.simulation().record(commands, step, timestamps);
+    simulation_->record(commands, step, timestamps);
 }
 
 void Stage::setGravity(float gravity) noexcept {
@@ -88,7 +89,7 @@ sim::Scene Stage::sceneOf(const sim::Material& material, const sim::Settings& se
     return scene;
 }
 
-// Reads only the constant part of the step program: recordTurn() runs after it.
+// Reads of the step program only what does not change meanwhile: recordTurn() waits for this.
 Stage::Turned Stage::prepare(const sim::Material& material) const {
     Turned turned{material, sceneOf(material, settings()), {}, std::nullopt};
     turned.change = simulation().prepareChange(turned.scene);
@@ -97,7 +98,7 @@ Stage::Turned Stage::prepare(const sim::Material& material) const {
 }
 
 void Stage::beginTurn() {
-    if (!wanted_ || turning_.valid() || ready_ || growth_) return; // growth: prepared after it
+    if (!wanted_ || turning_.valid() || ready_ || isGrowing()) return; // for the simulation that comes
     turning_ = std::async(std::launch::async, [this, material = *std::exchange(wanted_, std::nullopt)] {
         return prepare(material);
     });
@@ -117,64 +118,96 @@ void Stage::turnNow(const sim::Material& material) {
 }
 
 void Stage::wantShape(sim::Solver solver, std::uint32_t substeps) {
-    const bool isBegun = reshaping_ && !refused_ && reshaping_->settings.solver == solver &&
-                         reshaping_->settings.substeps == substeps && reshaping_->material == material_;
-    if (!isBegun) reshaping_.reset();
+    const bool isBegun = next_ && !refused_ && next_->settings.solver == solver &&
+                         next_->settings.substeps == substeps && next_->material == material_;
+    if (!isBegun) dropShape();
     shape_ = Shape{solver, substeps};
 }
 
 void Stage::keepShape() {
-    reshaping_.reset();
+    dropShape();
     shape_.reset();
 }
 
-std::future<std::unique_ptr<sim::Simulation>> Stage::make(const sim::Settings& settings,
-                                                          const sim::Material& material) const {
-    return std::async(std::launch::async, [this, settings, material] {
-        return std::make_unique<sim::Simulation>(growing_.device(), sceneOf(material, settings), settings);
-    });
+void Stage::dropShape() {
+    if (!next_ || next_->purpose != Purpose::shape) return;
+    successor_.drop();
+    next_.reset();
+}
+
+// The thread reads the scene as it was given, which never changes: the material may be turned meanwhile.
+void Stage::make(const sim::Settings& settings, const sim::Material& material) {
+    successor_.request(
+        {device_, [this, settings, material] { return sceneOf(material, settings); }, settings});
+}
+
+void Stage::begin(const Next& next) {
+    next_ = next;
+    make(next.settings, next.material);
 }
 
 void Stage::beginShape() {
-    sim::Settings settings = growing_.settings();
+    sim::Settings settings = settings_;
     if (shape_) {
         settings.solver = shape_->solver;
         settings.substeps = shape_->substeps;
     }
-    const sim::Material material = refused_ ? *refused_ : ready_ ? ready_->material : material_;
-    reshaping_.emplace(Reshaping{settings, material, make(settings, material)});
+    begin({Purpose::shape, settings, refused_ ? *refused_ : ready_ ? ready_->material : material_});
 }
 
+// A growth for the surface makes way: what still lacks room then says so again.
 bool Stage::isShapeMade() {
-    if (!wantsShape()) return false;
-    if (!reshaping_) beginShape();
-    return reshaping_->making.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    if (!wantsShape() || lacksContactRoom() || made_ || undoneSteps() > 0) return false;
+    if (!next_ || next_->purpose != Purpose::shape) beginShape();
+    return successor_.isReady();
 }
 
 void Stage::reshape(vk::Queue& queue, const app::Bring& bring) {
     if (!wantsShape()) return;
-    growth_.reset(); // made with the old solver; a lack of capacity is reported again
-    wantedRoom_.reset();
-    if (!reshaping_) beginShape();
-    Reshaping next = *std::exchange(reshaping_, std::nullopt);
+    assert(!lacksContactRoom() && !made_ && undoneSteps() == 0);
+    if (!next_ || next_->purpose != Purpose::shape) beginShape();
+    const Next next = *std::exchange(next_, std::nullopt);
     shape_.reset();
     refused_.reset();
     ready_.reset();
-    awaitTurn(); // it is prepared for the old simulation
-    std::unique_ptr<sim::Simulation> made = next.making.get();
-    sim::Scene before = std::exchange(scene_, sceneOf(next.material, next.settings));
-    try {
-        growing_.replaceBy(std::move(made), next.settings, queue, bring);
-    } catch (...) {
-        scene_ = std::move(before);
-        throw;
-    }
-    stiffness_ = sim::inspectStiffness(scene_, next.settings);
-    material_ = next.material;
+    awaitTurn(); // it is prepared for the simulation that goes
+    takeSuccessor(next.material, queue, bring);
+    stiffness_ = sim::inspectStiffness(scene_, settings_);
+}
+
+void Stage::takeSuccessor(const sim::Material& material, vk::Queue& queue, const app::Bring& bring) {
+    sim::Successor::Made made = successor_.take();
+    app::takeOver(*made.simulation, *simulation_, queue, bring);
+    continueIn(std::move(made), material);
+}
+
+// Waits for a simulation with these rooms.
+void Stage::enlarge(const sim::Settings& settings, vk::Queue& queue, const app::Bring& bring) {
+    next_.reset();
+    make(settings, material_);
+    takeSuccessor(material_, queue, bring);
+}
+
+// It has taken over, and nothing uses the simulation before it any more.
+void Stage::continueIn(sim::Successor::Made made, const sim::Material& material) {
+    simulation_ = std::move(made.simulation);
+    settings_ = made.settings;
+    scene_ = std::move(made.scene);
+    rooms_.adopt(settings_);
+    material_ = material;
+}
+
+void Stage::widen(const sim::Settings& roomy, vk::Queue& queue) {
+    if (!sim::haveRoomsOf(settings_, roomy)) enlarge(sim::withRoomsOf(settings_, roomy), queue, {});
 }
 
 void Stage::takeOver(const Stage& from, const app::Bring& bring) {
-    growing_.takeOver(from.growing_, bring);
+    const sim::Settings roomy = sim::withRoomsOf(settings_, from.settings_);
+    if (!sim::haveRoomsOf(settings_, roomy)) // else it was made with them: pipelines take their time
+        simulation_ = std::make_unique<sim::Simulation>(device_, scene_, roomy);
+    settings_ = roomy;
+    rooms_.continueFrom(from.rooms_, roomy);
+    app::takeOverByHost(device_, *simulation_, from.device_, *from.simulation_, bring);
     gravity_ = from.gravity_;
     steps_ = from.steps_;
     newest_ = from.newest_;
@@ -182,8 +215,7 @@ void Stage::takeOver(const Stage& from, const app::Bring& bring) {
 }
 
 bool Stage::hasRoomOf(const Stage& other) const noexcept {
-    return settings().contactRoom >= other.settings().contactRoom &&
-           settings().cutSurfaceRoom >= other.settings().cutSurfaceRoom;
+    return sim::haveRoomsOf(settings_, other.settings_);
 }
 
 void Stage::recordTakeOver(VkCommandBuffer commands, const Stage& from) {
@@ -201,7 +233,13 @@ Stage::Turn Stage::takeTurn(bool isPaused) {
     beginTurn();
     if (!turning_.valid() || turning_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return Turn::none;
+    const bool isOutdated = std::exchange(isTurnOutdated_, false);
     Turned turned = turning_.get();
+    if (isOutdated) { // for the simulation before this one: once more
+        if (!wanted_) wanted_ = std::move(turned.material);
+        beginTurn();
+        return Turn::none;
+    }
     if (!turned.change) return Turn::refused;
     ready_ = std::move(turned);
     return Turn::ready;
@@ -220,16 +258,14 @@ std::optional<sim::Material> Stage::recordTurn(VkCommandBuffer commands) noexcep
     return material_;
 }
 
-// Before the simulation is replaced: the prepared material refers to the old one and must be prepared again.
+// Before the simulation makes way for another one: what is prepared is of this one. takeTurn() has it
+// prepared again, or tells why it cannot be had.
 void Stage::awaitTurn() {
     if (ready_ && !wanted_) wanted_ = ready_->material;
     ready_.reset();
     if (!turning_.valid()) return;
-    try {
-        const Turned turned = turning_.get();
-        if (!wanted_) wanted_ = turned.material;
-    } catch (const std::exception&) { // the material is invalid, and no longer wanted
-    }
+    turning_.wait();
+    isTurnOutdated_ = true;
 }
 
 std::optional<Divergence> Stage::check(std::uint64_t step) const {
@@ -256,7 +292,7 @@ bool Stage::lacksLists(std::uint64_t step) const {
     return status.frame == static_cast<std::uint32_t>(step) && status.lacksLists;
 }
 
-// Undoes the counts of those steps.
+// The first of the steps that were undone is the next one.
 void Stage::goBackBefore(std::uint64_t step) noexcept {
     played_ -= steps_ - (step - 1);
     steps_ = step - 1;
@@ -264,83 +300,88 @@ void Stage::goBackBefore(std::uint64_t step) noexcept {
 
 bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue, const app::Bring& bring) {
     awaitTurn();
-    if (!growing_.grow(neededRoom(step), queue, bring)) return false;
+    const std::optional<sim::Settings> settings = rooms_.forContacts(settings_, neededRoom(step));
+    if (!settings) return false;
+    enlarge(*settings, queue, bring);
     goBackBefore(step);
     return true;
 }
 
 bool Stage::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::Bring& bring) {
-    if (!growing_.lacksSurface(needed)) return false;
+    if (!rooms_.lackSurface(needed)) return false;
     awaitTurn();
-    return growing_.growSurface(needed, queue, bring);
-}
-
-// Uses the scene as given, which is constant: the present scene may change meanwhile.
-void Stage::beginGrowth(const sim::Settings& settings, bool isOfContacts) {
-    growth_.emplace(Growing{settings, isOfContacts, material_, make(settings, material_), nullptr});
+    const std::optional<sim::Settings> settings = rooms_.forSurface(settings_, needed);
+    if (!settings) return false;
+    try {
+        enlarge(*settings, queue, bring);
+    } catch (const vk::Error&) { // of memory, or a longer buffer than the device has
+        rooms_.refuseSurface();
+        return false;
+    }
+    return true;
 }
 
 bool Stage::beginRoom(std::uint64_t step) {
     const std::uint32_t needed = neededRoom(step);
-    const std::optional<sim::Settings> settings = growing_.roomForContacts(needed);
+    const std::optional<sim::Settings> settings = rooms_.forContacts(settings_, needed);
     if (!settings) return false;
     goBackBefore(step);
-    if (growth_)
+    if (isGrowing())
         wantedRoom_ = needed;
     else
-        beginGrowth(*settings, true);
+        begin({Purpose::contacts, *settings, material_});
     return true;
 }
 
 bool Stage::beginSurfaceRoom(std::uint32_t needed) {
-    if (!growing_.lacksSurface(needed)) return false;
-    const std::optional<sim::Settings> settings = growing_.roomForSurface(needed);
-    if (settings) beginGrowth(*settings, false);
+    assert(!next_ && !wantsShape());
+    if (!rooms_.lackSurface(needed)) return false;
+    const std::optional<sim::Settings> settings = rooms_.forSurface(settings_, needed);
+    if (settings) begin({Purpose::surface, *settings, material_});
     return settings.has_value();
 }
 
 Stage::Growth Stage::askGrowth() {
-    if (!growth_) return Growth::none;
-    if (growth_->made) return Growth::made;
-    const bool isThere = growth_->making.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-    if (!isThere || turning_.valid()) return Growth::making;
-    Growing growth = *std::exchange(growth_, std::nullopt);
+    if (!isGrowing()) return Growth::none;
+    if (made_) return Growth::made;
+    if (!successor_.isReady() || turning_.valid()) return Growth::making;
+    if (next_->material != material_) { // turned meanwhile
+        begin({next_->purpose, next_->settings, material_});
+        return Growth::making;
+    }
     try {
-        growth.made = growth.making.get();
+        made_ = successor_.take();
     } catch (const vk::Error&) {
-        if (growth.isOfContacts) throw;
-        growing_.lackSurface();
+        if (std::exchange(next_, std::nullopt)->purpose == Purpose::contacts) throw;
+        rooms_.refuseSurface();
         beginWanted();
         return Growth::none;
     }
-    if (growth.material != material_) { // changed meanwhile
-        beginGrowth(growth.settings, growth.isOfContacts);
-        return Growth::making;
-    }
-    growth_ = std::move(growth);
     return Growth::made;
 }
 
 void Stage::bringGrowth(vk::Queue& queue, const app::Bring& bring) {
-    if (bring) bring(simulation(), queue, *growth_->made, queue);
+    made_->simulation->checkTakeOver(*simulation_);
+    if (bring) bring(*simulation_, queue, *made_->simulation, queue);
 }
 
 void Stage::recordGrowth(VkCommandBuffer commands) noexcept {
-    growth_->made->recordTakeOver(commands, simulation());
+    made_->simulation->recordTakeOver(commands, *simulation_);
 }
 
 void Stage::endGrowth() {
-    Growing growth = *std::exchange(growth_, std::nullopt);
-    if (ready_ && !wanted_) wanted_ = ready_->material; // it was prepared for the old simulation
+    const Next next = *std::exchange(next_, std::nullopt);
+    if (ready_ && !wanted_) wanted_ = ready_->material; // what is prepared is of the other one
     ready_.reset();
-    growing_.goOnIn(std::move(growth.made), growth.settings);
+    continueIn(*std::exchange(made_, std::nullopt), next.material);
     beginWanted();
 }
 
 void Stage::beginWanted() {
     if (!wantedRoom_) return;
     const std::uint32_t needed = *std::exchange(wantedRoom_, std::nullopt);
-    if (const auto settings = growing_.roomForContacts(needed)) beginGrowth(*settings, true);
+    if (const auto settings = rooms_.forContacts(settings_, needed))
+        begin({Purpose::contacts, *settings, material_});
 }
 
 } // namespace sinew::viewer

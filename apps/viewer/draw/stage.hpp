@@ -2,12 +2,14 @@
 // capacity.
 #pragma once
 
-#include "app/growing_simulation.hpp"
 #include "app/state_file.hpp"
+#include "app/take_over.hpp"
 #include "scenes/blades.hpp"
 #include "scenes/load.hpp"
 #include "sim/material.hpp"
+#include "sim/rooms.hpp"
 #include "sim/substeps.hpp"
+#include "sim/successor.hpp"
 #include "viewer/draw/camera.hpp"
 
 #include <deque>
@@ -16,7 +18,7 @@
 
 namespace sinew::viewer {
 
-/// The place and step of a divergence.
+/// A step after which the state is not finite.
 struct Divergence {
     std::uint64_t step = 0;
     std::uint32_t particles = 0;     ///< number of particles with a non-finite state
@@ -37,22 +39,24 @@ public:
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    /// These functions: see sim::Simulation. A new stage must be reset once before its first step.
+    /// Record as those of sim::Simulation do. A new stage must be reset once before its first step.
     void recordReset(VkCommandBuffer commands) noexcept;
     void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
                     std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
                     std::span<const sim::Poke> pokes = {}) noexcept;
-    /// Records the skins for drawing; sim::Overlap::some only for layers that all allow it (Layers::overlap).
+    /// Records the skins that are to be drawn: with sim::Overlap::some in layers none of which needs
+    /// (Layers::overlap) another.
     void recordSkin(VkCommandBuffer commands, sim::Overlap overlap = sim::Overlap::none) noexcept {
-        growing_.simulation().recordSkin(commands, sim::SkinDetail::drawn, overlap);
+        simulation_->recordSkin(commands, sim::SkinDetail::drawn, overlap);
     }
 
-    /// See app::saveRun and loadRun; step counts start at 0 after load().
+    /// Save and load as app::saveRun and loadRun do. A state that was loaded has taken no step.
     app::SavedRun save(const vk::Device& device, vk::Queue& queue) const;
     void load(const vk::Device& device, const app::SavedRun& run, vk::Queue& queue);
 
-    /// See app::GrowingSimulation::widen.
-    void widen(const sim::Settings& roomy, vk::Queue& queue) { growing_.widen(roomy, queue); }
+    /// Goes on after the newest step in a simulation with at least the rooms of `roomy`, if there is less.
+    /// Waits for `queue`. Throws as sim::Simulation: all is then as it was.
+    void widen(const sim::Settings& roomy, vk::Queue& queue);
 
     /// Sets scenes::LoadedScene::defaults of the scene: features that are dropped if a solver has no form for
     /// them.
@@ -73,32 +77,35 @@ public:
     /// Applies the material from the next step on; waits, so that replays are exact. A material that needs
     /// other passes waits for reshape(). Throws as Simulation::prepareChange.
     void turnNow(const sim::Material& material);
-    /// Polls the material change; call it for every picture. `refused`: the change needs another step
-    /// program. Throws as turnNow(); the stage is then unchanged.
+    /// Result of turn(), if there is one; to be called for every picture. Refused is a material that other
+    /// passes are needed for. Throws likewise: all is then as it was.
     enum class Turn { none, ready, refused };
     Turn takeTurn(bool isPaused);
     /// Records the prepared material for the next step; returns it. Does nothing if none is ready or
     /// undoneSteps() come first. recordStep() calls this itself.
     std::optional<sim::Material> recordTurn(VkCommandBuffer commands) noexcept;
     const sim::Material& material() const noexcept { return material_; }
-    /// Stiffness report of the scene with its present material.
+    /// Report on the scene as it is.
     const sim::StiffnessReport& stiffness() const noexcept { return stiffness_; }
 
-    /// Requests another solver and number of substeps for reshape(), in place of an earlier request. In
-    /// replays no step may be recorded before reshape().
+    /// Another solver and number of substeps, at reshape(), in place of what was wanted before. For replays:
+    /// no step may be recorded before that, but for undoneSteps().
     void wantShape(sim::Solver solver, std::uint32_t substeps);
-    /// Withdraws the request. Waits for a simulation in the making, as does another wantShape() meanwhile.
+    /// None after all.
     void keepShape();
     bool wantsShape() const noexcept { return shape_ || refused_; }
-    /// Whether the requested simulation has been made; the first call starts a thread that makes it.
+    /// Whether the simulation that is wanted has been made. The first call begins to make it, in a thread of
+    /// its own, in place of more room for the surface of cuts. False while there are undoneSteps() or
+    /// lacksContactRoom(): the simulation that took those steps takes them again first.
     bool isShapeMade();
-    /// Continues after the newest step in the requested simulation. Waits for `queue`, in which everything
-    /// was submitted, and for the simulation in the making. Throws as sim::Simulation; the stage is then
-    /// unchanged, without a request.
+    /// Goes on after the newest step in another simulation(), as wanted. Waits for `queue`, in which all was
+    /// submitted, and for what has not been made yet. Throws as sim::Simulation: all is then as it was, and
+    /// nothing wanted any more. Not while there are undoneSteps() or lacksContactRoom().
     void reshape(vk::Queue& queue, const app::Bring& bring = {});
 
-    /// Continues from the state of `from`, a stage of the same scene that may have another material, solver,
-    /// number of substeps and device (see app::GrowingSimulation::takeOver). Instead of recordReset().
+    /// Goes on where `from` stands, a stage of the same scene that may have another material, solver, number
+    /// of substeps and device, with as much room as that has, instead of recordReset(). All steps of both
+    /// have finished. Waits. Throws as sim::Simulation: it is then to be reset, and `from` is as it was.
     void takeOver(const Stage& from, const app::Bring& bring = {});
 
     /// Records a take-over on the same device; all steps of both must have finished before the commands run.
@@ -106,8 +113,8 @@ public:
     void recordTakeOver(VkCommandBuffer commands, const Stage& from);
     bool hasRoomOf(const Stage& other) const noexcept;
 
-    /// For callers that restore earlier states.
-    sim::Simulation& simulation() noexcept { return growing_.simulation(); }
+    /// For what goes back to earlier states.
+    sim::Simulation& simulation() noexcept { return *simulation_; }
 
     /// Steps of the time in which scripted blades move; equal to steps() unless an earlier state was
     /// restored.
@@ -124,8 +131,8 @@ public:
     /// state may come.
     std::uint64_t undoneSteps() const noexcept { return newest_ - steps_; }
 
-    /// The divergence that a finished step found; empty if all is well, or if a step after a reset has
-    /// replaced it. The step must be one of the last Simulation::framesInFlight recorded.
+    /// Divergence of a finished step: nothing if all is well, or if a step after a reset has taken its
+    /// place. It must be one of the last Simulation::framesInFlight recorded.
     std::optional<Divergence> check(std::uint64_t step) const;
 
     /// Status::contactRoom of such a step; if more than 0, that step and all after it were undone.
@@ -149,33 +156,36 @@ public:
     /// missing. Waits for `queue`.
     bool makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::Bring& bring = {});
 
-    /// Like the two functions above, without waiting: a thread of its own makes a simulation with that
-    /// capacity. No step may be recorded meanwhile if it is for contacts; steps go on if it is for the
-    /// surface of cuts. False if there cannot be such a capacity. One growth at a time.
+    /// The same without waiting: a simulation with that much room is made in a thread of its own. Before more
+    /// room for contacts no step may be recorded; for the surface of cuts steps go on meanwhile. False where
+    /// there can be none. For the surface one at a time, and not while wantsShape().
     bool beginRoom(std::uint64_t step);
     bool beginSurfaceRoom(std::uint32_t needed);
-    bool isGrowing() const noexcept { return growth_.has_value(); }
-    bool lacksContactRoom() const noexcept { return wantedRoom_ || (growth_ && growth_->isOfContacts); }
-    /// Polls the growth. `none`, for the surface only: there is no memory for it, and growth ends. If it is
-    /// for contacts, throws what making the simulation threw.
+    bool isGrowing() const noexcept { return next_ && next_->purpose != Purpose::shape; }
+    bool lacksContactRoom() const noexcept {
+        return wantedRoom_ || (next_ && next_->purpose == Purpose::contacts);
+    }
+    /// Whether it is there by now. `none`: nothing grows, or there is no memory for the surface of cuts.
+    /// Throws what making it threw, where it is for contacts.
     enum class Growth { making, made, none };
     Growth askGrowth();
-    /// The three steps of a growth once it is made, when all steps have finished: bringGrowth() moves saved
-    /// states (waits for `queue`); recordGrowth() copies the present state; endGrowth(), when those commands
-    /// have finished, replaces simulation(). No step may be recorded in between.
+    /// The simulation that is made takes over the state that there is: all steps have finished, and no other
+    /// is recorded until endGrowth(), once the commands have finished: simulation() is then that one. Before
+    /// that kept states are brought over; waits for `queue`. Throws as Simulation::checkTakeOver, and
+    /// vk::Error.
     void bringGrowth(vk::Queue& queue, const app::Bring& bring);
     void recordGrowth(VkCommandBuffer commands) noexcept;
     void endGrowth();
 
     const sim::Scene& scene() const noexcept { return scene_; }
-    /// Settings at construction; settings() has the present capacities.
-    const sim::Settings& madeWith() const noexcept { return settings_; }
-    const sim::Settings& settings() const noexcept { return growing_.settings(); }
-    const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }
-    /// These functions: see GrowingSimulation.
-    std::vector<std::string> complaints() { return growing_.complaints(); }
-    const app::ContactRoom& contactRoom() const noexcept { return growing_.contactRoom(); }
-    const app::SurfaceRoom& surfaceRoom() const noexcept { return growing_.surfaceRoom(); }
+    /// Settings as it was made; settings now, with all the room that there is.
+    const sim::Settings& madeWith() const noexcept { return first_; }
+    const sim::Settings& settings() const noexcept { return settings_; }
+    const sim::Simulation& simulation() const noexcept { return *simulation_; }
+    /// Complaints about the use of the simulation: warnings of the scene are told where it is loaded.
+    std::vector<std::string> complaints() { return simulation_->complaintsOfUse(); }
+    const sim::ContactRoom& contactRoom() const noexcept { return rooms_.contacts(); }
+    const sim::SurfaceRoom& surfaceRoom() const noexcept { return rooms_.surface(); }
 
 private:
     struct Turned {
@@ -192,34 +202,35 @@ private:
         sim::Solver solver;
         std::uint32_t substeps;
     };
-    struct Reshaping {
+    // Use of the successor.
+    enum class Purpose { contacts, surface, shape };
+    struct Next {
+        Purpose purpose;
         sim::Settings settings;
         sim::Material material;
-        std::future<std::unique_ptr<sim::Simulation>> making;
-    };
-    struct Growing {
-        sim::Settings settings;
-        bool isOfContacts;
-        sim::Material material;
-        std::future<std::unique_ptr<sim::Simulation>> making; // later in `made`
-        std::unique_ptr<sim::Simulation> made;
     };
     sim::Scene sceneOf(const sim::Material& material, const sim::Settings& settings) const;
     Turned prepare(const sim::Material& material) const;
     void beginTurn();
     void awaitTurn();
-    std::future<std::unique_ptr<sim::Simulation>> make(const sim::Settings& settings,
-                                                       const sim::Material& material) const;
+    void make(const sim::Settings& settings, const sim::Material& material);
+    void begin(const Next& next);
     void beginShape();
-    void beginGrowth(const sim::Settings& settings, bool isOfContacts);
+    void dropShape();
     void beginWanted();
+    void takeSuccessor(const sim::Material& material, vk::Queue& queue, const app::Bring& bring);
+    void enlarge(const sim::Settings& settings, vk::Queue& queue, const app::Bring& bring);
+    void continueIn(sim::Successor::Made made, const sim::Material& material);
 
+    const vk::Device& device_;
     const sim::Scene given_;
-    scenes::Defaults defaults_; // for given_
-    sim::Scene scene_;          // with the present material
-    sim::Settings settings_;
+    scenes::Defaults defaults_; // of given_
+    sim::Scene scene_;          // of the material that it has now
+    const sim::Settings first_;
+    sim::Settings settings_; // of simulation_
     sim::StiffnessReport stiffness_;
-    app::GrowingSimulation growing_;
+    sim::Rooms rooms_;
+    std::unique_ptr<sim::Simulation> simulation_;
     scenes::ScriptedBlades blades_;
     sim::Vec3 gravity_, down_{0, -1, 0};
     std::uint64_t steps_ = 0, played_ = 0, recordedSteps_ = 0;
@@ -228,13 +239,15 @@ private:
     sim::Material material_;
     std::optional<sim::Material> wanted_; // prepared after the present one
     std::optional<Turned> ready_;
-    std::optional<Shape> shape_;           // for reshape()
-    std::optional<sim::Material> refused_; // for reshape()
-    std::deque<Recorded> recorded_;        // the device may still copy from these
-    std::future<Turned> turning_;          // uses the members above, as do growth_ and reshaping_
-    std::optional<Growing> growth_;
-    std::optional<Reshaping> reshaping_;
-    std::optional<std::uint32_t> wantedRoom_; // contacts to provide for after the present growth
+    std::optional<Shape> shape_;               // for reshape()
+    std::optional<sim::Material> refused_;     // likewise
+    std::deque<Recorded> recorded_;            // that the device may still copy from
+    std::optional<Next> next_;                 // of successor_ or made_
+    std::optional<sim::Successor::Made> made_; // takes over at endGrowth()
+    std::optional<std::uint32_t> wantedRoom_;  // for contacts, after the growth that there is
+    bool isTurnOutdated_ = false;              // turning_ is for a simulation that is gone
+    std::future<Turned> turning_;              // refers to what stands before it, as the next
+    sim::Successor successor_;
 };
 
 } // namespace sinew::viewer
