@@ -80,6 +80,30 @@ void Screen::toggleVsync() {
     pixels_ = {}; // requests a new swapchain
 }
 
+void Screen::act(Action action) {
+    switch (action) {
+    case Action::fullScreen:
+        return window_.toggleFullScreen();
+    case Action::vsync:
+        return toggleVsync();
+    case Action::largerTexts:
+        return changeScale(1);
+    case Action::smallerTexts:
+        return changeScale(-1);
+    case Action::times:
+        tell(timing_.times().summary());
+        return timing_.printTable();
+    case Action::panels:
+        return panels_.toggle();
+    case Action::help:
+        return panels_.toggleHelp();
+    case Action::quit:
+        return window_.close();
+    default:
+        return; // drags and the wheel
+    }
+}
+
 Preferences Screen::preferences() const {
     const VkExtent2D size = window_.size();
     const auto isSensible = [](std::uint32_t side) {

@@ -45,11 +45,10 @@ public:
 
     /// Present preferences of the window and the panels.
     Preferences preferences() const;
-    /// Changes the size of texts and panels by `steps`.
-    void changeScale(int steps);
-
     bool isVsync() const { return isVsync_; }
-    void toggleVsync();
+
+    /// Does an action about the window, its texts and panels, or its times; nothing for any other.
+    void act(Action action);
 
     /// Sets the number of scenes with previews.
     void expectPreviews(std::size_t count);
@@ -75,6 +74,9 @@ public:
     bool hasNewNotice();
 
 private:
+    void toggleVsync();
+    /// Makes texts and panels larger by so many steps, or smaller.
+    void changeScale(int steps);
     void rescale();
     using Clock = std::chrono::steady_clock;
 

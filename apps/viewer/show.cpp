@@ -3,22 +3,22 @@
 
 #include "app/guard.hpp"
 #include "vk/check.hpp"
-#include "vk/kernel_store.hpp"
-#include "vk/queue.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <numeric>
+#include <utility>
 
 namespace sinew::viewer {
 
 namespace {
 
-constexpr double idleWait = 0.1;                   // [s] longest wait between polls while nothing moves
-constexpr double rehearsalWait = 0.005;            // [s] between polls of a rehearsal
-constexpr std::chrono::milliseconds patience{300}; // delay of the message about preparation
-constexpr std::uint32_t picturesOfATouch = 3;      // until Dear ImGui shows the effect of a press
-constexpr double stillAfter = 0.25; // [s] without a change before a still picture in full quality
+constexpr double idleWait = 0.1;                   // [s] at most between looks at signals while nothing moves
+constexpr double rehearsalWait = 0.005;            // [s] between looks at whether a rehearsal is over
+constexpr std::chrono::milliseconds patience{300}; // until hands are told that something is being made
+constexpr std::uint32_t picturesOfATouch = 3;      // until Dear ImGui shows what a press has changed
+constexpr std::uint32_t picturesOfAFocus = 5; // until Dear ImGui takes keys for a line that it has just got
+constexpr double stillAfter = 0.25;           // [s] without a change before a paused picture is the last one
 
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
 static_assert(6 * Presenter::framesInFlight < Renderer::slots); // films and files of halves
@@ -28,130 +28,188 @@ static_assert(Presenter::framesInFlight <= Timing::slots);
 
 Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::Device& device,
            std::unique_ptr<Opening> opening)
-    : screen_(screen), library_(library), devices_(devices), device_(device), ownOpening_(std::move(opening)),
+    : screen_(screen), library_(library), devices_(devices), ownOpening_(std::move(opening)),
       opening_(*ownOpening_), prepared_(*opening_.prepared),
       controller_(opening_.camera, opening_.loaded.scene.dt), stage_(prepared_.stage),
-      probe_(std::in_place, device, stage_.scene(), stage_.settings(), stage_.simulation()),
-      pieceProbe_(device, stage_), backstage_(device, prepared_, opening_.camera, Presenter::framesInFlight),
-      inspector_(stage_, opening_.loaded.holds, Presenter::framesInFlight), tools_(device, opening_),
-      sceneFacts_(prepared_.facts), gauges_(stage_, opening_.loaded.scene.dt),
-      knobs_(sceneFacts_.fromFile), begun_{stage_.settings().solver, stage_.settings().substeps},
+      tools_(device, opening_), context_{screen,
+                                         device,
+                                         opening_,
+                                         prepared_,
+                                         stage_,
+                                         controller_,
+                                         tools_,
+                                         [this] { settleAll(); },
+                                         [this] { shown_ = Shown::nothing; },
+                                         [this] { forgetFlights(); }},
+      comparison_(context_, backstage_),
+      backstage_(device, prepared_, opening_.camera, Presenter::framesInFlight),
+      gauges_(stage_, opening_.loaded.scene.dt), layers_(context_, backstage_),
+      capture_(context_, comparison_), observer_(context_, layers_, comparison_, gauges_),
+      adjustments_(context_, library, devices, comparison_), journal_(context_, library), times_(context_),
+      succession_(context_, {backstage_, layers_, observer_, times_, gauges_, adjustments_, journal_}),
       status_(opening_.loaded.scene, device) {
-    const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
-    for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) {
-        times_.emplace_back(device, spans);
-        drawingTimes_.emplace_back(device, 2);
+    if (!opening_.run || opening_.again) {
+        controller_.playback.reset(); // fills the buffers
+        return;
     }
-    pipelines_ = device.kernels().pipelinesMade(); // of the first scene, before there was a window
-    if (!opening_.run || opening_.again)
-        controller_.playback.reset(); // initialises the buffers
-    else
-        goOn(*opening_.run);
-    if (opening_.input) replay_.emplace(*opening_.input);
-}
-
-// Continues from a loaded state: shows its parameters, which stay after a reset.
-void Show::goOn(const app::SavedRun& run) {
-    const auto [x, y, z] = run.gravity;
-    knobs_ = turnedTo(run.material, knobs_, sceneFacts_.fromFile);
-    knobs_.gravity = std::hypot(x, y, z);
-    sceneFacts_.stiffness = stiffnessText(stage_);
-    tools_.begin(stage_);
-    from_ = {rememberedScene(library_.shown().scene, {}), run.fileHash};
+    adjustments_.begin(*opening_.run);
+    journal_.begin(*opening_.run);
 }
 
 Show::~Show() {
     screen_.presenter().drain(); // an exception may have left frames in flight
 }
 
+void Show::takeOver(const Show& before) {
+    stage_.takeOver(before.stage_, tools_.bringOf(before.tools_));
+    succession_.restartParts(); // it may have had to make room first
+    controller_ = before.controller_;
+    tools_.goOn(before.tools_, stage_);
+    gauges_.goOn(before.gauges_);
+    status_.setSleeping(gauges_.facts(stage_).sleeping);
+    status_.setPieces(gauges_.pieces());
+    comparison_.takeOver(before.comparison_);
+    observer_.takeOver(before.observer_);
+    journal_.takeOver(before.journal_);
+    adjustments_.takeOver(before.adjustments_);
+}
+
 std::unique_ptr<Opening> Show::run() {
-    keepAsItWas(); // if the requested change failed
+    adjustments_.keepAsItWas(); // what was asked for could not be shown
     std::unique_ptr<Opening> next;
     while (!next && !screen_.window().isClosing() && !app::isInterrupted()) {
         turn();
-        next = takeOpened();
+        if (!stage_.isGrowing() && !backstage_.isBusy() && !comparison_.isMaking())
+            next = adjustments_.takeOpened();
     }
     settleAll();
     const app::Writing writing;
-    stopRecording();
-    reportFiles(PictureWriter::Wait::yes);
-    if (next && !next->again) screen_.layers().section.reset(); // it belonged to this scene
-    shown_ = Shown::nothing;                                    // run() may be called again
+    endFilm();
+    capture_.reportFiles(PictureWriter::Wait::yes);
+    if (next && !next->again) screen_.layers().section.reset(); // it was of this scene
+    shown_ = Shown::nothing;                                    // should it go on
     return next;
 }
 
-// Returns a loaded scene; on an error everything stays as it is. A reload with less capacity than the present
-// simulation is requested again, since growing would block this thread.
-std::unique_ptr<Opening> Show::takeOpened() {
-    if (stage_.isGrowing() || backstage_.isBusy() || besideMaking_.valid()) return nullptr;
-    try {
-        std::unique_ptr<Opening> opened = library_.take();
-        const auto hasRoom = [this](const Again& other) {
-            return sim::haveRoomsOf(other.settings, stage_.settings());
-        };
-        if (!opened || !opened->again || hasRoom(*opened->again)) return opened;
-        library_.askAgain({opened->again->material, stage_.settings()}, pictureAspect());
-    } catch (const std::exception& error) {
-        screen_.warn(error.what());
-        keepAsItWas();
-    }
-    return nullptr;
-}
-
-float Show::pictureAspect() const {
-    const std::uint32_t height = screen_.presenter().extent().height;
-    if (!beside_ || height == 0) return wholeAspect();
-    return 0.5f * static_cast<float>(halvesWidth()) / static_cast<float>(height);
-}
-
-float Show::wholeAspect() const {
-    const VkExtent2D extent = screen_.presenter().extent();
-    return extent.height > 0 ? static_cast<float>(extent.width) / static_cast<float>(extent.height) : 1;
-}
-
+// One look at the input, and a picture where there is something to be seen.
 void Show::turn() {
     const bool isIdle = isHidden_ || (shown_ == Shown::still && panelsDue_ == 0);
-    const bool isBusy = backstage_.isBusy();        // pictures wait for it, input does not
-    if (!isBusy) screen_.presenter().waitForSlot(); // the next picture then uses the newest input
-    const bool isMaking =
-        backstage_.isMaking() || stage_.isGrowing() || stage_.wantsShape() || besideMaking_.valid();
+    const bool isBusy = backstage_.isBusy();        // pictures wait for it, hands do not
+    if (!isBusy) screen_.presenter().waitForSlot(); // the next picture has what came until it can be drawn
     screen_.timing().beforeInput(isIdle);
+    const bool isMaking = isAwaited() || stage_.isGrowing();
     Input input = screen_.window().poll(isBusy || (isIdle && isMaking) ? rehearsalWait
                                         : isIdle                       ? idleWait
                                                                        : 0);
-    screen_.timing().afterInput(!input.isEmpty() || input.panels.isTouched, picturesOnTheirWay());
-    foldPointer(input);
-    const bool hasMoved = input.pointer != std::exchange(pointer_, input.pointer);
+    screen_.timing().afterInput(!input.isEmpty() || input.panels.isTouched, times_.onTheirWay());
+    comparison_.fold(input);
+    const bool hasMoved = observer_.take(input);
     const bool isUsed = hasMoved || !input.presses.empty();
-    // Changes of panels over a still scene keep its quality.
-    const bool isBladeLent = !replay_ && tools_.lendBlade(input.held == Action::blade, isUsed);
+    // Panels change over a still scene without taking its quality away.
+    const bool isBladeLent = !journal_.isReplaying() && tools_.lendBlade(input.held == Action::blade, isUsed);
     if (isBladeLent) input.needsRedraw = true;
     const bool areAsked = !input.actions.empty() || !input.presses.empty() || isBladeLent;
-    if (input.panels.isTouched || areAsked || (hasMoved && inspector_.isOn())) panelsDue_ = picturesOfATouch;
-    const Wishes wishes = std::exchange(wishes_, {});
-    grant(wishes, input);
+    if (input.panels.isTouched || areAsked || (hasMoved && observer_.isInspecting()))
+        panelsDue_ = picturesOfATouch;
+    grant(std::exchange(wishes_, {}), input);
+    isInputDue_ = isInputDue_ || !input.isEmpty();
     handle(input);
-    takeTurn();
-    reopenWhereTurned();
-    reportFiles(PictureWriter::Wait::no);
+    adjustments_.tend(journal_.isReplaying());
+    capture_.reportFiles(PictureWriter::Wait::no);
     while (const auto preview = library_.previews().take())
         screen_.addPreview(preview->first, preview->second);
-    isInputDue_ = isInputDue_ || !input.isEmpty();
     if (!isBusy) play();
-    goOn();
-    countPipelines();
+    if (!layers_.tend() && observer_.isInspecting()) observer_.toggleInspector();
+    sayWhatIsMade();
+    times_.countPipelines();
     if (const auto title = status_.title(controller_.playback.isPaused(), isDiverged_))
         screen_.window().setTitle(*title);
 }
 
-// Takes steps and draws a picture, unless nothing has changed.
+// A button has the pointer over the panel: what is to be pinned or looked at is pointed at next.
+void Show::grant(const Wishes& wishes, Input& input) {
+    for (const Action action : wishes.actions)
+        if (action == Action::pin && !journal_.isReplaying())
+            tools_.armPin();
+        else if (action == Action::frameBody || action == Action::center)
+            observer_.lookAtPress(action == Action::center ? Observer::Target::point
+                                                           : Observer::Target::body);
+        else
+            input.actions.push_back(action);
+    adjustments_.open(wishes);
+    if (wishes.device && adjustments_.mayOpen()) {
+        if (journal_.isReplaying())
+            screen_.tell(Journal::howToEnd());
+        else
+            adjustments_.changeDevice(*wishes.device);
+    }
+    if (wishes.sectionOffset && screen_.layers().section) {
+        layers_.moveSectionTo(*wishes.sectionOffset);
+        input.needsRedraw = true;
+    }
+    if (wishes.beside) screen_.beside() = shapeOf(*wishes.beside);
+    if (wishes.knobs && !journal_.isReplaying()) adjustments_.turn(*wishes.knobs); // else the log has them
+}
+
+void Show::handle(Input& input) {
+    observer_.takePress(input);
+    if (!input.files.empty()) adjustments_.openFile(input.files.front());
+    for (const Action action : input.actions) {
+        if (action == Action::drop && screen_.panels().isHelpShown())
+            screen_.panels().closeHelp();
+        else if (!journal_.takes(action) && !controller_.act(action) && !tools_.act(action) &&
+                 !layers_.act(action))
+            act(action);
+    }
+    if (!journal_.isReplaying()) tools_.handle(input, controller_);
+    if (const std::string note = tools_.takeNote(); !note.empty()) screen_.tell(note);
+    screen_.feed(input.panels);
+    status_.setTool(tools_.name());
+    layers_.slideSection(input.slide);
+    const float notches = input.notches + (tools_.isPokeOn() || tools_.isBladeOn() ? 0 : input.growth);
+    if (notches != 0 && !journal_.isReplaying()) controller_.wheel(notches, input.pointer);
+}
+
+void Show::act(Action action) {
+    switch (action) {
+    case Action::frame:
+        return observer_.frameAll();
+    case Action::frameBody:
+        return observer_.lookAt(Observer::Target::body);
+    case Action::center:
+        return observer_.lookAt(Observer::Target::point);
+    case Action::inspect:
+        return observer_.toggleInspector();
+    case Action::beside:
+        return comparison_.toggle();
+    case Action::screenshot:
+        return capture_.wantPicture();
+    case Action::record:
+        return capture_.isFilming() ? endFilm() : capture_.beginFilm();
+    case Action::saveInput:
+        return journal_.saveInput();
+    case Action::saveState:
+        return journal_.saveState(isDiverged_);
+    case Action::previousScene:
+        return adjustments_.openNext(-1);
+    case Action::nextScene:
+        return adjustments_.openNext(1);
+    case Action::open:
+        screen_.panels().askForFile();
+        panelsDue_ = picturesOfAFocus;
+        return;
+    default:
+        if (!adjustments_.act(action)) screen_.act(action);
+    }
+}
+
 void Show::play() {
-    if (replayed_) compareReplay();
-    takeGrowth();
-    if (!backstage_.isBusy()) tendBeside();
+    journal_.compareReplay();
+    succession_.takeRoom();
+    if (!backstage_.isBusy()) comparison_.tend(isDiverged_);
     if (backstage_.isBusy()) return;
-    if (stage_.wantsShape() && stage_.isShapeMade()) reshape();
-    dropReplay();
+    succession_.takeShape();
+    journal_.dropReplay();
     isHidden_ = !prepareSwapchain();
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - std::exchange(lastTurn_, now)).count();
@@ -159,8 +217,8 @@ void Show::play() {
     const Plan plan = this->plan(elapsed);
     const bool hasInput = std::exchange(isInputDue_, false);
     const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 || hasInput ||
-                           wantsScreenshot_ || wantsProbe_ || wantsLook_ || wantsCount_ ||
-                           tools_.isWaiting() || shown_ == Shown::nothing;
+                           capture_.wantsPicture() || observer_.isWaiting() || tools_.isWaiting() ||
+                           shown_ == Shown::nothing;
     if (isChanged) lastChange_ = now;
     if (screen_.hasNewNotice()) panelsDue_ = picturesOfATouch;
     if (!isChanged && shown_ == Shown::still && panelsDue_ == 0) return;
@@ -175,57 +233,20 @@ void Show::play() {
     if (isLast) settleAll();
 }
 
-// Continues the preparation of layers; without memory they are turned off.
-void Show::goOn() {
-    try {
-        if (backstage_.goOn()) shown_ = Shown::nothing;
-    } catch (const vk::Error& error) {
-        if (error.failure() != vk::Failure::outOfMemory) throw;
-        screen_.layers() = {};
-        if (inspector_.isOn()) inspector_.toggle();
-        screen_.warn(error.what());
-    }
-    const bool isMaking =
-        backstage_.isMaking() || stage_.lacksContactRoom() || stage_.wantsShape() || besideMaking_.valid();
-    if (!isMaking) isMakingSaid_ = false;
-    if (!isMaking) return makingSince_.reset();
-    if (!makingSince_) makingSince_ = Clock::now();
-    if (isMakingSaid_ || Clock::now() - *makingSince_ < patience) return;
-    isMakingSaid_ = true;
-    screen_.tell(stage_.lacksContactRoom() ? "preparing room for more contacts: steps wait for it"
-                                           : "the requested change is being prepared");
-}
-
-// Counts new pipelines, which this thread should not make.
-void Show::countPipelines() {
-    const std::size_t made = device_.kernels().pipelinesMade();
-    screen_.timing().times().addPipelines(made - std::exchange(pipelines_, made));
-}
-
-// Plans steps; a film has a picture of every step.
+// A film has a picture of every step.
 Plan Show::plan(double elapsed) {
-    const bool isOneByOne = recording_ || replay_;
+    const bool isOneByOne = capture_.isFilming() || journal_.isReplaying();
     const std::uint32_t most = isOneByOne ? 1 : budget_.steps(Playback::maxSteps);
     const std::uint64_t undone = isDiverged_ ? 0 : stage_.undoneSteps();
     const bool isWaiting = stage_.lacksContactRoom() || (stage_.wantsShape() && undone == 0);
     Plan plan = controller_.playback.plan(elapsed, isWaiting ? 0 : most, undone);
-    if (recording_ && !isWaiting && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
-    if (plan.isReset && replay_ && from_) { // loads the state again in the background
-        if (mayOpen()) library_.playAgain(replay_->file(), pictureAspect());
+    if (capture_.isFilming() && !isWaiting && !controller_.playback.isPaused() && !plan.isReset)
+        plan.steps = 1;
+    if (plan.isReset && journal_.beginsFromState()) { // the state is put in anew, beside what plays
+        adjustments_.playAgain(*journal_.replayed());
         plan.isReset = false;
     }
     return plan;
-}
-
-// Number of pictures in flight; reports finished ones to the timing.
-std::size_t Show::picturesOnTheirWay() {
-    std::size_t count = 0;
-    for (std::size_t slot = 0; slot < Presenter::framesInFlight; ++slot)
-        if (screen_.presenter().isFinished(slot))
-            screen_.timing().pictureFinished(slot);
-        else
-            ++count;
-    return count;
 }
 
 // False while the window has no size.
@@ -240,7 +261,7 @@ bool Show::prepareSwapchain() {
 void Show::draw(Plan plan, View& view) {
     screen_.presenter().waitForSlot();
     settleNext(plan);
-    if (surfaceMissing_ > 0) makeSurfaceRoom();
+    succession_.beginSurfaceRoom();
     if (isDiverged_ && !plan.isReset) { // keeps the last finite picture
         plan.steps = 0;
         controller_.playback.dropSingleSteps();
@@ -252,66 +273,85 @@ void Show::draw(Plan plan, View& view) {
         return;
     }
     recordSteps(*frame, plan);
-    const Overlay overlay = recordLayers(*frame);
-    if (recording_ && plan.steps > 0) recordCamera(*frame, overlay);
+    const Overlay overlay = layers_.record(*frame);
+    if (capture_.isFilming() && plan.steps > 0) capture_.recordFilm(*frame, overlay);
     const bool isCutting = !inFlight_[frame->slot].sweeps.empty();
     drawPicture(*frame, overlay, view);
     screen_.presenter().end(*frame);
-    screen_.timing().pictureSubmitted(frame->slot, isOfCut(isCutting));
-    picturesOnTheirWay(); // some finish during presentation
-    if (screen_.timing().awaitsPicture()) {
-        screen_.presenter().waitIdle();
-        countPipelines();
-        screen_.timing().firstPicture();
-    }
+    times_.submitted(*frame, isCutting);
     status_.frameDrawn();
 }
 
-// Timed only on request: each timestamp costs a software device a flush.
+void Show::recordReset(VkCommandBuffer commands) {
+    forgetFlights();
+    stage_.recordReset(commands);
+    comparison_.recordReset(commands);
+    gauges_.restart();
+    journal_.reset(adjustments_.gravity());
+    isDiverged_ = false;
+}
+
+void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
+    InFlight& flight = inFlight_[frame.slot];
+    if (plan.isReset) recordReset(frame.commands);
+    const bool isWhole = stage_.undoneSteps() == 0 || isDiverged_; // else those steps are taken again first
+    if (!stage_.lacksContactRoom() && !stage_.wantsShape() && isWhole &&
+        tools_.recordHistory(frame.commands, stage_)) { // else later, from where steps go on
+        forgetFlights();
+        isDiverged_ = false;
+    }
+    if (journal_.isReplaying() && plan.steps > 0 && !journal_.playUntilStep(frame)) plan.steps = 0;
+    stage_.setRepeats(!journal_.isReplaying()); // a log has no such steps
+    flight.firstStep = stage_.steps() + 1;
+    if (const std::uint64_t undone = stage_.undoneSteps();
+        undone > 0) // alone: what waits for them comes later
+        plan.steps = static_cast<std::uint32_t>(std::min<std::uint64_t>(plan.steps, undone));
+    else
+        controller_.playback.taken(plan.steps);
+    flight.steps = plan.steps;
+    for (std::uint32_t step = 0; step < plan.steps; ++step) {
+        if (const auto material = stage_.recordTurn(frame.commands)) {
+            tools_.turned(*material);
+            prepared_.facts.stiffness = stiffnessText(stage_);
+        }
+        const StepHands hands = tools_.takeStep(frame.commands, stage_);
+        if (hands.sweep) flight.sweeps.push_back(*hands.sweep);
+        recordStep(frame.commands, stage_, hands, step == 0 ? times_.ofStep(frame.slot) : nullptr);
+        comparison_.recordStep(frame, hands, step == 0);
+    }
+    layers_.prepare(observer_.isInspecting());
+    const bool isLooked = observer_.ask(frame.slot, plan.steps, !journal_.isReplaying());
+    const sim::Overlap overlap = layers_.drawn().overlap();
+    stage_.recordSkin(frame.commands, isLooked ? sim::Overlap::none : overlap); // a ray meets all triangles
+    observer_.record(frame);
+    comparison_.recordPicture(frame, observer_.isMeasured(frame.slot), overlap);
+}
+
 void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
     const bool isReduced = prepared_.still && &view == &prepared_.moving;
-    const std::size_t scale = isReduced && !beside_ ? budget_.scale() : 0;
+    const bool areHalves = comparison_.simulation() != nullptr;
+    const std::size_t scale = isReduced && !areHalves ? budget_.scale() : 0;
     std::optional<Canvas>& canvas = view.canvases[scale];
-    if (!canvas && !beside_)
+    if (!canvas && !areHalves)
         canvas.emplace(view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views(),
                                                 PictureBudget::scales[scale]));
     if (canvas) view.renderer.prepareCanvas(overlay.layers, *canvas);
-    const bool isTimed = inFlight_[frame.slot].isTimed = screen_.timing().isOn();
-    vk::Commands commands(device_, frame.commands);
-    vk::Timestamps& times = drawingTimes_[frame.slot];
-    if (isTimed) times.reset(commands);
-    if (isTimed) times.begin(commands, 0);
-    if (beside_)
-        drawHalves(frame, overlay, view);
+    times_.begin(frame, PictureTimes::Part::drawing);
+    if (areHalves)
+        comparison_.drawHalves(frame, overlay, view);
     else
         view.renderer.record(frame.commands, frame.slot, *canvas, frame.image, controller_.camera,
                              stage_.simulation(), overlay);
-    if (isTimed) times.end(commands, 0);
-    if (std::exchange(wantsScreenshot_, false)) recordScreenshot(frame, overlay);
-    if (isTimed) times.begin(commands, 1);
-    drawPanels(frame, isReduced ? std::optional(PictureBudget::scales[scale]) : std::nullopt);
-    if (isTimed) times.end(commands, 1);
-}
-
-// Includes pictures that wait for one with a cut.
-bool Show::isOfCut(bool isCutting) {
-    if (isCutting) cutFrames_ = Presenter::framesInFlight + 1;
-    return cutFrames_ > 0 && cutFrames_-- > 0;
-}
-
-void Show::drawPanels(const Presenter::Frame& frame, std::optional<float> reduced) {
-    wishes_ = screen_.drawPanels(frame, sceneFacts_, facts(reduced), arePanelsDue_);
+    times_.end(frame, PictureTimes::Part::drawing);
+    capture_.recordPicture(frame, overlay);
+    times_.begin(frame, PictureTimes::Part::panels);
+    const auto reduced = isReduced ? std::optional(PictureBudget::scales[scale]) : std::nullopt;
+    wishes_ = screen_.drawPanels(frame, prepared_.facts, facts(reduced), arePanelsDue_);
     if (!wishes_.isEmpty()) panelsDue_ = picturesOfATouch;
+    times_.end(frame, PictureTimes::Part::panels);
 }
 
-// Adds the parameters of tools and playback.
-Knobs Show::shownKnobs() const {
-    Knobs knobs = knobs_;
-    knobs.bladeDepth = tools_.depth();
-    knobs.pace = static_cast<float>(controller_.playback.pace());
-    return knobs;
-}
-
+// `reduced` as Facts::reduced.
 Facts Show::facts(std::optional<float> reduced) const {
     Facts facts = gauges_.facts(stage_);
     facts.isPaused = controller_.playback.isPaused();
@@ -331,25 +371,151 @@ Facts Show::facts(std::optional<float> reduced) const {
     facts.scene = library_.current();
     facts.isOpening = library_.isOpening();
     facts.devices = devices_.list();
-    facts.layers = screen_.layers();
-    if (const auto& section = screen_.layers().section) {
-        const Reach reach = reachOf(*section, opening_.light.bounds);
-        facts.sectionReach = {reach.low, reach.high};
-    }
-    facts.map = mapRange_.newest();
-    facts.mapRange = mapRange_.range();
-    facts.contactsFound = contactsFound_;
-    if (drawn_.layers.hasCells) facts.grids = grids_;
-    if (drawn_.layers.hasLinks) facts.links = backstage_.inspection().links();
-    facts.isPreparing = drawn_.layers != screen_.layers();
-    facts.beside = besideFacts();
-    facts.isInspecting = inspector_.isOn();
-    facts.found = inspector_.found();
-    facts.isRecording = recording_.has_value();
-    facts.knobs = shownKnobs();
+    layers_.addTo(facts);
+    observer_.addTo(facts);
+    facts.beside = comparison_.facts();
+    facts.isRecording = capture_.isFilming();
+    facts.knobs = adjustments_.shown();
     facts.bladeDepths = {tools_.depths().least, tools_.depths().most};
     facts.pace = controller_.playback.pace();
     return facts;
+}
+
+// Takes the results of a frame that has finished.
+void Show::settle(std::uint32_t slot) {
+    const InFlight flight = std::exchange(inFlight_[slot], {});
+    const std::vector<double> phases = times_.settle(slot, flight.steps > 0);
+    if (!phases.empty()) {
+        const double step = std::accumulate(phases.begin(), phases.end(), 0.0);
+        status_.stepTimed(step);
+        budget_.stepTimed(step / 1000);
+        gauges_.stepTimed(phases);
+    }
+    observer_.settle(slot);
+    layers_.settle(slot);
+    comparison_.settle(slot);
+    const bool isUndone = !settleSteps(flight);
+    if (observer_.settleCount(slot, isUndone)) {
+        status_.setPieces(gauges_.pieces());
+        panelsDue_ = std::max(panelsDue_, 1u);
+    }
+    capture_.settle(slot, isUndone);
+}
+
+// False if a step was undone: all that came after it were undone as well.
+bool Show::settleSteps(const InFlight& flight) {
+    for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
+        const std::uint64_t step = flight.firstStep + i;
+        if (stage_.neededRoom(step) > 0) {
+            makeRoom(step, flight);
+            return false;
+        }
+        if (stage_.lacksLists(step)) {
+            repeatFrom(step, flight);
+            return false;
+        }
+        if (const std::optional<Divergence> divergence = stage_.check(step)) stop(divergence->sentence());
+        const sim::Status status = stage_.simulation().status(step);
+        observer_.stepFinished(status);
+        succession_.surfaceMissing(status.cutSurfaceMissing);
+        status_.setSleeping(status.sleeping);
+        status_.setPieces(gauges_.pieces());
+    }
+    return true;
+}
+
+// A step that lacked lists is to be repeated before anything that it must not go back behind. Nothing is
+// waited for while no such step is on its way, or while a material is there that no step asks for.
+void Show::settleNext(const Plan& plan) {
+    const bool isTurning = tools_.wantsHistory() || (stage_.isTurnReady() && plan.steps > 0);
+    const bool areOnTheirWay =
+        std::ranges::any_of(inFlight_, [](const InFlight& flight) { return flight.steps > 0; });
+    if (stage_.repeats() && isTurning && areOnTheirWay) return settleAll();
+    settle(screen_.presenter().nextSlot());
+}
+
+// Steps without room are undone by then and done again: no mistake of the program.
+void Show::settleAll() {
+    screen_.presenter().waitIdle();
+    for (std::uint32_t i = 0; i < Presenter::framesInFlight; ++i) // from the oldest on
+        settle((screen_.presenter().nextSlot() + i) % Presenter::framesInFlight);
+    if (stage_.lacksContactRoom() || isDiverged_) return;
+    for (const std::string& complaint : stage_.complaints()) screen_.warn(complaint);
+}
+
+// Later frames take the undone steps again, when there is a simulation with room for them.
+void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
+    screen_.presenter().waitIdle(); // a picture on its way writes into what tools forget
+    const std::uint64_t newest = stage_.steps();
+    if (!stage_.beginRoom(step)) return stop(app::tooCrowded(step));
+    comparison_.fallBehind(); // it has taken those steps
+    if (journal_.isReplaying()) {
+        if (stage_.wantsShape()) journal_.breakOff(); // the shape stands in the log already
+        stage_.keepShape();
+        journal_.endReplay("contacts need more room than when it was recorded");
+    }
+    tools_.restart(stage_, forgetUndone(undone), newest - stage_.steps());
+}
+
+// In the simulation that there is: the next frame takes the step again.
+void Show::repeatFrom(std::uint64_t step, const InFlight& undone) {
+    screen_.presenter().waitIdle();
+    const std::uint64_t newest = stage_.steps();
+    stage_.goBackBefore(step);
+    comparison_.fallBehind(); // it has taken those steps
+    gauges_.stepsRepeated(newest - stage_.steps());
+    tools_.takeBack(stage_, forgetUndone(undone), newest - stage_.steps());
+}
+
+// Returns the cuts of `undone`, which was settled, and of later frames: all of those steps were undone.
+std::vector<Sweep> Show::forgetUndone(const InFlight& undone) {
+    std::vector<Sweep> sweeps = undone.sweeps;
+    for (InFlight& later : inFlight_) { // at most one has some
+        sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());
+        later = {};
+    }
+    capture_.leaveOut();
+    return sweeps;
+}
+
+// The state of the stage is an earlier one. Steps on their way lead to a state that is no more: nobody need
+// look at them, nor cut again what they cut.
+void Show::forgetFlights() {
+    capture_.keepAll(); // the film keeps what has happened
+    for (InFlight& flight : inFlight_) flight = {};
+    comparison_.fallBehind(); // it goes on from there, too
+}
+
+void Show::stop(const std::string& why) {
+    isDiverged_ = true;
+    journal_.breakOff();
+    controller_.playback.pause();
+    screen_.warn(why);
+}
+
+void Show::endFilm() {
+    if (!capture_.isFilming()) return;
+    settleAll(); // the last pictures
+    capture_.endFilm();
+    capture_.freeCameras();
+}
+
+// True while something is made that hands wait for. Nobody waits for room for a surface.
+bool Show::isAwaited() const {
+    return backstage_.isMaking() || stage_.lacksContactRoom() || stage_.wantsShape() ||
+           comparison_.isMaking();
+}
+
+void Show::sayWhatIsMade() {
+    if (!isAwaited()) {
+        isMakingSaid_ = false;
+        return makingSince_.reset();
+    }
+    if (!makingSince_) makingSince_ = Clock::now();
+    if (isMakingSaid_ || Clock::now() - *makingSince_ < patience) return;
+    isMakingSaid_ = true;
+    screen_.tell(stage_.lacksContactRoom() ? "more room for contacts is being made: steps wait for it"
+                                           : "what is to be shown is being prepared");
 }
 
 } // namespace sinew::viewer

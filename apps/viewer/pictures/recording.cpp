@@ -3,11 +3,18 @@
 
 #include "app/guard.hpp"
 
+#include <cinttypes>
 #include <cstdio>
 
 namespace sinew::viewer {
 
 namespace fs = std::filesystem;
+
+std::string nameAt(const std::string& scene, std::uint64_t step) {
+    char stem[40];
+    std::snprintf(stem, sizeof stem, "-%06" PRIu64, step);
+    return scene + stem;
+}
 
 fs::path freeName(std::string name, const std::string& extension, const fs::path& folder) {
     for (char& c : name)

@@ -30,8 +30,11 @@ private:
     std::size_t count_ = 0;
 };
 
-/// A name for a file or folder in `folder`, or in the current folder, that does not exist yet: `name`, a
-/// suffix if needed, and `extension`.
+/// Stem of files about a step of a scene: "organ-000120".
+std::string nameAt(const std::string& scene, std::uint64_t step);
+
+/// `name` and `extension` with what makes a file or folder of `folder`, or of the current one, out of them
+/// that is not there yet.
 std::filesystem::path freeName(std::string name, const std::string& extension,
                                const std::filesystem::path& folder = {});
 

@@ -1,0 +1,59 @@
+// The layers of a scene on show: which are on, which are there to be drawn, what they say.
+#pragma once
+
+#include "viewer/backstage.hpp"
+#include "viewer/hands/pick.hpp"
+#include "viewer/show_context.hpp"
+
+namespace sinew::viewer {
+
+/// Main thread only.
+class LayerView {
+public:
+    /// `backstage` must outlive it.
+    LayerView(const ShowContext& show, Backstage& backstage) : show_(show), backstage_(backstage) {}
+
+    /// Does an action about layers or their section; false for any other.
+    bool act(Action action);
+    /// Moves the section, if there is one: to an offset of its plane [m], or as Input::slide.
+    void moveSectionTo(float offset);
+    void slideSection(float slide);
+    /// How the section opens the scene to rays, if there is one.
+    std::optional<Opened> opened() const;
+
+    /// Takes layers that have been made, and rehearses. Without memory no layer is on any more: false then.
+    bool tend();
+    /// Begins to make what is on and not there. Call it before record(). `isCounting`: contacts of a particle
+    /// are counted.
+    void prepare(bool isCounting);
+    /// Layers that are on and there.
+    const Layers& drawn() const noexcept { return drawn_.layers; }
+    /// Counts the contacts of a particle; null while it is not there.
+    const ContactMarks* counter() const noexcept { return backstage_.inspection().counter(); }
+    /// Records the kernels of drawn() and returns what the picture draws, with hands.
+    Overlay record(const Presenter::Frame& frame);
+    /// Takes the results of a slot that has finished.
+    void settle(std::uint32_t slot);
+    /// Forgets the layers: the stage has another simulation.
+    void restart();
+
+    void addTo(Facts& facts) const;
+
+private:
+    struct Pending {
+        ColorMap map = ColorMap::none;
+        bool hasContacts = false, hasCells = false;
+    };
+    void actOnSection(Action action);
+    void toggleWires();
+
+    const ShowContext& show_;
+    Backstage& backstage_;
+    Watched drawn_;
+    MapRange mapRange_;
+    std::uint32_t contactsFound_ = 0;
+    std::vector<GridFacts> grids_; // of the newest picture with cells
+    std::array<Pending, Presenter::framesInFlight> pending_;
+};
+
+} // namespace sinew::viewer

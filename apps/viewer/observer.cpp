@@ -1,0 +1,155 @@
+// One probe of positions, one of pieces.
+#include "viewer/observer.hpp"
+
+#include "viewer/hands/pick.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr double strainEvery = 0.25; // [s]: a copy of all positions
+constexpr double countEvery = 0.25;  // [s]: a copy of all triangles, while something is being cut
+
+} // namespace
+
+Observer::Observer(const ShowContext& show, const LayerView& layers, const Comparison& comparison,
+                   Gauges& gauges)
+    : show_(show), layers_(layers), comparison_(comparison), gauges_(gauges),
+      probe_(std::in_place, show.device, show.stage.scene(), show.stage.settings(), show.stage.simulation()),
+      pieceProbe_(show.device, show.stage),
+      inspector_(show.stage, show.opening.loaded.holds, Presenter::framesInFlight) {}
+
+void Observer::lookAt(Target target) {
+    wantsLook_ = Look{target, rayThrough(show_.controller.camera, pointer_)};
+}
+
+bool Observer::take(Input& input) {
+    return input.pointer != std::exchange(pointer_, input.pointer);
+}
+
+void Observer::takePress(Input& input) {
+    const auto isPress = [](const Input::Press& press) {
+        return press.isDown && press.action == Action::grab;
+    };
+    if (armed_ && std::erase_if(input.presses, isPress) > 0) lookAt(*std::exchange(armed_, std::nullopt));
+}
+
+// How many pieces have a surface is counted from what is drawn, some pictures later.
+void Observer::stepFinished(const sim::Status& status) {
+    wantsCount_ = status.linksCutInAll > 0 && (wantsCount_ || status.linksCutInAll != linksCut_);
+    linksCut_ = status.linksCutInAll;
+    allPieces_ = status.pieces;
+    gauges_.stepFinished(status);
+}
+
+bool Observer::isStrainDue(std::uint32_t steps) {
+    const auto now = Clock::now();
+    const bool isDue = steps > 0 && show_.screen.panels().isShown(show_.screen.presenter().extent()) &&
+                       now - lastStrain_ >= std::chrono::duration<double>(strainEvery);
+    if (isDue) lastStrain_ = now;
+    return isDue;
+}
+
+// True if something was cut since the last count and the time between counts has passed.
+bool Observer::isCountDue() {
+    const auto now = Clock::now();
+    if (!wantsCount_ || now - lastCount_ < std::chrono::duration<double>(countEvery)) return false;
+    wantsCount_ = false;
+    lastCount_ = now;
+    return true;
+}
+
+bool Observer::ask(std::uint32_t slot, std::uint32_t steps, bool asksTools) {
+    if (std::ranges::any_of(pending_, &Pending::isAny)) return false;
+    Pending& asked = pending_[slot];
+    asked.isBounded = std::exchange(wantsBounds_, false);
+    asked.look = std::exchange(wantsLook_, std::nullopt);
+    if (asksTools) asked.question = show_.tools.question();
+    asked.isMeasured = isStrainDue(steps);
+    asked.isInspected = inspector_.isDue(rayThrough(show_.controller.camera, pointer_));
+    asked.isCounted = isCountDue();
+    return asked.look || asked.question || asked.isInspected || asked.isCounted;
+}
+
+void Observer::record(const Presenter::Frame& frame) {
+    const Pending& asked = pending_[frame.slot];
+    if (!asked.isAny()) return;
+    probe_->record(frame.commands);
+    if (asked.isCounted) pieceProbe_.record(frame.commands);
+    if (!asked.isInspected) return;
+    probe_->recordVelocities(frame.commands);
+    inspector_.record(frame.commands, frame.slot, rayThrough(show_.controller.camera, pointer_),
+                      layers_.counter());
+}
+
+std::optional<Pick> Observer::pickAt(const Ray& ray, Among among) {
+    return pick(show_.stage.scene(), show_.opening.light.balls, ray, probe_->seen(), among, layers_.opened());
+}
+
+void Observer::answer(const Question& question) {
+    const auto found = pickAt(question.ray, question.among());
+    show_.tools.answer(question, found, found ? holdRadius(show_.stage.scene(), found->particle) : 0);
+}
+
+// settleCount() takes the rest.
+void Observer::settle(std::uint32_t slot) {
+    const Pending asked = std::exchange(pending_[slot], {.isCounted = pending_[slot].isCounted});
+    const bool isSeen = probe_->isComplete(); // else it is asked again
+    if (isSeen && asked.question && asked.question == show_.tools.question()) answer(*asked.question);
+    if (asked.isMeasured) gauges_.strainMeasured(measureStrain(show_.stage.scene(), *probe_));
+    if (asked.look && isSeen) settleLook(*asked.look);
+    if (asked.look && !isSeen && !wantsLook_) wantsLook_ = asked.look;
+    Camera& camera = show_.controller.camera;
+    if (const Box bounds = asked.isBounded ? probe_->bounds() : Box(); !bounds.isEmpty()) {
+        camera = framing(camera, bounds, comparison_.pictureAspect());
+        show_.redraw(); // what is on screen was seen from elsewhere
+    }
+    if (asked.isInspected)
+        inspector_.settle(slot, show_.opening.light.balls, *probe_, layers_.opened(), layers_.counter());
+}
+
+// A look that misses all bodies frames the scene and keeps the target of the orbit.
+void Observer::settleLook(const Look& look) {
+    Camera& camera = show_.controller.camera;
+    const auto found = pickAt(look.ray, Among::all);
+    if (look.at == Target::point) {
+        if (found) camera = centered(camera, found->point);
+    } else {
+        const Box box =
+            found ? probe_->bounds(bodyOf(show_.stage.scene(), found->particle)) : probe_->bounds();
+        if (!box.isEmpty()) camera = framing(camera, box, comparison_.pictureAspect());
+    }
+    show_.redraw();
+}
+
+bool Observer::settleCount(std::uint32_t slot, bool isUndone) {
+    const bool isCounted = std::exchange(pending_[slot].isCounted, false);
+    if (!isCounted || isUndone || linksCut_ == 0) return false; // 0: the state is an earlier one
+    gauges_.piecesCounted(pieceProbe_.count(allPieces_));
+    return true;
+}
+
+void Observer::restart() {
+    const Stage& stage = show_.stage;
+    probe_.emplace(show_.device, stage.scene(), stage.settings(), stage.simulation());
+    pieceProbe_.restart();
+    wantsCount_ = linksCut_ > 0; // a count that was asked for gets no answer
+    inspector_.restart();
+}
+
+void Observer::takeOver(const Observer& before) {
+    pointer_ = before.pointer_;
+    if (before.inspector_.isOn()) inspector_.toggle();
+    linksCut_ = before.linksCut_;
+    allPieces_ = before.allPieces_;
+}
+
+void Observer::addTo(Facts& facts) const {
+    facts.isInspecting = inspector_.isOn();
+    facts.found = inspector_.found();
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,85 @@
+// Two spans of drawing a slot, and a span for each phase of a step.
+#include "viewer/picture_times.hpp"
+
+#include "vk/commands.hpp"
+#include "vk/kernel_store.hpp"
+
+#include <numeric>
+#include <utility>
+
+namespace sinew::viewer {
+
+// Pipelines of the first scene were made before there was a window.
+PictureTimes::PictureTimes(const ShowContext& show)
+    : show_(show), pipelines_(show.device.kernels().pipelinesMade()) {
+    for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot)
+        slots_.push_back({stepTimes(), vk::Timestamps(show.device, 2)});
+}
+
+vk::Timestamps PictureTimes::stepTimes() const {
+    return {show_.device, static_cast<std::uint32_t>(show_.stage.simulation().phases().size())};
+}
+
+void PictureTimes::restart() {
+    for (Slot& slot : slots_) slot.step = stepTimes();
+}
+
+void PictureTimes::begin(const Presenter::Frame& frame, Part part) {
+    Slot& slot = slots_[frame.slot];
+    if (part == Part::drawing) slot.hasDrawing = show_.screen.timing().isOn();
+    if (!slot.hasDrawing) return;
+    vk::Commands commands(show_.device, frame.commands);
+    if (part == Part::drawing) slot.drawing.reset(commands);
+    slot.drawing.begin(commands, static_cast<std::uint32_t>(part));
+}
+
+void PictureTimes::end(const Presenter::Frame& frame, Part part) {
+    Slot& slot = slots_[frame.slot];
+    vk::Commands commands(show_.device, frame.commands);
+    if (slot.hasDrawing) slot.drawing.end(commands, static_cast<std::uint32_t>(part));
+}
+
+// Pictures that wait for one in which something was cut count as such, too.
+void PictureTimes::submitted(const Presenter::Frame& frame, bool isCutting) {
+    if (isCutting) cutFrames_ = Presenter::framesInFlight + 1;
+    show_.screen.timing().pictureSubmitted(frame.slot, cutFrames_ > 0);
+    if (cutFrames_ > 0) --cutFrames_;
+    onTheirWay(); // some are there when they have been presented
+    if (!show_.screen.timing().awaitsPicture()) return;
+    show_.screen.presenter().waitIdle();
+    countPipelines();
+    show_.screen.timing().firstPicture();
+}
+
+std::vector<double> PictureTimes::settle(std::uint32_t index, bool hasSteps) {
+    Slot& slot = slots_[index];
+    Timing& timing = show_.screen.timing();
+    timing.pictureFinished(index);
+    std::vector<double> phases;
+    if (hasSteps) phases = slot.step.milliseconds();
+    if (!phases.empty())
+        timing.times().add(FrameTimes::Kind::step, std::accumulate(phases.begin(), phases.end(), 0.0));
+    if (!std::exchange(slot.hasDrawing, false)) return phases;
+    const std::vector<double> drawing = slot.drawing.milliseconds();
+    if (drawing.size() < 2) return phases; // the device has no clock for it
+    timing.times().add(FrameTimes::Kind::drawing, drawing[0]);
+    timing.times().add(FrameTimes::Kind::panels, drawing[1]);
+    return phases;
+}
+
+std::size_t PictureTimes::onTheirWay() {
+    std::size_t count = 0;
+    for (std::size_t slot = 0; slot < slots_.size(); ++slot)
+        if (show_.screen.presenter().isFinished(slot))
+            show_.screen.timing().pictureFinished(slot);
+        else
+            ++count;
+    return count;
+}
+
+void PictureTimes::countPipelines() {
+    const std::size_t made = show_.device.kernels().pipelinesMade();
+    show_.screen.timing().times().addPipelines(made - std::exchange(pipelines_, made));
+}
+
+} // namespace sinew::viewer

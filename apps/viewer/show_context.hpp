@@ -1,0 +1,37 @@
+// References that the parts of a Show have in common, and what they ask of its loop.
+#pragma once
+
+#include "viewer/draw/stage.hpp"
+#include "viewer/hands/controller.hpp"
+#include "viewer/opening.hpp"
+#include "viewer/prepared_show.hpp"
+#include "viewer/screen.hpp"
+#include "viewer/tools.hpp"
+
+#include <cstdio>
+#include <functional>
+
+namespace sinew::viewer {
+
+/// Prints a line on the standard output, at once.
+inline void printLine(const std::string& text) {
+    std::printf("%s\n", text.c_str());
+    std::fflush(stdout);
+}
+
+/// All of it outlives the parts.
+struct ShowContext {
+    Screen& screen;
+    const vk::Device& device;
+    const Opening& opening;
+    PreparedShow& prepared;
+    Stage& stage;
+    Controller& controller;
+    Tools& tools;
+    std::function<void()> settleAll; ///< waits for all pictures on their way and takes their results
+    std::function<void()> redraw;    ///< makes a picture due, although nothing moves
+    std::function<void()>
+        wentBack; ///< the state of the stage is an earlier one: pictures on their way are void
+};
+
+} // namespace sinew::viewer
