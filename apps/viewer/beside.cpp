@@ -98,9 +98,8 @@ void Beside::recordStep(VkCommandBuffer commands, const Stage& first, const Step
     viewer::recordStep(commands, stage_, hands, isTimed ? &times_[slot] : nullptr);
 }
 
-void Beside::recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured,
-                           sim::Overlap overlap) noexcept {
-    stage_.recordSkin(commands, overlap);
+void Beside::recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured) noexcept {
+    stage_.recordSkin(commands);
     flights_[slot].isMeasured = isMeasured;
     if (isMeasured) probe_.record(commands);
 }

@@ -40,9 +40,8 @@ public:
     /// Records the step that was just recorded for `first`. `isTimed`: the step of the first is timed too.
     void recordStep(VkCommandBuffer commands, const Stage& first, const StepHands& hands, std::uint32_t slot,
                     bool isTimed) noexcept;
-    /// Records the skins for layers with that overlap and, if `isMeasured`, a copy of the particle positions.
-    void recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured,
-                       sim::Overlap overlap = sim::Overlap::none) noexcept;
+    /// What is drawn, and with `isMeasured` a copy of where particles are.
+    void recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured) noexcept;
 
     /// Why it cannot continue; if contacts need more room, for how many.
     struct Trouble {

@@ -51,7 +51,7 @@ bool Comparison::isFit() const {
     return beside.material() == show_.stage.material() && (!isBehind_ || beside.hasRoomOf(show_.stage));
 }
 
-// With the rooms of the first, and no less than in `room`.
+// Starts to make the second simulation with the first one's capacities, and at least those of `room`.
 void Comparison::make(const BesideShape& shape, const sim::Settings& room) {
     asked_ = shape;
     const sim::Settings settings = sim::withRoomsOf(show_.stage.settings(), room);
@@ -110,9 +110,8 @@ void Comparison::recordStep(const Presenter::Frame& frame, const StepHands& hand
     if (beside_ && !isBehind_) beside_->recordStep(frame.commands, show_.stage, hands, frame.slot, isTimed);
 }
 
-void Comparison::recordPicture(const Presenter::Frame& frame, bool isMeasured,
-                               sim::Overlap overlap) noexcept {
-    if (beside_) beside_->recordPicture(frame.commands, frame.slot, isMeasured, overlap);
+void Comparison::recordPicture(const Presenter::Frame& frame, bool isMeasured) noexcept {
+    if (beside_) beside_->recordPicture(frame.commands, frame.slot, isMeasured);
 }
 
 void Comparison::settle(std::uint32_t slot) {

@@ -32,7 +32,7 @@ public:
     /// Records the step that the first has just taken, if it is in step.
     void recordStep(const Presenter::Frame& frame, const StepHands& hands, bool isTimed) noexcept;
     /// Records the skins of a picture, and the copy that measures its strain if it `isMeasured`.
-    void recordPicture(const Presenter::Frame& frame, bool isMeasured, sim::Overlap overlap) noexcept;
+    void recordPicture(const Presenter::Frame& frame, bool isMeasured) noexcept;
     /// Takes the results of a slot that has finished.
     void settle(std::uint32_t slot);
 

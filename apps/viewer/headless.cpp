@@ -135,7 +135,7 @@ public:
         if (!isPictured) return std::nullopt;
         settle(); // first: a repeated step would be in no picture
         VkCommandBuffer commands = queue_.begin();
-        stage_.recordSkin(commands, layers_.overlap());
+        stage_.recordSkin(commands);
         const Overlay overlay = recordLayers(commands);
         if (times_) times_->beginDrawing(commands);
         if (beside_)
@@ -242,7 +242,7 @@ private:
     }
 
     void recordHalves(VkCommandBuffer commands, const Overlay& overlay) {
-        beside_->recordPicture(commands, 0, false, layers_.overlap());
+        beside_->recordPicture(commands, 0, false);
         const Overlay other = overlayBeside(overlay);
         offscreen_.recordHalves(commands, camera_,
                                 {{{stage_.simulation(), overlay}, {beside_->simulation(), other}}});

@@ -37,7 +37,7 @@ void Observer::takePress(Input& input) {
     if (armed_ && std::erase_if(input.presses, isPress) > 0) lookAt(*std::exchange(armed_, std::nullopt));
 }
 
-// How many pieces have a surface is counted from what is drawn, some pictures later.
+// Updates the counts of pieces; pieces with a surface are counted some pictures later, in a copy.
 void Observer::stepFinished(const sim::Status& status) {
     wantsCount_ = status.linksCutInAll > 0 && (wantsCount_ || status.linksCutInAll != linksCut_);
     linksCut_ = status.linksCutInAll;
@@ -62,8 +62,8 @@ bool Observer::isCountDue() {
     return true;
 }
 
-bool Observer::ask(std::uint32_t slot, std::uint32_t steps, bool asksTools) {
-    if (std::ranges::any_of(pending_, &Pending::isAny)) return false;
+void Observer::ask(std::uint32_t slot, std::uint32_t steps, bool asksTools) {
+    if (std::ranges::any_of(pending_, &Pending::isAny)) return;
     Pending& asked = pending_[slot];
     asked.isBounded = std::exchange(wantsBounds_, false);
     asked.look = std::exchange(wantsLook_, std::nullopt);
@@ -71,7 +71,6 @@ bool Observer::ask(std::uint32_t slot, std::uint32_t steps, bool asksTools) {
     asked.isMeasured = isStrainDue(steps);
     asked.isInspected = inspector_.isDue(rayThrough(show_.controller.camera, pointer_));
     asked.isCounted = isCountDue();
-    return asked.look || asked.question || asked.isInspected || asked.isCounted;
 }
 
 void Observer::record(const Presenter::Frame& frame) {
@@ -97,7 +96,7 @@ void Observer::answer(const Question& question) {
 // settleCount() takes the rest.
 void Observer::settle(std::uint32_t slot) {
     const Pending asked = std::exchange(pending_[slot], {.isCounted = pending_[slot].isCounted});
-    const bool isSeen = probe_->isComplete(); // else it is asked again
+    const bool isSeen = probe_->isComplete(); // otherwise asked again
     if (isSeen && asked.question && asked.question == show_.tools.question()) answer(*asked.question);
     if (asked.isMeasured) gauges_.strainMeasured(measureStrain(show_.stage.scene(), *probe_));
     if (asked.look && isSeen) settleLook(*asked.look);

@@ -40,8 +40,8 @@ public:
     /// Notes the counts of a step that has finished.
     void stepFinished(const sim::Status& status);
     /// Chooses the questions of a picture after `steps` steps. One copy answers all; none is asked while
-    /// another is on its way. `asksTools`: the tools may ask. True if a question is about what a ray meets.
-    bool ask(std::uint32_t slot, std::uint32_t steps, bool asksTools);
+    /// another is on its way. `asksTools`: the tools may ask.
+    void ask(std::uint32_t slot, std::uint32_t steps, bool asksTools);
     /// Records the copies for them, after the skins. True if the strain is asked.
     void record(const Presenter::Frame& frame);
     bool isMeasured(std::uint32_t slot) const noexcept { return pending_[slot].isMeasured; }
@@ -78,7 +78,7 @@ private:
     const LayerView& layers_;
     const Comparison& comparison_;
     Gauges& gauges_;
-    std::optional<StateProbe> probe_; // of the stage's simulation
+    std::optional<StateProbe> probe_; // for the stage's simulation
     PieceProbe pieceProbe_;
     Inspector inspector_;
     Vector2 pointer_ = Vector2::Zero(); // as Input::pointer

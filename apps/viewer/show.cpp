@@ -17,8 +17,8 @@ constexpr double idleWait = 0.1;                   // [s] at most between looks 
 constexpr double rehearsalWait = 0.005;            // [s] between looks at whether a rehearsal is over
 constexpr std::chrono::milliseconds patience{300}; // until hands are told that something is being made
 constexpr std::uint32_t picturesOfATouch = 3;      // until Dear ImGui shows what a press has changed
-constexpr std::uint32_t picturesOfAFocus = 5; // until Dear ImGui takes keys for a line that it has just got
-constexpr double stillAfter = 0.25;           // [s] without a change before a paused picture is the last one
+constexpr std::uint32_t picturesOfAFocus = 5;      // until Dear ImGui passes keys to a new text field
+constexpr double stillAfter = 0.25; // [s] without a change before a paused picture is the last one
 
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
 static_assert(6 * Presenter::framesInFlight < Renderer::slots); // films and files of halves
@@ -49,7 +49,7 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
       succession_(context_, {backstage_, layers_, observer_, times_, gauges_, adjustments_, journal_}),
       status_(opening_.loaded.scene, device) {
     if (!opening_.run || opening_.again) {
-        controller_.playback.reset(); // fills the buffers
+        controller_.playback.reset(); // initialises the buffers
         return;
     }
     adjustments_.begin(*opening_.run);
@@ -86,16 +86,16 @@ std::unique_ptr<Opening> Show::run() {
     const app::Writing writing;
     endFilm();
     capture_.reportFiles(PictureWriter::Wait::yes);
-    if (next && !next->again) screen_.layers().section.reset(); // it was of this scene
-    shown_ = Shown::nothing;                                    // should it go on
+    if (next && !next->again) screen_.layers().section.reset(); // it belonged to this scene
+    shown_ = Shown::nothing;                                    // run() may be called again
     return next;
 }
 
 // One look at the input, and a picture where there is something to be seen.
 void Show::turn() {
     const bool isIdle = isHidden_ || (shown_ == Shown::still && panelsDue_ == 0);
-    const bool isBusy = backstage_.isBusy();        // pictures wait for it, hands do not
-    if (!isBusy) screen_.presenter().waitForSlot(); // the next picture has what came until it can be drawn
+    const bool isBusy = backstage_.isBusy();        // pictures wait for it, input does not
+    if (!isBusy) screen_.presenter().waitForSlot(); // the next picture then uses the newest input
     screen_.timing().beforeInput(isIdle);
     const bool isMaking = isAwaited() || stage_.isGrowing();
     Input input = screen_.window().poll(isBusy || (isIdle && isMaking) ? rehearsalWait
@@ -105,7 +105,7 @@ void Show::turn() {
     comparison_.fold(input);
     const bool hasMoved = observer_.take(input);
     const bool isUsed = hasMoved || !input.presses.empty();
-    // Panels change over a still scene without taking its quality away.
+    // Changes of panels over a still scene keep its quality.
     const bool isBladeLent = !journal_.isReplaying() && tools_.lendBlade(input.held == Action::blade, isUsed);
     if (isBladeLent) input.needsRedraw = true;
     const bool areAsked = !input.actions.empty() || !input.presses.empty() || isBladeLent;
@@ -233,7 +233,7 @@ void Show::play() {
     if (isLast) settleAll();
 }
 
-// A film has a picture of every step.
+// Plans steps; a film has a picture of every step.
 Plan Show::plan(double elapsed) {
     const bool isOneByOne = capture_.isFilming() || journal_.isReplaying();
     const std::uint32_t most = isOneByOne ? 1 : budget_.steps(Playback::maxSteps);
@@ -294,9 +294,9 @@ void Show::recordReset(VkCommandBuffer commands) {
 void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     InFlight& flight = inFlight_[frame.slot];
     if (plan.isReset) recordReset(frame.commands);
-    const bool isWhole = stage_.undoneSteps() == 0 || isDiverged_; // else those steps are taken again first
+    const bool isWhole = stage_.undoneSteps() == 0 || isDiverged_; // otherwise those steps are repeated first
     if (!stage_.lacksContactRoom() && !stage_.wantsShape() && isWhole &&
-        tools_.recordHistory(frame.commands, stage_)) { // else later, from where steps go on
+        tools_.recordHistory(frame.commands, stage_)) { // otherwise later
         forgetFlights();
         isDiverged_ = false;
     }
@@ -304,7 +304,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     stage_.setRepeats(!journal_.isReplaying()); // a log has no such steps
     flight.firstStep = stage_.steps() + 1;
     if (const std::uint64_t undone = stage_.undoneSteps();
-        undone > 0) // alone: what waits for them comes later
+        undone > 0) // repeats them alone: new steps come in later frames
         plan.steps = static_cast<std::uint32_t>(std::min<std::uint64_t>(plan.steps, undone));
     else
         controller_.playback.taken(plan.steps);
@@ -320,11 +320,10 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         comparison_.recordStep(frame, hands, step == 0);
     }
     layers_.prepare(observer_.isInspecting());
-    const bool isLooked = observer_.ask(frame.slot, plan.steps, !journal_.isReplaying());
-    const sim::Overlap overlap = layers_.drawn().overlap();
-    stage_.recordSkin(frame.commands, isLooked ? sim::Overlap::none : overlap); // a ray meets all triangles
+    observer_.ask(frame.slot, plan.steps, !journal_.isReplaying());
+    stage_.recordSkin(frame.commands);
     observer_.record(frame);
-    comparison_.recordPicture(frame, observer_.isMeasured(frame.slot), overlap);
+    comparison_.recordPicture(frame, observer_.isMeasured(frame.slot));
 }
 
 void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
@@ -424,8 +423,9 @@ bool Show::settleSteps(const InFlight& flight) {
     return true;
 }
 
-// A step that lacked lists is to be repeated before anything that it must not go back behind. Nothing is
-// waited for while no such step is on its way, or while a material is there that no step asks for.
+// Handles the next frame's slot. Before an undo or a material change all frames are handled, since a step
+// without contact lists must be repeated first. Does not wait if no step is in flight, or if no step will use
+// the new material.
 void Show::settleNext(const Plan& plan) {
     const bool isTurning = tools_.wantsHistory() || (stage_.isTurnReady() && plan.steps > 0);
     const bool areOnTheirWay =
@@ -437,15 +437,15 @@ void Show::settleNext(const Plan& plan) {
 // Steps without room are undone by then and done again: no mistake of the program.
 void Show::settleAll() {
     screen_.presenter().waitIdle();
-    for (std::uint32_t i = 0; i < Presenter::framesInFlight; ++i) // from the oldest on
+    for (std::uint32_t i = 0; i < Presenter::framesInFlight; ++i) // oldest first
         settle((screen_.presenter().nextSlot() + i) % Presenter::framesInFlight);
     if (stage_.lacksContactRoom() || isDiverged_) return;
     for (const std::string& complaint : stage_.complaints()) screen_.warn(complaint);
 }
 
-// Later frames take the undone steps again, when there is a simulation with room for them.
+// Later frames repeat the undone steps, once a simulation with capacity for them is ready.
 void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
-    screen_.presenter().waitIdle(); // a picture on its way writes into what tools forget
+    screen_.presenter().waitIdle(); // pictures in flight write into what the tools drop
     const std::uint64_t newest = stage_.steps();
     if (!stage_.beginRoom(step)) return stop(app::tooCrowded(step));
     comparison_.fallBehind(); // it has taken those steps
@@ -457,7 +457,7 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     tools_.restart(stage_, forgetUndone(undone), newest - stage_.steps());
 }
 
-// In the simulation that there is: the next frame takes the step again.
+// Repeats from a step in the same simulation, in the next frame.
 void Show::repeatFrom(std::uint64_t step, const InFlight& undone) {
     screen_.presenter().waitIdle();
     const std::uint64_t newest = stage_.steps();

@@ -55,8 +55,7 @@ void warmUp(const vk::Device& device, PreparedShow& show, VkFormat format, const
     show.stage.recordReset(commands);
     const bool canCut = std::ranges::any_of(show.stage.scene().grids, &sim::Grid::isCuttable);
     show.stage.recordStep(commands, nullptr, {}, canCut ? sim::Blade{blade.from, blade.to} : sim::Blade{});
-    for (const sim::Overlap overlap : {sim::Overlap::none, sim::Overlap::some})
-        show.stage.recordSkin(commands, overlap);
+    show.stage.recordSkin(commands);
     queue.wait(queue.submit(commands));
     for (const float scale : PictureBudget::scales)
         draw(device, queue, show.moving, format, scale, camera, show.stage);

@@ -145,20 +145,16 @@ struct Gradient {
 struct SkinFace {
     uint item; // 16 times the cell, plus the bit: there are fewer than 2^28 cells, each of which has 16 bytes of one buffer
     uint triangle;
-    uint mixed; // the triangle in a mixed skin
-    uint whole; // index of the whole triangle that contains it, or NO_WHOLE
+    uint whole; // the whole triangle that it is a part of, or NO_WHOLE
+    uint padding; // a face is one texel
 };
 #define NO_WHOLE 0xffffffffu
 
-// A skin triangle before it was split. A mixed skin has whole triangles away from cuts, and their parts beside cuts;
-// where the two meet, it has both.
+// A triangle of a skin as it was before it was split.
 struct WholeTriangle {
-    uint vertices[3]; // indices of HungVertex
-    uint mixed;       // index in the mixed skin
+    uint vertices[3]; // HungVertex
 };
-#define WHOLE_ALONE 0u
-#define WHOLE_MIXED 1u  // with its parts
-#define WHOLE_PARTED 2u // only its parts
+#define WHOLE_PARTED 1u // state of a whole triangle beside a cut; elsewhere 0
 
 // A vertex that occurs in parts of whole triangles only: its place in one of them.
 struct PartVertex {
@@ -166,17 +162,6 @@ struct PartVertex {
     uint whole;      // index of WholeTriangle
     float shares[2]; // barycentric, of its second and third corner
 };
-
-// Words with one bit for each of MIXED_WORD triangles of a mixed skin, which begins with a whole triangle.
-struct MixedWords {
-    uint first, count;
-};
-#define MIXED_WORD 32u
-
-// Bits: the values of a vertex that drawing a mixed skin needs.
-#define VERTEX_PLACED 1u   // its position
-#define VERTEX_SHOWN 2u    // and its normal, from the triangles of parts
-#define VERTEX_OF_PARTS 4u // or, for a vertex of parts alone, interpolated between the corners of a whole triangle (light_parts)
 
 struct WholePush {
     uint count;    // vertices bound to a lattice

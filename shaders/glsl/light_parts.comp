@@ -1,7 +1,7 @@
 #version 460
-// Normals of mixed skins at vertices of parts alone, which lie in one triangle of the mesh or on the edge of two:
-// interpolated between the normals of the triangle's corners, as when it is drawn whole, so that the two look alike.
-// Beside a cut the corners may be on its other side, and the gradient of the material is used instead.
+// Normals of split skins at vertices that only parts have, each in one or two whole triangles: interpolated between the corners of
+// one, as it was lit before the cut. The corners of a whole triangle beside a cut may be on the other side of it: there the normal at
+// rest is turned with the material.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -14,9 +14,6 @@ layout(std430, binding = 9) buffer Vertices { SkinVertex vertices[]; };
 layout(std430, binding = 10) readonly buffer Wholes { WholeTriangle wholes[]; };
 layout(std430, binding = 11) readonly buffer States { uint states[]; };
 layout(std430, binding = 12) readonly buffer Rims { uint rims[]; };
-#ifdef SHOWN
-layout(std430, binding = 13) readonly buffer Shown { uint shown[]; };
-#endif
 layout(push_constant) uniform Push { CountPush push; };
 
 #include "turned_normal.glsl"
@@ -29,9 +26,6 @@ void main() {
     const PartVertex part = parts[item];
     if (rims[part.vertex] != 0u) return; // turn_rims computes it
     const HungVertex vertex = hungAt(part.vertex);
-#ifdef SHOWN
-    if ((shown[vertex.vertex] & VERTEX_SHOWN) == 0u) return;
-#endif
     const WholeTriangle whole = wholes[part.whole];
     const float b = part.shares[0], c = part.shares[1];
     vec3 normal;

@@ -1,5 +1,5 @@
 #version 460
-// Mixed skins, second pass: marks the corners of whole triangles that are replaced by their parts.
+// Split skins, second pass: marks the corners of whole triangles beside a cut.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
-// Mixed skins, first pass: marks whole triangles that are replaced by their parts, because one part is drawn in
-// pieces, or a vertex beside a cut may have left its place in the whole triangle.
+// Split skins, first pass: finds the whole triangles beside a cut. A part of such a one is drawn in pieces, or one of its corners may
+// have moved onto the rim or lies in a cell that the cut parts.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -18,17 +18,11 @@ layout(std430, binding = 1) readonly buffer Cells { CellVertex cells[]; };
 CellVertex cellAt(uint i) { return cells[i]; }
 #endif
 layout(std430, binding = 2) writeonly buffer Vertices { SkinVertex vertices[]; };
-#ifdef SHOWN // only vertices that a mixed skin draws
-layout(std430, binding = 3) readonly buffer Shown { uint shown[]; };
-#endif
 layout(push_constant) uniform Push { SkinPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
-#ifdef SHOWN
-    if ((shown[push.firstVertex + i] & VERTEX_PLACED) == 0u) return;
-#endif
     const CellVertex cell = cellAt(i);
     const vec3 t = cell.weights.xyz;
     vec3 x = vec3(0.0);

@@ -28,14 +28,11 @@ layout(std430, binding = 3) readonly buffer TrianglesOfVertex { uint trianglesOf
 #define VERTEX(i) vertices[i].position.xyz
 #define NEXT 4
 #endif
-#ifdef WHOLE // for mixed skins: where all triangles around a vertex are whole
+#ifdef WHOLE // corners of whole triangles around which none is beside a cut
 layout(std430, binding = NEXT) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = NEXT + 1) readonly buffer Marks { uint marks[]; }; // one per bound vertex
 layout(push_constant) uniform Push { WholePush push; };
 #else
-#ifdef SHOWN // only vertices that a mixed skin draws
-layout(std430, binding = NEXT) readonly buffer Shown { uint shown[]; };
-#endif
 layout(push_constant) uniform Push { CountPush push; };
 #endif
 
@@ -47,9 +44,6 @@ void main() {
     if (i >= push.vertices || marks[item] != 0u) return;
 #else
     const uint i = item;
-#endif
-#ifdef SHOWN
-    if ((shown[i] & (VERTEX_SHOWN | VERTEX_OF_PARTS)) != VERTEX_SHOWN) return;
 #endif
     const uvec2 fan = FAN(i);
 #ifdef WHOLE

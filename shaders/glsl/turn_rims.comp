@@ -1,7 +1,6 @@
 #version 460
-// Normals of skins beside a cut. In mixed skins also those at corners of whole triangles replaced by their parts,
-// where the gradient is known: corners farther away have the normal of their triangles, none of which is distorted by
-// a rim.
+// Normals of skins beside a cut. In split skins also of the corners of whole triangles beside a cut, as far as it is known how the
+// material has turned: corners beyond that have the normal of their triangles, none of which a rim draws together.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -11,7 +10,7 @@ layout(std430, binding = 0) readonly buffer Rims { uint rims[]; };
 #include "hung_vertex.glsl"
 layout(std430, binding = 8) readonly buffer Grids { SkinGrid grids[]; }; // by skin
 layout(std430, binding = 9) writeonly buffer Vertices { SkinVertex vertices[]; };
-#ifdef MIXED
+#ifdef SPLIT
 layout(std430, binding = 10) readonly buffer Marks { uint marks[]; };
 #endif
 layout(push_constant) uniform Push { PrismPush push; };
@@ -22,7 +21,7 @@ void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
     bool isTurned = rims[i] != 0u;
-#ifdef MIXED
+#ifdef SPLIT
     isTurned = isTurned || (marks[i] != 0u && NEAR(hungAt(i).anchor) != 0u);
 #endif
     if (!isTurned) return;

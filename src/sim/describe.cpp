@@ -160,7 +160,6 @@ std::string describe(const StepProgram& program) {
     print(text, program, program.step);
     if (!program.skin.empty()) print(text, program, program.skin);
     if (!program.wholeSkin.empty()) print(text, program, program.wholeSkin);
-    if (!program.mixedSkin.empty()) print(text, program, program.mixedSkin);
     const PassCounts counts = countPasses(program, plainStep), calm = countPasses(program, calmStep);
     text << "\nper step: " << counts.dispatches << " dispatches, " << counts.passes - counts.dispatches
          << " fills, copies and updates, " << counts.barriers << " barriers, "

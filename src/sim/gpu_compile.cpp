@@ -9,8 +9,7 @@ namespace {
 
 std::uint64_t mostTexels(const StepProgram& program) {
     std::uint64_t most = 0;
-    for (const std::vector<Pass>* list :
-         {&program.step, &program.skin, &program.wholeSkin, &program.mixedSkin})
+    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin})
         for (const Pass& pass : *list)
             for (std::size_t b = 0; pass.kind == PassKind::dispatch && b < boundUses(pass).size(); ++b) {
                 const BufferSpec& spec = program.buffers[pass.uses[b].buffer.index];

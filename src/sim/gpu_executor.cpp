@@ -13,7 +13,7 @@ namespace {
 // By buffer: whether it holds the arguments of an indirect dispatch.
 std::vector<bool> holdArguments(const StepProgram& program) {
     std::vector<bool> result(program.buffers.size());
-    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.mixedSkin})
+    for (const std::vector<Pass>* list : {&program.step, &program.skin})
         for (const Pass& pass : *list)
             if (pass.isIndirect) result[pass.uses.back().buffer.index] = true;
     return result;
@@ -31,10 +31,9 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
         if (id == program.skinVertices || id == program.positions || id == program.velocities ||
             id == program.cutting.pieces || id == cut.vertices || id == cut.rest)
             usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-        if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws || id == program.mixedDraws)
+        if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws)
             usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-        if (id == program.skinIndices || id == program.wholeIndices || id == program.mixedIndices ||
-            id == cut.indices)
+        if (id == program.skinIndices || id == program.wholeIndices || id == cut.indices)
             usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
         buffers.emplace_back(device, vk::BufferRequest{.name = spec.label,
                                                        .count = spec.initialOf ? 1 : spec.count,
@@ -87,8 +86,8 @@ struct SetPlan {
 
 SetPlan planSets(const StepProgram& program) {
     SetPlan plan;
-    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin,
-                                          &program.mixedSkin, &program.settle, &program.adopt}) {
+    for (const std::vector<Pass>* list :
+         {&program.step, &program.skin, &program.wholeSkin, &program.settle, &program.adopt}) {
         for (const Pass& pass : *list) {
             if (pass.kind != PassKind::dispatch) continue;
             const auto isSame = [&](const Pass* other) { return isSameDispatch(*other, pass); };
@@ -120,13 +119,11 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     step_ = resolve(program.step, nextSet);
     skin_ = resolve(program.skin, nextSet);
     wholeSkin_ = resolve(program.wholeSkin, nextSet);
-    mixedSkin_ = resolve(program.mixedSkin, nextSet);
     settle_ = resolve(program.settle, nextSet);
     adopt_ = resolve(program.adopt, nextSet);
     checkGroups(step_, device.limits().maxGroupCount);
     checkGroups(skin_, device.limits().maxGroupCount);
     checkGroups(wholeSkin_, device.limits().maxGroupCount);
-    checkGroups(mixedSkin_, device.limits().maxGroupCount);
     checkGroups(settle_, device.limits().maxGroupCount);
     checkGroups(adopt_, device.limits().maxGroupCount);
     for (const Recorded& pass : step_) {
@@ -200,10 +197,6 @@ void GpuExecutor::skin(vk::Commands& commands) noexcept {
 
 void GpuExecutor::wholeSkin(vk::Commands& commands) noexcept {
     record(commands, wholeSkin_, {}, nullptr);
-}
-
-void GpuExecutor::mixedSkin(vk::Commands& commands) noexcept {
-    record(commands, mixedSkin_, {}, nullptr);
 }
 
 void GpuExecutor::settle(vk::Commands& commands) noexcept {

@@ -27,8 +27,7 @@ public:
               Recording recording = {}) noexcept;
     void skin(vk::Commands& commands) noexcept;
     void wholeSkin(vk::Commands& commands) noexcept;
-    void mixedSkin(vk::Commands& commands) noexcept;
-    /// Records the passes that recompute what follows from the scene alone (StepProgram::settle).
+    /// Makes of a state that was put into the buffers one of this program (StepProgram::settle).
     void settle(vk::Commands& commands) noexcept;
     /// Records the passes that initialise this program's state from the public state (StepProgram::adopt).
     void adopt(vk::Commands& commands) noexcept;
@@ -70,7 +69,7 @@ private:
     std::vector<std::shared_ptr<const vk::Kernel>> kernels_;
     std::vector<vk::BindingSets> sets_;
     std::vector<std::size_t> setOfPass_;
-    std::vector<Recorded> step_, skin_, wholeSkin_, mixedSkin_, settle_, adopt_;
+    std::vector<Recorded> step_, skin_, wholeSkin_, settle_, adopt_;
     std::vector<std::uint32_t> timedPhases_;
 };
 

@@ -185,7 +185,6 @@ StepProgram ProgramBuilder::finish() {
         planBarriers(program_.step, program_.buffers.size(), recording);
     planBarriers(program_.skin, program_.buffers.size());
     planBarriers(program_.wholeSkin, program_.buffers.size());
-    planBarriers(program_.mixedSkin, program_.buffers.size());
     planBarriers(program_.settle, program_.buffers.size());
     planBarriers(program_.adopt, program_.buffers.size());
     return std::move(program_);

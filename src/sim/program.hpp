@@ -251,10 +251,8 @@ struct StepProgram {
     std::vector<Pass> skin;          ///< recorded to draw the skins; may be empty
     /// Instead of `skin` while nothing is cut, for wholeIndices; empty if no skin has whole triangles.
     std::vector<Pass> wholeSkin;
-    /// Instead of `skin` once something is cut, for mixedIndices; empty without these.
-    std::vector<Pass> mixedSkin;
-    /// Recorded after a state of another material, or of other substeps, was put into the buffers: recomputes
-    /// the values that follow from the scene alone. May be empty.
+    /// Recorded after a state of another material, or of other substeps, was put into the buffers: makes what
+    /// of the state follows from the scene alone that of this program. May be empty.
     std::vector<Pass> settle;
     /// Recorded after another solver's public state was put into the public buffers: initialises this
     /// solver's state from it. Empty without public velocities.
@@ -264,16 +262,7 @@ struct StepProgram {
     std::vector<Carried> carried;     ///< buffers copied when a simulation takes over another's state
     BufferId parameters, status, positions, velocities; ///< public buffers; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
-    BufferId wholeIndices;                              ///< of all skins: wholeTriangles, else triangles
-    // Skins once something is cut; invalid if no skin is split.
-    BufferId mixedTriangles; ///< of both kinds: undrawn ones are collapsed to points
-    BufferId mixedIndices;   ///< the drawn ones, in that order
-    BufferId mixedDraws;     ///< of mixedIndices, by skin: layout::DrawArguments
-    BufferId shownVertices;  ///< by vertex of all skins: why it is needed for drawing (VERTEX_SHOWN ...)
-    struct IndexRange {
-        std::uint32_t first = 0, count = 0;
-    };
-    std::vector<IndexRange> mixedRanges; ///< by skin: capacity in mixedTriangles and mixedIndices
+    BufferId wholeIndices;                              ///< Skin::wholeTriangles, or triangles, of all skins
     ContactBuffers contacts;
     std::vector<GridBuffers> grids; ///< one for each contact search that uses a grid
     SleepBuffers sleep;
@@ -423,9 +412,7 @@ public:
     /// them.
     void beginSkin() { skinList_ = &StepProgram::skin; }
     void beginWholeSkin() { skinList_ = &StepProgram::wholeSkin; }
-    void beginMixedSkin() { skinList_ = &StepProgram::mixedSkin; }
-    bool isOfMixedSkin() const { return skinList_ == &StepProgram::mixedSkin; }
-    /// Passes from here to endSettling() belong to StepProgram::settle; gates do not change them.
+    /// Passes from here on, until endSettling(), belong to StepProgram::settle; no gate changes them.
     void beginSettling() { isSettling_ = true; }
     void endSettling() { isSettling_ = false; }
     /// Passes from here to endAdopting() belong to StepProgram::adopt; gates do not change them.

@@ -34,7 +34,6 @@ bool haveOneShape(const StepProgram& a, const StepProgram& b) {
            std::ranges::equal(a.buffers, b.buffers, isSameBuffer) &&
            std::ranges::equal(a.step, b.step, isSamePass) && std::ranges::equal(a.skin, b.skin, isSamePass) &&
            std::ranges::equal(a.wholeSkin, b.wholeSkin, isSamePass) &&
-           std::ranges::equal(a.mixedSkin, b.mixedSkin, isSamePass) &&
            std::ranges::equal(a.settle, b.settle, isSamePass);
 }
 
@@ -55,8 +54,7 @@ void markWritten(const std::vector<Pass>& passes, std::vector<bool>& isWritten) 
 
 std::vector<bool> areWritten(const StepProgram& program) {
     std::vector<bool> isWritten(program.buffers.size());
-    for (const std::vector<Pass>* list :
-         {&program.step, &program.skin, &program.wholeSkin, &program.mixedSkin, &program.settle})
+    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin, &program.settle})
         markWritten(*list, isWritten);
     return isWritten;
 }
@@ -70,7 +68,6 @@ std::optional<ProgramValues> valuesOf(const StepProgram& from, const StepProgram
                          .step = pushesOf(from.step, to.step),
                          .skin = pushesOf(from.skin, to.skin),
                          .wholeSkin = pushesOf(from.wholeSkin, to.wholeSkin),
-                         .mixedSkin = pushesOf(from.mixedSkin, to.mixedSkin),
                          .settle = pushesOf(from.settle, to.settle)};
     for (std::uint32_t b = 0; b < from.buffers.size(); ++b) {
         if (from.buffers[b].initial == to.buffers[b].initial) continue;
@@ -89,7 +86,6 @@ void take(StepProgram& program, ProgramValues values) noexcept {
     setPushes(program.step, values.step);
     setPushes(program.skin, values.skin);
     setPushes(program.wholeSkin, values.wholeSkin);
-    setPushes(program.mixedSkin, values.mixedSkin);
     setPushes(program.settle, values.settle);
 }
 

@@ -21,7 +21,7 @@ struct ProgramValues {
         std::vector<std::byte> bytes;
     };
     std::vector<Contents> buffers;
-    std::vector<Push> step, skin, wholeSkin, mixedSkin, settle;
+    std::vector<Push> step, skin, wholeSkin, settle;
 };
 
 /// The differences from `from` to `to`. Empty if the programs have different buffers, kernels or passes, or

@@ -251,8 +251,8 @@ struct Skin {
     /// Empty, or the same surface in fewer triangles between the first of the vertices: the skin before
     /// mesh::addMesh split it, drawn while nothing is cut (SkinDetail::drawn).
     std::vector<std::array<std::uint32_t, 3>> wholeTriangles;
-    /// Empty, or for each of `triangles` the index of the whole triangle that it is a part of. Away from cuts
-    /// the whole triangle is drawn in place of its parts (Simulation::drawnSkins).
+    /// Empty, or for each of `triangles` the whole triangle that it is a part of: after a cut, parts away
+    /// from it are lit as their whole triangle was.
     std::vector<std::uint32_t> wholeOf;
     Vec3 color{0.78f, 0.36f, 0.32f}; ///< linear RGB
     std::size_t vertexCount() const { return particles.empty() ? cells.size() : particles.size(); }

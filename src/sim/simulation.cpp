@@ -170,15 +170,12 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->hasNewTopology = state_->isChanged = state_->isNewState = false;
 }
 
-void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail, Overlap overlap) noexcept {
+void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail) noexcept {
     if (!state_->hasState) state_->misuse.note(Misuse::noReset, state_->nextFrame);
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    const bool isDrawn = detail == SkinDetail::drawn;
-    if (isDrawn && drawnSkins().areWhole)
+    if (detail == SkinDetail::drawn && drawnSkins().areWhole)
         state_->executor.wholeSkin(commands);
-    else if (isDrawn && overlap == Overlap::some && !state_->program.mixedSkin.empty())
-        state_->executor.mixedSkin(commands);
     else
         state_->executor.skin(commands);
     commands.endStep();
@@ -205,12 +202,9 @@ vk::BufferView Simulation::skinIndices() const noexcept {
 const std::vector<SkinRange>& Simulation::skins() const noexcept {
     return state_->skins;
 }
-Simulation::DrawnSkins Simulation::drawnSkins(Overlap overlap) const noexcept {
+Simulation::DrawnSkins Simulation::drawnSkins() const noexcept {
     const vk::BufferView whole = view(state_->program.wholeIndices);
     if (state_->isUncut && whole.size > 0) return {whole, state_->wholeSkins, true};
-    const vk::BufferView mixed = view(state_->program.mixedIndices);
-    if (overlap == Overlap::some && mixed.size > 0)
-        return {mixed, state_->mixedSkins, false, view(state_->program.mixedDraws)};
     return {skinIndices(), state_->skins};
 }
 CutSurface Simulation::cutSurface() const noexcept {

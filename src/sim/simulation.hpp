@@ -202,19 +202,15 @@ struct SavedState {
     std::optional<float> undoneH{}; ///< substep of the undone steps after that one [s]
 };
 
-/// Triangles that recordSkin() updates for skins that were split for cutting: all of them, or only those to
-/// be drawn (drawnSkins()), which are fewer.
+/// Vertices that recordSkin() makes of skins that were split so that they may be cut: all of them, or only
+/// those of drawnSkins(), which are fewer while nothing is cut.
 enum class SkinDetail { all, drawn };
 
-/// Whether triangles of a skin may be drawn as overlapping coarse and fine triangles, which makes them fewer
-/// after a cut. Not for rendering that counts, blends or outlines triangles.
-enum class Overlap { none, some };
-
-/// The surface of cuts, drawn in addition to the skins after recordSkin(): the cut surface inside the body
-/// and the clipped pieces of skins beside it. The skin's own triangles that the pieces replace become
-/// degenerate. Both parts together form a closed two-sided surface: each piece has its own side. Views are
-/// empty if no skin is clipped. Cuttable bodies have such a surface if their skin is the outer faces of their
-/// cells (addLatticeSkin), or a closed mesh with Skin::anchors (mesh::addMesh).
+/// The surface of cuts, to be drawn beside the skins after recordSkin(): the inside that a blade laid open,
+/// and the pieces of skins beside it. Those of the skin's own triangles that pieces stand for are degenerate
+/// from then on. Closed where both are taken together, two-sided: each piece has its own side. Views are
+/// empty where no skin is clipped: bodies that may be cut have such a surface where their skin is the outer
+/// faces of their cells (addLatticeSkin), or a closed mesh with Skin::anchors (mesh::addMesh).
 struct CutSurface {
     vk::BufferView vertices{}; ///< layout::SkinVertex (position, normal; stride 32)
     /// layout::CutVertex of each vertex (stride 64). Its first vec4 is for a solid texture: position in the
@@ -339,9 +335,8 @@ public:
     void recordLoadTopology(VkCommandBuffer commands, const vk::BufferView& from) noexcept;
 
     /// Records the skins of the newest recorded state; afterwards skinVertices() is visible to vertex input.
-    /// With SkinDetail::drawn only the vertices of drawnSkins(overlap) are updated.
-    void recordSkin(VkCommandBuffer commands, SkinDetail detail = SkinDetail::all,
-                    Overlap overlap = Overlap::none) noexcept;
+    /// With SkinDetail::drawn only vertices of drawnSkins() are those of this state.
+    void recordSkin(VkCommandBuffer commands, SkinDetail detail = SkinDetail::all) noexcept;
 
     /// Public state [m], [m/s]: particleCount x vec4, stride 16, w = inverse mass [1/kg], 0 while the
     /// particle sleeps. `split` reports the velocity half a substep before the step's end (leapfrog). Without
@@ -359,20 +354,15 @@ public:
     vk::BufferView skinVertices() const noexcept;
     vk::BufferView skinIndices() const noexcept;
     const std::vector<SkinRange>& skins() const noexcept;
-    /// The skins to draw after recordSkin(), with SkinDetail::all or the same overlap: 32-bit indices into
-    /// skinVertices(), and the range of each skin in them. Valid for commands recorded until then; another
-    /// step, reset or state may change it. After a cut, Overlap::some gives Skin::wholeTriangles away from
-    /// the cut and `triangles` beside it, if the scene has no cuttable sheet; only the device knows how many.
+    /// Triangles to draw of the skins after recordSkin(): 32-bit indices into skinVertices(), and the range
+    /// of each skin in them. Valid for what was recorded until then; another step, reset or state may change
+    /// it.
     struct DrawnSkins {
         vk::BufferView indices{};
         std::span<const SkinRange> ranges{};
-        bool areWhole = false; ///< Skin::wholeTriangles, for skins that have them
-        /// If not empty: one VkDrawIndexedIndirectCommand a skin, stride 20, to be drawn in place of the
-        /// skin's range. It begins where the range begins. The range is its capacity; entries after its end
-        /// are stale.
-        vk::BufferView draws = {};
+        bool areWhole = false; ///< Skin::wholeTriangles, where a skin has some
     };
-    DrawnSkins drawnSkins(Overlap overlap = Overlap::none) const noexcept;
+    DrawnSkins drawnSkins() const noexcept;
     CutSurface cutSurface() const noexcept;
     /// The torn parts of the skins of sheets along cuts, drawn in addition to skins() with the same two
     /// buffers: one VkDrawIndexedIndirectCommand a skin, stride 20, which draws nothing while nothing is cut.

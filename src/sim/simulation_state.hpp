@@ -54,8 +54,8 @@ struct Simulation::State {
     SceneKey sceneKey;
     StepRing ring;
     MisuseLog misuse;
-    bool hasState = false; // after a reset or take-over
-    std::vector<SkinRange> skins, wholeSkins, mixedSkins;
+    bool hasState = false; // reset or taken over
+    std::vector<SkinRange> skins, wholeSkins;
     constraints::attachment::Anchors anchors;
     constraints::grab::Hands hands;
     collision::ColliderPaths colliders;
@@ -117,8 +117,7 @@ struct Simulation::State {
           executor(d, program), written(writtenByStep(program)), sceneKey(sim::sceneKey(scene)),
           ring(d, settings.framesInFlight, program.cutting.counts != BufferId{}, forceCount(program)),
           skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
-          mixedSkins(rangesOf(scene.skins, program.mixedRanges)), anchors(scene.attachments),
-          hands(settings.grabs, scene.particles.size()),
+          anchors(scene.attachments), hands(settings.grabs, scene.particles.size()),
           colliders(scene.colliders, scene.driven, settings.pokes), budget(dampedBudget(scene, settings)),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),

@@ -16,12 +16,4 @@ std::vector<SkinRange> rangesOf(const std::vector<Skin>& skins, Triangles which)
     return ranges;
 }
 
-std::vector<SkinRange> rangesOf(const std::vector<Skin>& skins,
-                                const std::vector<StepProgram::IndexRange>& ranges) {
-    std::vector<SkinRange> named;
-    for (std::size_t s = 0; s < ranges.size(); ++s)
-        named.push_back({skins[s].name, skins[s].color, ranges[s].first, ranges[s].count});
-    return named;
-}
-
 } // namespace sinew::sim

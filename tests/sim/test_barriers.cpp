@@ -156,8 +156,7 @@ TEST(Barriers, AreSafeAndNeededWhereAMeshIsCut) {
     for (const bool usesTexels : {true, false}) {
         const StepProgram program = compile(scene, {.substeps = 2, .forms = {.usesTexels = usesTexels}});
         ASSERT_LE(program.buffers.size(), mostBuffers);
-        for (const std::vector<Pass>* list :
-             {&program.step, &program.skin, &program.wholeSkin, &program.mixedSkin}) {
+        for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin}) {
             ASSERT_FALSE(list->empty());
             ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(*list));
         }

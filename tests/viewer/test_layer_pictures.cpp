@@ -17,11 +17,11 @@ struct LayerShot : SceneShot {
         offscreen.prepare(layers);
         inspection.prepare(layers);
     }
-    Picture take(float range = 0, const sim::Blade& blade = {}, sim::Overlap overlap = sim::Overlap::none) {
+    Picture take(float range = 0, const sim::Blade& blade = {}) {
         VkCommandBuffer commands = test::queue().begin();
         if (stage.steps() == 0) stage.recordReset(commands);
         if (!blade.from.empty()) stage.recordStep(commands, nullptr, {}, blade);
-        stage.recordSkin(commands, overlap);
+        stage.recordSkin(commands);
         inspection.record(commands, layers, 0);
         offscreen.record(commands, camera, stage.simulation(),
                          {.layers = layers, .buffers = inspection.buffers(layers, range)});
@@ -110,7 +110,7 @@ TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
         const VkCommandBuffer commands = test::queue().begin();
         vk::Commands(test::device(), commands).fill(shot.stage.simulation().skinVertices(), poison);
         test::queue().wait(test::queue().submit(commands));
-        EXPECT_EQ(largestDifference(shot.take(0.1f, {}, layers.overlap()), expected), 0)
+        EXPECT_EQ(largestDifference(shot.take(0.1f), expected), 0)
             << "skin " << static_cast<int>(layers.skin) << (layers.hasWires ? ", wires" : "")
             << (layers.section ? ", section" : "");
     }

@@ -43,15 +43,7 @@ public:
             probe.record(commands);
         });
     }
-    // Draws without a request for picking; picking then meets vertices that were not computed.
-    void show(int steps) {
-        run([&](VkCommandBuffer commands) {
-            for (int i = 0; i < steps; ++i) stage.recordStep(commands);
-            stage.recordSkin(commands, sim::Overlap::some);
-            probe.record(commands);
-        });
-    }
-    // All parts of the skin at their current positions.
+    // All parts of the skin where they are.
     SeenState parts() {
         run([&](VkCommandBuffer commands) {
             stage.simulation().recordSkin(commands, sim::SkinDetail::all);
@@ -134,14 +126,13 @@ TEST(StateProbe, MeetsAMeshWhereItIsDrawnUntilItIsCut) {
     expectMet(organ, rays, picks(organ, rays, seen), picks(organ, rays, unmoved), 20);
 }
 
-// Away from a cut, parts are not drawn, and computed only on request.
+// Three steps later the halves are elsewhere.
 TEST(StateProbe, MeetsAMeshWhereItIsDrawnOnceItIsCut) {
     ProbedOrgan organ(speed, 20);
     organ.step(1, true);
-    organ.show(3);
     const std::vector<Ray> rays = raysDown(organ, 0.5f);
     const auto early = picks(organ, rays, organ.probe.seen());
-    organ.step(0);
+    organ.step(3);
     ASSERT_FALSE(organ.probe.seen().isWhole);
     expectMet(organ, rays, picks(organ, rays, organ.probe.seen()), early, 10);
 }

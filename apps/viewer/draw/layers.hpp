@@ -43,11 +43,6 @@ struct Layers {
     bool needsBuffers() const {
         return map != ColorMap::none || hasBalls || hasLinks || hasContacts || hasCells;
     }
-    /// The overlap that skins are made for (Stage::recordSkin): some layers need each triangle drawn only
-    /// once.
-    sim::Overlap overlap() const {
-        return skin == SkinLook::glass || hasWires || section ? sim::Overlap::none : sim::Overlap::some;
-    }
 };
 
 /// The next look, cyclically: solid, glass, hidden.

@@ -12,10 +12,6 @@ namespace {
 constexpr float ballGloss = 0.6f;      // times that of skins: balls are hard and dry
 constexpr float colliderGloss = 0.15f; // less than tissue
 
-bool isAnyOf(std::size_t pipeline, std::initializer_list<std::size_t> those) {
-    return std::ranges::count(those, pipeline) > 0;
-}
-
 } // namespace
 
 // Draws closed meshes, once for front faces and once for back faces: backs of closed bodies are then hidden
@@ -114,10 +110,7 @@ void Renderer::drawSkins(VkCommandBuffer commands, OfSkins pipelines, const sim:
     const std::size_t pipeline = pipelines.any;
     std::size_t bound = pipeline;
     bind(commands, bound);
-    const bool isOneLayer =
-        isAnyOf(pipeline % pipelineCount, {skinGlassPipeline, wiresPipeline, skinCountPipeline});
-    const sim::Simulation::DrawnSkins drawn =
-        simulation.drawnSkins(isOneLayer ? sim::Overlap::none : sim::Overlap::some);
+    const sim::Simulation::DrawnSkins drawn = simulation.drawnSkins();
     bindMesh(commands, simulation.skinVertices(), drawn.indices);
     if (values.size > 0) functions.vkCmdBindVertexBuffers(commands, 1, 1, &values.buffer, &values.offset);
     const vk::BufferView pieces = simulation.pieceDraws();
@@ -128,10 +121,7 @@ void Renderer::drawSkins(VkCommandBuffer commands, OfSkins pipelines, const sim:
         if (own != bound) bind(commands, bound = own);
         const sim::SkinRange& skin = drawn.ranges[i];
         push(commands, values.size > 0 ? sim::Vec3{buffers.range} : skin.color, light_.gloss[i], {});
-        if (drawn.draws.size > 0)
-            drawIndirect(commands, drawn.draws, i);
-        else
-            functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
+        functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
         if (pieces.size > 0) drawIndirect(commands, pieces, i);
     }
 }

@@ -44,10 +44,9 @@ public:
     void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
                     std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
                     std::span<const sim::Poke> pokes = {}) noexcept;
-    /// Records the skins that are to be drawn: with sim::Overlap::some in layers none of which needs
-    /// (Layers::overlap) another.
-    void recordSkin(VkCommandBuffer commands, sim::Overlap overlap = sim::Overlap::none) noexcept {
-        simulation_->recordSkin(commands, sim::SkinDetail::drawn, overlap);
+    /// The skins as they are drawn (sim::SkinDetail::drawn).
+    void recordSkin(VkCommandBuffer commands) noexcept {
+        simulation_->recordSkin(commands, sim::SkinDetail::drawn);
     }
 
     /// Save and load as app::saveRun and loadRun do. A state that was loaded has taken no step.

@@ -23,8 +23,7 @@ public:
 
     /// Copies velocities too, if the simulation has any; in the same commands as record().
     void recordVelocities(VkCommandBuffer commands) const noexcept;
-    /// Record after recordSkin() of the simulation with Overlap::none, if there are skins and a ray is to be
-    /// cast.
+    /// After recordSkin() of the simulation, if there are skins and what is asked is what a ray meets.
     void record(VkCommandBuffer commands) noexcept;
 
     /// The box around all finite positions of the scene [m]; empty if there are none. Here and below, the

@@ -114,38 +114,28 @@ void makeIndices(ProgramBuilder& program, const Scene& scene) {
     program.carry(built.skinIndices, built.skinIndices);
 }
 
-CrumbSkins addStretched(ProgramBuilder& program, const Scene& scene, const Cut& cut,
-                        const std::vector<bool>& parted, const StateLayout& layout) {
+CrumbTriangles addStretched(ProgramBuilder& program, const Scene& scene, const Cut& cut,
+                            const std::vector<bool>& parted, const StateLayout& layout) {
     const std::vector<bool> mayGo = particlesThatMayGo(scene, cut, layout);
-    const StepProgram& built = program.program();
-    Stretched all, mixed;
+    Stretched stretched;
     std::uint32_t firstVertex = 0, firstIndex = 0;
     for (std::size_t s = 0; s < scene.skins.size(); ++s) {
         const Skin& skin = scene.skins[s];
-        if (!parted[s]) {
-            all.add(skin, firstVertex, firstIndex, mayGo);
-            if (!built.mixedRanges.empty()) mixed.add(skin, firstVertex, built.mixedRanges[s].first, mayGo);
-        }
+        if (!parted[s]) stretched.add(skin, firstVertex, firstIndex, mayGo);
         firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
         firstIndex += static_cast<std::uint32_t>(3 * skin.triangles.size());
     }
-    if (all.triangles.empty()) return {};
+    if (stretched.triangles.empty()) return {};
     makeIndices(program, scene);
-    CrumbSkins result;
-    const auto add = [&](const Stretched& stretched, BufferId indices) {
-        result.push_back({program.upload("crumbs.triangles", stretched.triangles),
-                          program.upload("crumbs.holders", stretched.holders), indices,
-                          static_cast<std::uint32_t>(stretched.triangles.size())});
-    };
-    add(all, built.skinIndices);
-    if (!mixed.triangles.empty()) add(mixed, built.mixedTriangles);
-    return result;
+    return {program.upload("crumbs.triangles", stretched.triangles),
+            program.upload("crumbs.holders", stretched.holders),
+            static_cast<std::uint32_t>(stretched.triangles.size())};
 }
 
 } // namespace
 
-CrumbSkins addCrumbSkins(ProgramBuilder& program, const Scene& scene, const Cut& cut,
-                         const StateLayout& layout) {
+CrumbTriangles addCrumbSkins(ProgramBuilder& program, const Scene& scene, const Cut& cut,
+                             const StateLayout& layout) {
     const std::vector<bool> parted = areParted(scene, cut);
     if (std::ranges::count(parted, true) > 0) {
         const std::vector<std::uint32_t> slots = vertexSlots(scene, parted, layout);
@@ -157,11 +147,12 @@ CrumbSkins addCrumbSkins(ProgramBuilder& program, const Scene& scene, const Cut&
     return addStretched(program, scene, cut, parted, layout);
 }
 
-void addTriangleHiding(ProgramBuilder& program, const CrumbSkins& skins) {
-    for (const CrumbTriangles& skin : skins)
-        program.dispatch(k::hideCrumbTriangles, skin.count,
-                         {skin.triangles, skin.holders, program.program().cutting.pieces, skin.indices},
-                         layout::CountPush{skin.count});
+void addTriangleHiding(ProgramBuilder& program, const CrumbTriangles& stretched) {
+    if (stretched.count == 0) return;
+    const StepProgram& built = program.program();
+    program.dispatch(k::hideCrumbTriangles, stretched.count,
+                     {stretched.triangles, stretched.holders, built.cutting.pieces, built.skinIndices},
+                     layout::CountPush{stretched.count});
 }
 
 } // namespace sinew::sim::cutting

@@ -5,24 +5,21 @@
 
 #include "sim/compile.hpp"
 
-#include <vector>
-
 namespace sinew::sim::cutting {
 
 struct Cut;
 
-/// Triangles of skins that are not clipped, in the index buffer that draws them.
+/// Triangles of skins that are not clipped, in StepProgram::skinIndices.
 struct CrumbTriangles {
-    BufferId triangles, holders, indices;
+    BufferId triangles, holders;
     std::uint32_t count = 0;
 };
-using CrumbSkins = std::vector<CrumbTriangles>;
 
-/// Appends hiding to the list of skins, after the surface of cuts and the pieces of sheets.
-CrumbSkins addCrumbSkins(ProgramBuilder& program, const Scene& scene, const Cut& cut,
-                         const StateLayout& layout);
+/// After the surface of cuts and the pieces of sheets: adds what hides those to the list of skins.
+CrumbTriangles addCrumbSkins(ProgramBuilder& program, const Scene& scene, const Cut& cut,
+                             const StateLayout& layout);
 
-/// Appends the hiding of triangles, after fragments were found.
-void addTriangleHiding(ProgramBuilder& program, const CrumbSkins& skins);
+/// After crumbs were found.
+void addTriangleHiding(ProgramBuilder& program, const CrumbTriangles& stretched);
 
 } // namespace sinew::sim::cutting

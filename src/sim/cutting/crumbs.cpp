@@ -55,7 +55,7 @@ void addCrumbs(ProgramBuilder& program, const Scene& scene, Cut& cut, const Part
     if (scene.crumbs < 2) return;
     program.program().cutting.crumbs = scene.crumbs;
     cut.crumbParticles = uploadParticles(program, scene);
-    cut.crumbSkins = addCrumbSkins(program, scene, cut, particles.layout);
+    cut.stretched = addCrumbSkins(program, scene, cut, particles.layout);
     if (particles.sleep) addToTopology(program, particles.sleep->limits);
 }
 

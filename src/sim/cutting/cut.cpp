@@ -178,7 +178,7 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
     addWholeCells(program, cut); // cells that an undone step has restored
     addFindingPieces(program, cut, particles);
     program.beginSurface();
-    addTriangleHiding(program, cut.crumbSkins); // before the drawn triangles are packed
+    addTriangleHiding(program, cut.stretched);
     program.endSurface();
     if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface, cut.blade);
     if (cut.sheets) surface::addSheetPasses(program, *cut.sheets, !cut.surface);

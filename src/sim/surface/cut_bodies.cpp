@@ -66,12 +66,11 @@ private:
             bodies_.faces.push_back(
                 {.item = 16 * (static_cast<std::uint32_t>(layout_.count) + firstPrism + t),
                  .triangle = place.firstTriangle + t,
-                 .mixed = 0,
-                 .whole = skin.wholeOf.empty() ? NO_WHOLE : firstWhole + skin.wholeOf[t]});
+                 .whole = skin.wholeOf.empty() ? NO_WHOLE : firstWhole + skin.wholeOf[t],
+                 .padding = 0});
         if (!skin.wholeOf.empty()) {
-            bodies_.mixed.push_back(place.index);
             for (const auto& [a, b, c] : skin.wholeTriangles)
-                bodies_.wholes.push_back({{firstHung + a, firstHung + b, firstHung + c}, 0});
+                bodies_.wholes.push_back({{firstHung + a, firstHung + b, firstHung + c}});
             for (const layout::PartVertex& part : complex->parts)
                 bodies_.parts.push_back(
                     {firstHung + part.vertex, firstWhole + part.whole, {part.shares[0], part.shares[1]}});

@@ -3,8 +3,8 @@
 
 #include "kernels.hpp"
 #include "sim/surface/hung_surface.hpp"
-#include "sim/surface/mixed_skin.hpp"
 #include "sim/surface/skin.hpp"
+#include "sim/surface/split_normals.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -123,7 +123,7 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
     drawn.particles = surface->source.particles;
     surface->arguments = program.scratch<layout::DispatchArguments>("surface.arguments",
                                                                     surface->push.runs + SURFACE_ARGUMENTS);
-    addMixedSkins(program, *surface, scene, bodies);
+    addSplitNormals(program, *surface, bodies);
     surface->skinFaces = program.upload("surface.skin_faces", bodies.faces);
     surface->allIndices = program.upload("surface.all_indices", joinIndices(scene.skins));
     const bool hasPieces = built.skinIndices != BufferId{}; // of sheets: then they are in the topology
@@ -176,7 +176,12 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, Buf
               {complex, partitions, owned, listed, surface.starts, drawn.state, surface.rest, drawn.rest,
                drawn.indices, surface.source.particles});
     addPrismTriangles(program, surface);
-    addFacePasses(program, surface);
+    addWholeMarks(program, surface);
+    const layout::CountPush faces{surface.faces};
+    program.dispatch(
+        surface.usesTexels ? k::hideFaces : k::hideFacesLoads, faces.count,
+        {surface.counts, drawn.state, surface.skinFaces, surface.allIndices, program.program().skinIndices},
+        faces);
     program.endSurface();
 }
 

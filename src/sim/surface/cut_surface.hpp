@@ -10,9 +10,9 @@
 // the particles they depend on), write_inside (indices, normals at rest), write_outside (pieces of outer
 // faces, with their own vertices), hide_faces (skin triangles that pieces replace).
 //
-// Items of the surface are slots, followed by prisms. The list of skins runs: find_gradients (rotation and
-// strain of the material around particles near a cut), normals of attached skins and of mixed ones
-// (hung_surface, mixed_skin), skin_cut (points and their normals), skin_pieces (corners of pieces, at the
+// Items of the surface are slots, and prisms behind them. When somebody draws: find_gradients (how the
+// material around particles near a cut has turned and strained), normals of skins that hang and of split ones
+// (hung_surface, split_normals), skin_cut (points and their normals), skin_pieces (corners of pieces, at the
 // points).
 //
 // No element is appended by a counter: the same cut gives the same bits in any order of execution.
@@ -63,19 +63,16 @@ struct CutSurface {
     BufferId turns;     ///< by point: the cofactor matrix of the deformation there, in columns
     BufferId bladeRest; ///< rest positions for a blade: `rest`, or below the skin
     HungSurface hung;
-    std::uint32_t wholeCount = 0;           ///< triangles of mixed skins; 0 = there are none
-    BufferId wholes, wholeStates;           ///< whole triangles; WHOLE_ALONE ...
-    std::uint32_t partCount = 0;            ///< vertices that only parts have
-    BufferId partVertices;                  ///< these vertices
-    BufferId wholeMarks;                    ///< by attached vertex: 1 = a corner of a triangle drawn as parts
-    BufferId shownAtFirst;                  ///< StepProgram::shownVertices while nothing is cut
-    BufferId wholeIndices;                  ///< triangles that their normals come from,
-    VertexFans wholeFans;                   ///< with these
-    std::uint32_t wholeVertices = 0;        ///< vertices of all skins with such a normal
-    BufferId mixedWords;                    ///< by skin: layout::MixedWords
-    BufferId drawnWords, drawnStarts;       ///< by word: its drawn triangles; their start
-    std::uint32_t words = 0, skinCount = 0; ///< 0 = no skin is drawn mixed
-    std::vector<std::uint32_t> skins;       ///< clipped skins
+    std::uint32_t wholeCount = 0;     ///< whole triangles of split skins; 0 = there are none
+    BufferId wholes;                  ///< these
+    BufferId wholeStates;             ///< by whole triangle: 1 = it is beside a cut
+    BufferId wholeMarks;              ///< by vertex that hangs: 1 = a corner of a whole triangle beside a cut
+    std::uint32_t partCount = 0;      ///< vertices that only parts of whole triangles have
+    BufferId partVertices;            ///< these
+    BufferId wholeIndices;            ///< corners of whole triangles, as vertices of all skins
+    VertexFans wholeFans;             ///< whole triangles around each of these vertices
+    std::uint32_t wholeVertices = 0;  ///< vertices in wholeFans
+    std::vector<std::uint32_t> skins; ///< that are clipped
 };
 
 /// Adds the buffers, and the index buffer of skins, which cuts change. Call it after the buffers of

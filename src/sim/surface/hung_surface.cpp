@@ -203,9 +203,9 @@ void addRimNormals(ProgramBuilder& program, const CutSurface& surface) {
         hung.rims,       built.cutting.links, surface.rest, surface.source.particles,
         built.positions, surface.gradients,   surface.near, hung.vertices,
         hung.grids,      built.skinVertices};
-    const bool isMixed = surface.wholeCount > 0;
-    if (isMixed) buffers.push_back(surface.wholeMarks);
-    program.dispatchIndirect(isMixed ? k::turnRimsMixed : k::turnRims,
+    const bool isSplit = surface.wholeCount > 0;
+    if (isSplit) buffers.push_back(surface.wholeMarks);
+    program.dispatchIndirect(isSplit ? k::turnRimsSplit : k::turnRims,
                              {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount}, buffers,
                              pushOf(surface, hung.vertexCount));
 }

@@ -43,10 +43,10 @@ public:
         const bool hasBelow = below[axis]-- > 0 && isFilled(below), hasAbove = isFilled(nodes[0]);
         if (hasBelow == hasAbove) return std::nullopt;
         if (hasAbove) // the low face of the cell
-            return layout::SkinFace{16 * slot(nodes[0]) + 2 * tetrahedron(*middle, *high) + 1, triangle, 0,
-                                    NO_WHOLE};
-        return layout::SkinFace{16 * slot(below) + 2 * tetrahedron(across, across | *middle), triangle, 0,
-                                NO_WHOLE};
+            return layout::SkinFace{16 * slot(nodes[0]) + 2 * tetrahedron(*middle, *high) + 1, triangle,
+                                    NO_WHOLE, 0};
+        return layout::SkinFace{16 * slot(below) + 2 * tetrahedron(across, across | *middle), triangle,
+                                NO_WHOLE, 0};
     }
 
     std::size_t outerFaces() const {

@@ -61,25 +61,17 @@ BufferId uploadHolders(ProgramBuilder& program, const Skin& skin) {
     return program.upload(skin.name + ".cells", items);
 }
 
-// Appends the first `count` vertices of every skin; of those in cells only the ones in `shown`, if given.
-template <typename Count>
-void addVertices(ProgramBuilder& program, const Skins& skins, const Count& count, BufferId shown = {}) {
+// The first `count` vertices of every skin.
+template <typename Count> void addVertices(ProgramBuilder& program, const Skins& skins, const Count& count) {
     const StepProgram& built = program.program();
     std::uint32_t firstVertex = 0;
     for (std::size_t s = 0; s < skins.all.size(); ++s) {
         const Skin& skin = skins.all[s];
         if (skin.vertexCount() == 0) continue;
         const layout::SkinPush push{count(skin), firstVertex};
-        std::vector<BufferId> buffers{built.positions, skins.holders[s], built.skinVertices};
-        if (!skin.particles.empty()) {
-            program.dispatch(k::skinParticles, push.count, buffers, push);
-        } else if (shown == BufferId{}) {
-            program.dispatch(skins.usesTexels ? k::skinCells : k::skinCellsLoads, push.count, buffers, push);
-        } else {
-            buffers.push_back(shown);
-            program.dispatch(skins.usesTexels ? k::skinCellsShown : k::skinCellsShownLoads, push.count,
-                             buffers, push);
-        }
+        const vk::ShaderCode& ofCells = skins.usesTexels ? k::skinCells : k::skinCellsLoads;
+        program.dispatch(skin.particles.empty() ? ofCells : k::skinParticles, push.count,
+                         {built.positions, skins.holders[s], built.skinVertices}, push);
         firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
     }
 }
@@ -126,20 +118,6 @@ std::uint32_t allVertices(const Skin& skin) {
     return static_cast<std::uint32_t>(skin.vertexCount());
 }
 
-// Appends the skins as drawn once something is cut, without the vertices that are not drawn.
-void addMixedSkin(ProgramBuilder& program, const Skins& skins, const VertexFans& fans,
-                  std::uint32_t vertexCount) {
-    const StepProgram& built = program.program();
-    if (built.mixedIndices == BufferId{}) return;
-    program.beginMixedSkin();
-    program.beginPhase("mixed skin");
-    addVertices(program, skins, allVertices, built.shownVertices);
-    for (const auto& addMore : program.skinMiddles()) addMore();
-    addNormals(program, {&k::skinNormalsShown, &k::skinNormalsShownLoads}, skins.usesTexels,
-               built.skinIndices, fans, {built.shownVertices}, layout::CountPush{vertexCount});
-    for (const auto& addMore : program.skinEndings()) addMore();
-}
-
 } // namespace
 
 VertexFans uploadFans(ProgramBuilder& program, const std::vector<std::uint32_t>& indices,
@@ -171,11 +149,10 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins, bool uses
         all.holders.push_back(skin.vertexCount() > 0 ? uploadHolders(program, skin) : BufferId{});
     addVertices(program, all, allVertices);
     for (const auto& addMore : program.skinMiddles()) addMore();
-    const VertexFans fans = uploadFans(program, indices, vertexCount, "skin");
-    addNormals(program, ofAll, usesTexels, built.skinIndices, fans, {}, layout::CountPush{vertexCount});
+    addNormals(program, ofAll, usesTexels, built.skinIndices,
+               uploadFans(program, indices, vertexCount, "skin"), {}, layout::CountPush{vertexCount});
     for (const auto& addMore : program.skinEndings()) addMore();
     addWholeSkins(program, all);
-    addMixedSkin(program, all, fans, vertexCount);
 }
 
 } // namespace sinew::sim::surface

@@ -1,8 +1,7 @@
-// Tests of the normals of mixed skins: whole triangles and parts have equal normals, beside cuts as before
-// them.
+// How split skins are lit once they are cut: as before the cut.
 #include "sim/bodies.hpp"
-#include "sim/surface/mixed_skins.hpp"
 #include "sim/surface/rest_normals.hpp"
+#include "sim/surface/split_skins.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,8 +18,8 @@ using namespace sinew::sim;
 using namespace sinew::test;
 using Eigen::Vector3d;
 
-// Away from a cut, the normals must not become those of the more numerous parts.
-TEST(MixedSkin, IsLitAwayFromACutAsBefore) {
+// Not as parts, of which there are more, would have it: nobody sees a cut elsewhere.
+TEST(SplitSkin, IsLitAwayFromACutAsBefore) {
     const Scene scene = organScene();
     const Skin& skin = scene.skins[0];
     CutBody body(scene);
@@ -29,11 +28,11 @@ TEST(MixedSkin, IsLitAwayFromACutAsBefore) {
     const CutPlane plane{{0, 0, 0}, Vector3d::UnitX()};
     body.cut(sweepOf(plane, reach));
     const auto after = drawnBy(body.runner(), SkinDetail::drawn);
-    const Mixed mixed(body.runner().simulation(), skin);
     std::set<std::uint32_t> beside;
-    for (std::uint32_t w = 0; w < mixed.wholes.size(); ++w)
-        if (!isThere(mixed.wholes[w]))
-            beside.insert(skin.wholeTriangles[w].begin(), skin.wholeTriangles[w].end());
+    for (const Triangle& whole : skin.wholeTriangles)
+        for (const std::uint32_t v : whole)
+            if (std::abs(plane.normal.dot(placeOf(before[v]) - plane.point)) < 4 * body.spacing())
+                beside.insert(whole.begin(), whole.end());
     std::size_t same = 0;
     for (const Triangle& triangle : skin.wholeTriangles)
         for (const std::uint32_t v : triangle) {
@@ -67,8 +66,8 @@ std::vector<Vector3d> litNormals(const Skin& skin, const std::vector<surface::Po
 
 } // namespace
 
-// Compares the host's normals at rest with the device's; a difference would make rims visible.
-TEST(MixedSkin, HasTheNormalsAtRestThatTheDeviceMakes) {
+// Or a rim would be lit as no skin beside it is.
+TEST(SplitSkin, HasTheNormalsAtRestThatTheDeviceMakes) {
     const Scene scene = organScene();
     test::Runner runner(scene, {.substeps = 2});
     const auto vertices = drawnBy(runner, SkinDetail::all);
@@ -77,8 +76,8 @@ TEST(MixedSkin, HasTheNormalsAtRestThatTheDeviceMakes) {
         ASSERT_GT(normalOf(vertices[v]).dot(normals[v]), 1 - 1e-5) << v;
 }
 
-// Vertices of parts must have the normal interpolated over their whole triangle, and not a flat one.
-TEST(MixedSkin, IsLitByItsPartsAsByWhatTheyArePartsOf) {
+// What only parts have is lit as the whole triangle, in which it lies, is there: not as flat.
+TEST(SplitSkin, IsLitByItsPartsAsByWhatTheyArePartsOf) {
     const Scene scene = organScene();
     const Skin& skin = scene.skins[0];
     test::Runner runner(scene, {.substeps = 2});
@@ -106,8 +105,8 @@ TEST(MixedSkin, IsLitByItsPartsAsByWhatTheyArePartsOf) {
     EXPECT_LT(flat, parts.size() / 4) << "of " << parts.size();
 }
 
-// A skin that is not mixed computes its normals from parts, which divide the angles.
-TEST(MixedSkin, WouldBeLitAlikeByItsParts) {
+// A skin that does not say what its triangles are parts of is lit by them alone, which divide its angles.
+TEST(SplitSkin, WouldBeLitAlikeByItsParts) {
     Scene scene = organScene();
     scene.skins[0].wholeOf.clear();
     test::Runner runner(scene, {.substeps = 2});
@@ -157,9 +156,9 @@ Vector3d litAt(const Vector3d& x, const Skin& skin, const std::vector<surface::P
 
 } // namespace
 
-// A cut of a body at rest moves nothing. All drawn vertices must keep their normals, beside the cut and away
-// from it, on rims and in pieces, also where the skin folds onto itself.
-TEST(MixedSkin, IsLitBesideACutAsBefore) {
+// Nothing has moved when a body at rest is cut: all that is drawn of its skin has the normal that it had,
+// beside the cut and away from it, on rims and in pieces, whatever folds lie upon each other there.
+TEST(SplitSkin, IsLitBesideACutAsBefore) {
     const Scene scene = organScene();
     const Skin& skin = scene.skins[0];
     CutBody body(scene);
@@ -168,9 +167,9 @@ TEST(MixedSkin, IsLitBesideACutAsBefore) {
     for (const double x : {0.031, -0.06}) {
         const CutPlane plane{{x, 0, 0}, Vector3d(1, 0.3, 0.2).normalized()};
         ASSERT_GT(body.cut(sweepOf(plane, reach)).linksCutInAll, 0u);
-        const auto vertices = drawnBy(body.runner(), SkinDetail::drawn, Overlap::some);
+        const auto vertices = drawnBy(body.runner(), SkinDetail::drawn);
         std::set<std::uint32_t> seen;
-        const std::vector<Triangle> drawn = drawnOf(body.runner().simulation()).back();
+        const std::vector<Triangle> drawn = drawnOf(body.runner().simulation());
         for (const Triangle& triangle : drawn) seen.insert(triangle.begin(), triangle.end());
         double most = 0, ofPieces = 0;
         std::vector<double> off;
@@ -196,22 +195,22 @@ TEST(MixedSkin, IsLitBesideACutAsBefore) {
     }
 }
 
-// Normals are also kept if the cut surface exceeds its capacity and is not drawn.
-TEST(MixedSkin, IsLitBesideACutThatHasNoRoom) {
+// Neither does a skin whose cut has no room to be drawn wait for that.
+TEST(SplitSkin, IsLitBesideACutThatHasNoRoom) {
     const Scene scene = organScene();
     CutBody body(scene);
     const std::vector<Vector3d> lit =
         litNormals(scene.skins[0], pointsOf(drawnBy(body.runner(), SkinDetail::all)));
     const Status status = body.runner().cut({}, {.from = {0, -1, 0}, .to = {0, 1, 0}, .radius = 0.4f});
     ASSERT_GT(status.cutSurfaceMissing, 0u);
-    const auto vertices = drawnBy(body.runner(), SkinDetail::drawn, Overlap::some);
-    const std::vector<Triangle> drawn = drawnOf(body.runner().simulation()).back();
+    const auto vertices = drawnBy(body.runner(), SkinDetail::drawn);
+    const std::vector<Triangle> drawn = drawnOf(body.runner().simulation());
     for (const Triangle& triangle : drawn)
         for (const std::uint32_t v : triangle) ASSERT_LT((normalOf(vertices[v]) - lit[v]).norm(), 1e-4) << v;
 }
 
-// Normals depend on the current topology: after an older one is loaded, none of a later cut may remain.
-TEST(MixedSkin, IsLitAsItWasWhereACutIsGoneBackTo) {
+// What stands alone is of the topology: what was made after another cut does not light this one.
+TEST(SplitSkin, IsLitAsItWasWhereACutIsGoneBackTo) {
     const Scene scene = organScene();
     CutBody body(scene);
     body.cut(sweepOf({{0.031, 0, 0}, Vector3d(1, 0.3, 0.2).normalized()}, reach));
@@ -219,15 +218,15 @@ TEST(MixedSkin, IsLitAsItWasWhereACutIsGoneBackTo) {
     const vk::Buffer topology = runner.saveTopology();
     runner.run(10);
     const test::Runner::Saved state = runner.save();
-    const auto first = drawnBy(runner, SkinDetail::drawn, Overlap::some);
-    const std::vector<Triangle> drawn = drawnOf(runner.simulation()).back();
+    const auto first = drawnBy(runner, SkinDetail::drawn);
+    const std::vector<Triangle> drawn = drawnOf(runner.simulation());
     body.cut(sweepOf({{-0.06, 0, 0}, Vector3d::UnitX()}, reach));
     runner.load(state);
     runner.loadTopology(topology);
-    const auto again = drawnBy(runner, SkinDetail::drawn, Overlap::some);
+    const auto again = drawnBy(runner, SkinDetail::drawn);
     test::Runner other(scene, {.substeps = 2});
     other.takeOver(runner);
-    const auto taken = drawnBy(other, SkinDetail::drawn, Overlap::some);
+    const auto taken = drawnBy(other, SkinDetail::drawn);
     for (const Triangle& triangle : drawn)
         for (const std::uint32_t v : triangle) {
             ASSERT_EQ(normalOf(again[v]), normalOf(first[v])) << v;
@@ -235,8 +234,8 @@ TEST(MixedSkin, IsLitAsItWasWhereACutIsGoneBackTo) {
         }
 }
 
-// Beside a cuttable sheet no skin is mixed, and all of it is drawn as parts.
-TEST(MixedSkin, IsLitAsBeforeWhereSheetsAreCutAsWell) {
+// Pieces of the sheet lie behind the vertices of the skins.
+TEST(SplitSkin, IsLitAsBeforeWhereSheetsAreCutAsWell) {
     Scene scene = organScene();
     addCloth(scene, {.origin = {0, 5, 0},
                      .size = {5, 5},
@@ -249,7 +248,7 @@ TEST(MixedSkin, IsLitAsBeforeWhereSheetsAreCutAsWell) {
     ASSERT_GT(
         runner.cut(sweepOf({{0.031, 0, 0}, Vector3d(1, 0.3, 0.2).normalized()}, reach).blade()).linksCut, 0u);
     const auto after = drawnBy(runner, SkinDetail::all);
-    const std::vector<Triangle> left = download(runner.simulation().skinIndices());
+    const auto left = test::queue().download<Triangle>(runner.simulation().skinIndices());
     double most = 0;
     for (std::size_t t = 0; t < scene.skins[0].triangles.size(); ++t)
         for (const std::uint32_t v : left[t])
