@@ -66,7 +66,7 @@ InputFile Journal::inputFile() const {
             .events = show_.tools.log().events()};
 }
 
-// Without a hash of the state: steps may be on their way.
+// Writes no state hash: steps may be in flight.
 std::string Journal::keepInput(const std::filesystem::path& otherwise) const {
     if (replay_ || (from_ && from_->file.empty()) || !show_.tools.log().hasDeeds(saved_)) return {};
     const std::string text = toText(inputFile());
@@ -118,7 +118,7 @@ bool Journal::playUntilStep(const Presenter::Frame& frame) {
         const Replay::Due due = replay_->next(show_.tools, show_.controller.camera, show_.stage);
         if (due == Replay::Due::step) return true;
         if (due == Replay::Due::nothing) break;
-        if (due == Replay::Due::shape) return false; // before the next picture
+        if (due == Replay::Due::shape) return false; // handled before the next picture
         if (show_.tools.recordHistory(frame.commands, show_.stage)) show_.wentBack();
     }
     ended_ = replay_->file();

@@ -31,10 +31,9 @@ public:
     /// The view of the scene.
     const Camera& camera() const { return controller_.camera; }
 
-    /// For when the program, or what hands did, ends before its user wants it to: writes what hands did since
-    /// the reset, as far as no file has it, to the current folder or else to `otherwise`, and says how to
-    /// have it again, for the end of a line. Empty where there is nothing to keep. Asks nothing of device and
-    /// window.
+    /// Saves the input when the program or a scene ends unexpectedly: writes the log since the reset, if no
+    /// file has it, to the current folder or else to `otherwise`. Returns the end of a line that says how to
+    /// replay it, or an empty text if there is nothing to save. Uses neither device nor window.
     std::string keepInput(const std::filesystem::path& otherwise) const {
         return journal_.keepInput(otherwise);
     }

@@ -33,7 +33,7 @@ void Succession::end() {
     restartParts();
     show_.tools.moveOn();
     if (surfaceMissing_ <= show_.stage.settings().cutSurfaceRoom)
-        surfaceMissing_ = 0; // else more was cut meanwhile
+        surfaceMissing_ = 0; // otherwise more was cut meanwhile
 }
 
 // Once: only the picture lacks something.

@@ -37,7 +37,7 @@ void main() {
             const uint slot = list.x + 32u * word + findLSB(at);
             const Bounce bounce = bounceFrom(i, slot, self);
             const float both = own + bouncing[CONTACT(slot).x];
-            if (bounce.speed == 0.0 || both == 0.0) continue; // two that never move give each other nothing
+            if (bounce.speed == 0.0 || both == 0.0) continue; // two static particles exchange nothing
             const float missing = bounce.speed - dot(bounce.n, velocity.xyz - VELOCITY(CONTACT(slot).x).xyz);
             sum += max(0.0, missing) / both * bounce.n;
         }

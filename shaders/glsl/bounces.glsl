@@ -35,7 +35,7 @@ layout(std430, binding = 9) readonly buffer Pairs { SurfacePair pairs[]; };
 #endif
 #include "hit_masks.glsl"
 #define SLIPS_BINDING (HITS_BINDING + 1)
-layout(std430, binding = SLIPS_BINDING) readonly buffer Slips { vec4 slips[]; }; // as in contact_memory.glsl, where a rest distance is kept
+layout(std430, binding = SLIPS_BINDING) readonly buffer Slips { vec4 slips[]; }; // see contact_memory.glsl; used by contacts that keep a rest distance
 #define BOUNCE_BINDING (SLIPS_BINDING + 1)
 layout(constant_id = 5) const bool keepsRest = false;
 layout(push_constant) uniform Push { ContactPush push; };

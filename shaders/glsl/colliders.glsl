@@ -97,9 +97,9 @@ bool canTouch(Approach approach, float size) {
     return !(after > rounding && before + after > 1.001 * length(approach.d) + rounding);
 }
 
-// Keeps a particle out of a collider that was at `before` when the substep began and is at `after` now; true if it touched.
-// Coulomb friction in position form, as at planes: the tangential way relative to the surface, which moves, is taken back
-// whole if the static bound allows, else up to kinetic friction x what the surface pressed.
+// Keeps a particle out of a collider with pose `before` at the start of the substep and `after` now; true if it
+// touched. Coulomb friction in position form, as at planes: the tangential displacement relative to the moving
+// surface is cancelled entirely if the static bound allows, else up to kinetic friction x the normal correction.
 bool projectOut(Collider collider, float contactOffset, ColliderPose before, ColliderPose after, float h,
                 inout Movement movement, out vec3 n, out vec3 surfaceVelocity) {
     const Approach approach = approachOf(collider, contactOffset, before, after, movement);

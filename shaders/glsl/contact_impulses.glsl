@@ -28,7 +28,7 @@ float offsetOf(uint slot) {
 #endif
 }
 
-// Nothing is remembered of what does not touch but an overlap.
+// Clears the slip of a pair that does not touch; the remaining overlap stays.
 void forget(uint slot) {
 #ifdef HAS_MEMORY
     slips[slot] = vec4(0.0, 0.0, 0.0, offsetOf(slot));

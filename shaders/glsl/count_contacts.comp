@@ -1,8 +1,7 @@
 #version 460
-// Contacts, first pass: marks the others that a particle touches where the substep has taken it (hit_masks.glsl), and counts them,
-// which is what it is divided by.
-// Counted exactly in every substep: with counts of the one before, shares add up to more than the whole particle and
-// bodies explode (contacts: 1). In a substep with fast particles, also those that it met on the way.
+// Contacts, first pass: marks the particles that each one touches at its predicted position (hit_masks.glsl), and counts them:
+// the number that its mass is divided by. The count is exact in every substep: with counts of the substep before, shares would
+// add up to more than the particle, and bodies would explode. In a substep with fast particles, those met on the way count, too.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"
@@ -26,7 +25,7 @@ layout(std430, binding = 2) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // when each first met another; only if isSwept
+layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // time of each particle's first impact; only if isSwept
 #define HITS_BINDING 8
 #define HITS_ACCESS
 #include "hit_masks.glsl"
@@ -59,7 +58,8 @@ void main() {
     const uint i = itemIndex(push.count);
     const uvec2 list = lists[i];
     const uint end = list.x + list.y;
-    // Loops of which some are empty: what stands under a condition costs a software device its time nevertheless.
+    // Loops of which some are empty: on a software device, code under a condition costs its time even if it does not
+    // run.
     const bool isSwept = bounds.isSwept != 0u;
     const uint sweeping = isSwept ? end : list.x;
     const vec4 start = PREDICTED(i);

@@ -145,14 +145,14 @@ struct Gradient {
 struct SkinFace {
     uint item; // 16 times the cell, plus the bit: there are fewer than 2^28 cells, each of which has 16 bytes of one buffer
     uint triangle;
-    uint whole; // the whole triangle that it is a part of, or NO_WHOLE
+    uint whole; // index of the whole triangle that contains it, or NO_WHOLE
     uint padding; // a face is one texel
 };
 #define NO_WHOLE 0xffffffffu
 
 // A triangle of a skin as it was before it was split.
 struct WholeTriangle {
-    uint vertices[3]; // HungVertex
+    uint vertices[3]; // indices of HungVertex
 };
 #define WHOLE_PARTED 1u // state of a whole triangle beside a cut; elsewhere 0
 

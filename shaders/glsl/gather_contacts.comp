@@ -36,7 +36,7 @@ layout(std430, binding = 5) writeonly buffer NextPositions { vec4 nextPositions[
 layout(std430, binding = 6) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 layout(std140, binding = 7) uniform Step { StepParams step; };
 layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // when each first met another, where isSwept
+layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // time of each particle's first impact, where isSwept
 #define HITS_BINDING 10
 #include "hit_masks.glsl"
 #include "contact_memory.glsl"

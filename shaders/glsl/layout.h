@@ -326,8 +326,8 @@ struct ContactCandidate {
 struct FindPush {
     uint count, cells;
     float most;    // as in GridPush
-    float margin;  // beyond touching, up to which a pair is listed [m]
-    uint room;     // entries of the pool, of all lists together
+    float margin;  // distance beyond the reach up to which a pair is listed [m]
+    uint room;     // capacity of the pool, in entries of all lists together
     uint large;    // particles that are searched one by one
     float quiet;   // see GridPush
 };
@@ -405,13 +405,13 @@ struct ListRange {
 #define FACE_MOST_WIDE 50000   // largest number of faces that a point tests itself
 
 struct FaceFindPush {
-    uint points, searched; // particles; small faces; whole work groups
-    uint cells;            // of the grid
-    float most;    // radius and way of a point that the grid is searched for [m]
-    float margin;  // beyond touching, up to which a pair is listed [m]
-    uint room;     // entries of the pool, of all lists together
-    uint moving;   // faces before that one have a corner that moves
-    uint large;    // faces that every point is compared with, beside wide ones
+    uint points, searched; // particles; small faces; in whole work groups
+    uint cells;            // cells of the grid
+    float most;    // largest radius + motion of a point in the grid [m]
+    float margin;  // distance beyond the reach up to which a pair is listed [m]
+    uint room;     // capacity of the pool, in entries of all lists together
+    uint moving;   // faces below this index have a corner that moves
+    uint large;    // number of faces that every point is tested with, besides wide ones
 };
 
 // An edge of faces that takes part in contacts with other edges. The grid holds its midpoint.

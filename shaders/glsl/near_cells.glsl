@@ -18,9 +18,9 @@ ivec3 firstCellOf(ivec3 home, int layer, int row) {
 }
 uint cellsOf(int layer, int row) { return layer == 1 || row == 1 ? 3u : row == 0 ? 2u : 0u; }
 
-// Lists those near particle i among three rows of cells. The rows are visited in one loop, because lanes
-// wait for the longest list among them: of three rows together it is less above the mean than of one. A batch is measured
-// first and the few that may be near are looked at then: what stands under a condition is what costs.
+// Lists the near particles of particle i in three rows of cells. The rows are visited in one loop, because lanes wait
+// for the longest list among them, and the length of three rows together exceeds the mean by less than that of one. A
+// batch is measured first and only the few that may be near are processed then: branches are what costs.
 void searchRows(uint i, vec3 x, float radius, ivec3 home, int layer, Frame frame, uint total) {
     uint start[3], count[3];
     [[unroll]] for (int row = 0; row < 3; ++row) {

@@ -96,7 +96,7 @@ void workOn(uint i) {
         vec3 n, surfaceVelocity;
         const Collider collider = colliders[c];
         if (isAbsent(c)) continue;
-        const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // the same where nothing moves
+        const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // equal where nothing moves
 #ifdef FORCES
         const vec3 unforced = movement.v + rebound;
 #endif
@@ -111,7 +111,8 @@ void workOn(uint i) {
     }
     if (!isTouching) return;
 #ifdef OPEN
-    // Closing makes v of the corrections: what they must not give it is taken from v beforehand.
+    // Closing the substep adds the corrections / h to v: the part that must not add velocity is subtracted from v
+    // beforehand.
     corrections[i].xyz = movement.way - h * (velocity.xyz - lateOf(h));
     velocities[i].xyz = velocity.xyz + rebound - movement.pushed / h;
 #else

@@ -205,7 +205,7 @@ SavedRun readRun(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file, error)) refuse(file, "there is no such file");
     if (!std::filesystem::is_regular_file(file, error)) refuse(file, "it is not a file");
     std::ifstream stream(file, std::ios::binary);
-    std::string head(title.size(), ' '); // what is something else, however large, is not read
+    std::string head(title.size(), ' '); // other files, which may be large, are not read
     stream.read(head.data(), static_cast<std::streamsize>(head.size()));
     const bool mayHaveView = head == title;
     if (!mayHaveView && head != titleWithoutView)

@@ -27,7 +27,7 @@ public:
               Recording recording = {}) noexcept;
     void skin(vk::Commands& commands) noexcept;
     void wholeSkin(vk::Commands& commands) noexcept;
-    /// Makes of a state that was put into the buffers one of this program (StepProgram::settle).
+    /// Records the passes that recompute what follows from the scene alone (StepProgram::settle).
     void settle(vk::Commands& commands) noexcept;
     /// Records the passes that initialise this program's state from the public state (StepProgram::adopt).
     void adopt(vk::Commands& commands) noexcept;

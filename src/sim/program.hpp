@@ -251,8 +251,8 @@ struct StepProgram {
     std::vector<Pass> skin;          ///< recorded to draw the skins; may be empty
     /// Instead of `skin` while nothing is cut, for wholeIndices; empty if no skin has whole triangles.
     std::vector<Pass> wholeSkin;
-    /// Recorded after a state of another material, or of other substeps, was put into the buffers: makes what
-    /// of the state follows from the scene alone that of this program. May be empty.
+    /// Recorded after a state of another material, or of other substeps, was put into the buffers: recomputes
+    /// the values that follow from the scene alone. May be empty.
     std::vector<Pass> settle;
     /// Recorded after another solver's public state was put into the public buffers: initialises this
     /// solver's state from it. Empty without public velocities.
@@ -412,7 +412,7 @@ public:
     /// them.
     void beginSkin() { skinList_ = &StepProgram::skin; }
     void beginWholeSkin() { skinList_ = &StepProgram::wholeSkin; }
-    /// Passes from here on, until endSettling(), belong to StepProgram::settle; no gate changes them.
+    /// Passes from here to endSettling() belong to StepProgram::settle; gates do not change them.
     void beginSettling() { isSettling_ = true; }
     void endSettling() { isSettling_ = false; }
     /// Passes from here to endAdopting() belong to StepProgram::adopt; gates do not change them.

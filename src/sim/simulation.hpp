@@ -206,11 +206,11 @@ struct SavedState {
 /// those of drawnSkins(), which are fewer while nothing is cut.
 enum class SkinDetail { all, drawn };
 
-/// The surface of cuts, to be drawn beside the skins after recordSkin(): the inside that a blade laid open,
-/// and the pieces of skins beside it. Those of the skin's own triangles that pieces stand for are degenerate
-/// from then on. Closed where both are taken together, two-sided: each piece has its own side. Views are
-/// empty where no skin is clipped: bodies that may be cut have such a surface where their skin is the outer
-/// faces of their cells (addLatticeSkin), or a closed mesh with Skin::anchors (mesh::addMesh).
+/// The surface of cuts, drawn in addition to the skins after recordSkin(): the cut surface inside the body
+/// and the clipped pieces of skins beside it. The skin's own triangles that the pieces replace become
+/// degenerate. Both parts together form a closed two-sided surface: each piece has its own side. Views are
+/// empty if no skin is clipped. Cuttable bodies have such a surface if their skin is the outer faces of their
+/// cells (addLatticeSkin), or a closed mesh with Skin::anchors (mesh::addMesh).
 struct CutSurface {
     vk::BufferView vertices{}; ///< layout::SkinVertex (position, normal; stride 32)
     /// layout::CutVertex of each vertex (stride 64). Its first vec4 is for a solid texture: position in the
@@ -288,7 +288,7 @@ public:
     /// Throws what recordTakeOver() of the same arguments would throw; records nothing.
     void checkTakeOver(const Simulation& from, const vk::BufferView& copy = {},
                        const SavedState* saved = nullptr) const;
-    /// Size of what recordTakeOver() copies from this [B].
+    /// Size of the data that recordTakeOver() copies from this simulation [B].
     std::uint64_t handOverSize() const noexcept;
     /// Records the copy of that data into `to`, of handOverSize() bytes, which the host may read afterwards.
     /// With `saved`, of stateSize() bytes, the data is that of a state that this simulation saved there.
@@ -395,10 +395,9 @@ public:
     std::vector<std::string> complaints();
     /// The same without the warnings of the scene, for a host that showed them when it loaded the scene.
     std::vector<std::string> complaintsOfUse();
-    /// The oldest of the last Settings::framesInFlight steps that was recorded and has not finished. Nothing
-    /// where all have, and after a recorded step was thrown away it names that one until others take its
-    /// place. For finding what is missing: only the host's own fence says when the simulation may be
-    /// destroyed.
+    /// The oldest of the last Settings::framesInFlight steps that was recorded and has not finished. Empty if
+    /// all have finished; after a recorded step was discarded it names that step until others take its slot.
+    /// For diagnosis: only the host's own fence says when the simulation may be destroyed.
     std::optional<std::uint64_t> oldestInFlight() const noexcept;
 
     const StepProgram& program() const noexcept;

@@ -54,7 +54,7 @@ struct Simulation::State {
     SceneKey sceneKey;
     StepRing ring;
     MisuseLog misuse;
-    bool hasState = false; // reset or taken over
+    bool hasState = false; // after a reset or take-over
     std::vector<SkinRange> skins, wholeSkins;
     constraints::attachment::Anchors anchors;
     constraints::grab::Hands hands;
@@ -226,7 +226,7 @@ struct Simulation::State {
         return chosen.solver == other.chosen.solver && program.order == other.program.order;
     }
 
-    // Throws std::invalid_argument where this state cannot go on from one of `other`, with the reason.
+    // Throws std::invalid_argument, with the reason, if this state cannot continue from one of `other`.
     void requireSameScene(const State& other, const vk::BufferView& copy, std::uint64_t copied, bool isAlike,
                           bool isUncut) const;
 

@@ -43,7 +43,7 @@ public:
             probe.record(commands);
         });
     }
-    // All parts of the skin where they are.
+    // All parts of the skin at their current positions.
     SeenState parts() {
         run([&](VkCommandBuffer commands) {
             stage.simulation().recordSkin(commands, sim::SkinDetail::all);

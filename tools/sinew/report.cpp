@@ -141,7 +141,7 @@ Json sleepJson(const RunRecord& record) {
 }
 
 Json overflowJson(const RunRecord& record) {
-    Json overflow = Json::object(); // empty: no list of a bounded size is in use
+    Json overflow = Json::object(); // empty: no list of fixed size is in use
     const sim::ContactRoom& contacts = record.contactRoom;
     const sim::ContactBuffers& lists = record.program.contacts;
     if (lists.pairs != sim::BufferId{} || lists.facePairs != sim::BufferId{})

@@ -161,7 +161,7 @@ bool Runner::makeRoom(std::uint32_t needed) {
     return settings.has_value();
 }
 
-/// All steps have finished.
+/// Grows the surface of cuts; all steps have finished.
 void Runner::makeSurfaceRoom() {
     if (!rooms_.lackSurface(surfaceMissing_)) return;
     const std::optional<sim::Settings> settings = rooms_.forSurface(settings_, surfaceMissing_);

@@ -72,8 +72,8 @@ public:
     const ListFigures& lists() const { return lists_; }
     const sim::ContactRoom& contactRoom() const { return rooms_.contacts(); }
     const sim::SurfaceRoom& surfaceRoom() const { return rooms_.surface(); }
-    std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing, likewise
-    /// Of the newest step with a finite state.
+    std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing of these
+    /// Figures of the newest step with a finite state.
     const CutFigures& cuts() const { return cuts_; }
     /// Forces in that step; empty without Settings::keepsForces.
     const sim::Impulses& forces() const { return forces_; }
@@ -111,7 +111,7 @@ private:
     sim::Rooms rooms_;
     std::unique_ptr<sim::Simulation> simulation_;
     sim::Successor successor_;
-    std::vector<vk::Timestamps> timestamps_;                                 // one a step in flight
+    std::vector<vk::Timestamps> timestamps_;                                 // one per step in flight
     std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values
     std::uint64_t done_ = 0, slowed_ = 0;
     std::uint64_t played_ = 0; // steps before the first one, in the loaded state

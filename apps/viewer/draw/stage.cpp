@@ -170,7 +170,7 @@ void Stage::reshape(vk::Queue& queue, const app::Bring& bring) {
     shape_.reset();
     refused_.reset();
     ready_.reset();
-    awaitTurn(); // it is prepared for the simulation that goes
+    awaitTurn(); // it is prepared for the old simulation
     takeSuccessor(next.material, queue, bring);
     stiffness_ = sim::inspectStiffness(scene_, settings_);
 }
@@ -371,7 +371,7 @@ void Stage::recordGrowth(VkCommandBuffer commands) noexcept {
 
 void Stage::endGrowth() {
     const Next next = *std::exchange(next_, std::nullopt);
-    if (ready_ && !wanted_) wanted_ = ready_->material; // what is prepared is of the other one
+    if (ready_ && !wanted_) wanted_ = ready_->material; // it was prepared for the old simulation
     ready_.reset();
     continueIn(*std::exchange(made_, std::nullopt), next.material);
     beginWanted();

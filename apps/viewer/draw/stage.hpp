@@ -112,7 +112,7 @@ public:
     void recordTakeOver(VkCommandBuffer commands, const Stage& from);
     bool hasRoomOf(const Stage& other) const noexcept;
 
-    /// For what goes back to earlier states.
+    /// For callers that restore earlier states.
     sim::Simulation& simulation() noexcept { return *simulation_; }
 
     /// Steps of the time in which scripted blades move; equal to steps() unless an earlier state was
@@ -223,8 +223,8 @@ private:
 
     const vk::Device& device_;
     const sim::Scene given_;
-    scenes::Defaults defaults_; // of given_
-    sim::Scene scene_;          // of the material that it has now
+    scenes::Defaults defaults_; // for given_
+    sim::Scene scene_;          // with the present material
     const sim::Settings first_;
     sim::Settings settings_; // of simulation_
     sim::StiffnessReport stiffness_;

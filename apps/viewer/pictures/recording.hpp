@@ -33,8 +33,8 @@ private:
 /// Stem of files about a step of a scene: "organ-000120".
 std::string nameAt(const std::string& scene, std::uint64_t step);
 
-/// `name` and `extension` with what makes a file or folder of `folder`, or of the current one, out of them
-/// that is not there yet.
+/// A name for a file or folder in `folder`, or in the current folder, that does not exist yet: `name`, a
+/// suffix if needed, and `extension`.
 std::filesystem::path freeName(std::string name, const std::string& extension,
                                const std::filesystem::path& folder = {});
 

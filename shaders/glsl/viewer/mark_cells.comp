@@ -15,7 +15,7 @@ layout(push_constant) uniform Push { CellPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
-    if (i >= starts[push.cells]) return; // how many there are
+    if (i >= starts[push.cells]) return; // number of particles in the grid
     const Frame grid = frameOf(bounds, push.cells);
     const ivec3 cell = cellOf(uintBitsToFloat(sorted[i].xyz), grid);
     const uint slot = slotOf(cell, grid);

@@ -107,8 +107,8 @@ struct CellDraw {
 struct CellPush {
     uint count; // elements that may be sorted
     uint cells; // slots of the table
-    uint grid;  // among all
-    uint first; // mark
+    uint grid;  // index among all grids
+    uint first; // index of the first mark
 };
 
 #ifdef __cplusplus

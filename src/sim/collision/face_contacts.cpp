@@ -325,7 +325,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     if (std::ranges::find(faces.isOfCells, true) != faces.isOfCells.end())
         contacts.opened = program.scratch<std::uint32_t>("faces.opened", faces.faces.size());
     if (contacts.hasStops()) addStopBuffers(program, scene, particles, faces, settings.forms.items, contacts);
-    // Without a face that can stop something no kernel reads the first two.
+    // Without static or driven faces no kernel reads the first two.
     const bool hasRows = contacts.stopRows != BufferId{};
     contacts.rows.forceRows = {hasRows ? contacts.stopRows : contacts.lists.pooled.ranges,
                                hasRows ? contacts.linkedPositions : contacts.rows.weights,

@@ -65,7 +65,7 @@ Grid add(ProgramBuilder& program, const Request& request) {
     const std::uint32_t cells = cellsFor(count);
     const float most = largestInGrid(request.radii);
     const float edge = std::max(2 * most + request.margin, request.edge);
-    // Nowhere: so far away that the first watch finds everybody gone.
+    // Initial positions so far away that the first check finds every particle strayed.
     const std::vector<layout::vec4> nowhere(request.particles > 0 ? request.particles : count,
                                             {1e18f, 1e18f, 1e18f, 0});
     const std::string name = request.name;

@@ -205,7 +205,7 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
     std::vector<BufferId> buffers{predicted.positions,  lists.pooled.contacts, lists.pooled.ranges,
                                   predicted.velocities, contacts.touching,     predicted.step,
                                   lists.grid.bounds,    contacts.firsts,       lists.hits};
-    if (contacts.hasRecovery) // where no cut lets pairs touch, no kernel reads the last
+    if (contacts.hasRecovery) // if no cut lets pairs touch, no kernel reads the last
         buffers.insert(buffers.end(), {contacts.lists.pooled.memory->memory,
                                        contacts.isCuttable() ? contacts.marks : lists.grid.radii});
     addOverContacts(
@@ -378,7 +378,7 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
                                  lists.grid.bounds,    contacts.firsts};
     if (isTable) shared.insert(shared.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
     shared.push_back(lists.hits);
-    // where no rest distance is kept, no kernel reads it
+    // no kernel reads it if no rest distance is kept
     shared.push_back(contacts.hasKept ? lists.pooled.memory->memory : contacts.before);
     shared.push_back(next.velocities);
     shared.push_back(contacts.bouncing);

@@ -15,11 +15,11 @@ struct CrumbTriangles {
     std::uint32_t count = 0;
 };
 
-/// After the surface of cuts and the pieces of sheets: adds what hides those to the list of skins.
+/// Appends hiding to the list of skins, after the surface of cuts and the pieces of sheets.
 CrumbTriangles addCrumbSkins(ProgramBuilder& program, const Scene& scene, const Cut& cut,
                              const StateLayout& layout);
 
-/// After crumbs were found.
+/// Appends the hiding of triangles, after fragments were found.
 void addTriangleHiding(ProgramBuilder& program, const CrumbTriangles& stretched);
 
 } // namespace sinew::sim::cutting

@@ -32,12 +32,12 @@ struct Cut {
     BufferId bladePlaces;                      // by slot: positions for the blade, mostly buffers.places
     BufferId labels, particles, arguments, groups; // of pieces
     std::array<BufferId, 2> roundArguments; // of even and of odd rounds, by run: no pass writes its own
-    BufferId uncutBodies, weights;          // likewise, where hands may hold some
-    BufferId crumbParticles;                // CrumbParticle; where crumbs are removed
+    BufferId uncutBodies, weights;          // of pieces, if grabs may hold some
+    BufferId crumbParticles;                // layout::CrumbParticle; if fragments are removed
     CrumbTriangles stretched;
-    std::shared_ptr<surface::CutSurface> surface; // none where no skin is clipped
-    std::shared_ptr<surface::SheetPieces> sheets; // likewise
-    std::shared_ptr<Tearing> tearing;             // likewise
+    std::shared_ptr<surface::CutSurface> surface; // null if no skin is clipped
+    std::shared_ptr<surface::SheetPieces> sheets; // null if there are none
+    std::shared_ptr<Tearing> tearing;             // null if nothing tears
     bool usesTexels = false;
     std::uint32_t rounds = 0;
 };

@@ -20,11 +20,11 @@ struct SkinPlace {
 
 struct SkinComplex {
     std::uint32_t skin = 0, firstHung = 0;    ///< index of the skin; of `vertices`
-    std::vector<layout::SkinPrism> prisms;    ///< of the skin's triangles, in their order
-    std::vector<layout::HungVertex> vertices; ///< of the skin, in their order
-    std::vector<layout::vec4> planes;         ///< likewise: normals of the parts around
+    std::vector<layout::SkinPrism> prisms;    ///< one for each of the skin's triangles, in their order
+    std::vector<layout::HungVertex> vertices; ///< one for each of the skin's, in their order
+    std::vector<layout::vec4> planes;         ///< by vertex: normals of the parts around
     std::vector<layout::PartVertex> parts;    ///< of a split skin; indices in the skin
-    std::vector<std::uint32_t> words;         ///< of slots from the box's origin on, as COMPLEX_FACES says
+    std::vector<std::uint32_t> words;         ///< of slots from the box's origin on, see COMPLEX_FACES
 };
 
 /// None if the skin has no anchors in this grid or violates a condition of Skin::anchors: if it is not

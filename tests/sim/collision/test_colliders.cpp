@@ -535,8 +535,8 @@ TEST_P(Collided, FormsGiveTheSameBits) {
     }
 }
 
-// As scenes/cloth_on_sphere.toml, coarser: neither particles nor the middles of triangles go in, by more than
-// a hundredth of the radius, and friction holds what has come to rest.
+// A coarser form of scenes/cloth_on_sphere.toml. Particles and centres of triangles penetrate by at most a
+// hundredth of the radius, and friction holds the cloth at rest.
 TEST(ClothOnASphere, ComesToRestOutsideIt) {
     constexpr double radius = 0.22;
     Scene scene;

@@ -225,7 +225,7 @@ TEST(HardMeshes, LeaveAnInvocationTheTurnsOfItsPoints) {
     EXPECT_EQ(hashWith(16), hashWith(1));
 }
 
-// A ball that others have stopped on its way is not where its velocity would have brought it.
+// Other balls stop a ball on its path, so it is not where its velocity would have brought it.
 TEST(HardColliders, ThatMoveArePassedByNoRow) {
     for (const std::uint32_t substeps : {4u, 8u, 16u}) {
         Trial trial{"", "row", 100, substeps};

@@ -291,8 +291,8 @@ TEST(ParticleContacts, RememberNothingOfCandidatesThatDoNotTouch) {
     EXPECT_GT(remembered, 1000u);
 }
 
-// Bodies on grids, whose state has slots that hold nobody, and as listed links: their particles touch those
-// of the other body and none of their own.
+// Blocks on a grid, whose state has slots without particles, and blocks of listed links. Particles touch
+// those of the other body and none of their own.
 TEST(ParticleContacts, LayABlockOntoABlock) {
     constexpr float spacing = 0.1f;
     Scene scene = test::block(2, spacing, 2e5f);

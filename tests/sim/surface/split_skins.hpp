@@ -9,19 +9,19 @@ namespace sinew::test {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr double reach = 3; // of blades [m]: beyond every body
+constexpr double reach = 3; // extent of blades, beyond all bodies [m]
 
-/// A body of 14 voxels that may be cut.
+/// Adds a cuttable body of 14 voxels along its longest side.
 void addBody(sim::Scene& scene, const mesh::TriangleMesh& mesh);
 void addOrgan(sim::Scene& scene);
 sim::Scene organScene(); ///< without gravity
 
-/// Not shrunk to a point.
+/// Whether the triangle is more than a point.
 bool isThere(const Triangle& triangle);
 /// The triangles that are drawn of all skins, without those that shrank to a point.
 std::vector<Triangle> drawnOf(const sim::Simulation& simulation);
 
-/// Vertices of all skins as they are recorded so.
+/// Vertices of all skins, recorded with this detail and overlap.
 std::vector<sim::layout::SkinVertex> drawnBy(Runner& runner, sim::SkinDetail detail);
 Eigen::Vector3d normalOf(const sim::layout::SkinVertex& vertex);
 Eigen::Vector3d placeOf(const sim::layout::SkinVertex& vertex);

@@ -18,7 +18,7 @@ using namespace sinew::sim;
 using namespace sinew::test;
 using Eigen::Vector3d;
 
-// Not as parts, of which there are more, would have it: nobody sees a cut elsewhere.
+// Away from a cut, the normals must not become those of the more numerous parts.
 TEST(SplitSkin, IsLitAwayFromACutAsBefore) {
     const Scene scene = organScene();
     const Skin& skin = scene.skins[0];
@@ -66,7 +66,7 @@ std::vector<Vector3d> litNormals(const Skin& skin, const std::vector<surface::Po
 
 } // namespace
 
-// Or a rim would be lit as no skin beside it is.
+// Compares the host's normals at rest with the device's; a difference would make rims visible.
 TEST(SplitSkin, HasTheNormalsAtRestThatTheDeviceMakes) {
     const Scene scene = organScene();
     test::Runner runner(scene, {.substeps = 2});
@@ -76,7 +76,7 @@ TEST(SplitSkin, HasTheNormalsAtRestThatTheDeviceMakes) {
         ASSERT_GT(normalOf(vertices[v]).dot(normals[v]), 1 - 1e-5) << v;
 }
 
-// What only parts have is lit as the whole triangle, in which it lies, is there: not as flat.
+// Vertices of parts must have the normal interpolated over their whole triangle, and not a flat one.
 TEST(SplitSkin, IsLitByItsPartsAsByWhatTheyArePartsOf) {
     const Scene scene = organScene();
     const Skin& skin = scene.skins[0];
@@ -156,8 +156,8 @@ Vector3d litAt(const Vector3d& x, const Skin& skin, const std::vector<surface::P
 
 } // namespace
 
-// Nothing has moved when a body at rest is cut: all that is drawn of its skin has the normal that it had,
-// beside the cut and away from it, on rims and in pieces, whatever folds lie upon each other there.
+// A cut of a body at rest moves nothing. All drawn vertices must keep their normals, beside the cut and away
+// from it, on rims and in pieces, also where the skin folds onto itself.
 TEST(SplitSkin, IsLitBesideACutAsBefore) {
     const Scene scene = organScene();
     const Skin& skin = scene.skins[0];
@@ -195,7 +195,7 @@ TEST(SplitSkin, IsLitBesideACutAsBefore) {
     }
 }
 
-// Neither does a skin whose cut has no room to be drawn wait for that.
+// Normals are also kept if the cut surface exceeds its capacity and is not drawn.
 TEST(SplitSkin, IsLitBesideACutThatHasNoRoom) {
     const Scene scene = organScene();
     CutBody body(scene);
@@ -209,7 +209,7 @@ TEST(SplitSkin, IsLitBesideACutThatHasNoRoom) {
         for (const std::uint32_t v : triangle) ASSERT_LT((normalOf(vertices[v]) - lit[v]).norm(), 1e-4) << v;
 }
 
-// What stands alone is of the topology: what was made after another cut does not light this one.
+// Normals depend on the current topology: after an older one is loaded, none of a later cut may remain.
 TEST(SplitSkin, IsLitAsItWasWhereACutIsGoneBackTo) {
     const Scene scene = organScene();
     CutBody body(scene);

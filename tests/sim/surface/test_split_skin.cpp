@@ -121,8 +121,8 @@ TEST(SplitSkin, IsTheSameAfterEveryStrokeHoweverOftenItIsCut) {
 
 namespace {
 
-// Strokes through the organ while it falls apart: a fast one, a slow one carried with it over some steps, and
-// one more after the topology before was put back. `look` is called after each of them.
+// Cuts the organ while it falls apart: a fast stroke, a slow one carried over some steps, and one after
+// loading an older topology. Calls `look` after each.
 template <typename Look> void cutInManyWays(CutBody& body, const Look& look) {
     test::Runner& runner = body.runner();
     const vk::Buffer uncut = runner.saveTopology();
@@ -156,7 +156,7 @@ Scene fallingOrgan() {
 
 } // namespace
 
-// Kernels of skins and of blades fetch texels, or load.
+// Kernels of skins and blades either fetch texels or load from buffers.
 TEST(SplitSkin, AndSurfaceOfCutsHaveTheSameBitsInBothForms) {
     std::vector<std::uint64_t> hashes[2];
     for (const bool usesTexels : {true, false}) {
