@@ -133,8 +133,8 @@ void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuf
                        sleep.components, sleep.islands, sleep.least});
     const auto& pairs = sleep.pairs;
     if (pairs.contacts != BufferId{})
-        add(k::joinIslands,
-            {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.lists, pairs.hits});
+        add(k::joinIslands, {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.lists,
+                             pairs.hits, pairs.touching});
     for (const SeenRows& rows : sleep.rows) {
         std::vector<BufferId> buffers{sleep.weights, velocities, sleep.islands};
         buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());

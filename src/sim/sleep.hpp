@@ -24,9 +24,9 @@ struct Sleep {
     BufferId state, weights, limits, rests, components, islands, least, marks;
     BufferId groups, listed, passes, arguments, waking;
     BufferId attachments, anchors, seenAnchors, colliders, contactOffsets, ways, seenPoses;
-    /// Particles that touch: their lists, and which candidates touch. Invalid without.
+    /// Particles that touch: their lists, which candidates touch, and with which positions. Invalid without.
     struct {
-        BufferId contacts, lists, hits, bounds;
+        BufferId contacts, lists, hits, touching, bounds;
     } pairs;
     std::vector<SeenRows> rows;                ///< contacts with faces and between edges
     std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`

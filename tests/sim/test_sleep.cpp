@@ -104,6 +104,25 @@ TEST(Sleep, ComesOverAHeapThatThenStaysWhereItIsBitForBit) {
     EXPECT_EQ(farthest(runner.positions(), x), 0);
 }
 
+// A pair that keeps its overlap pushes nothing, but one that is awake would wake the other: both are one
+// island, though they come to rest at different times.
+TEST(Sleep, ComesOverAPairThatKeepsItsOverlap) {
+    Scene scene;
+    scene.gravity = {};
+    scene.damping = 2;
+    for (const float x : {0.0f, 1.5f * radius}) {
+        Particle ball = ballAt({x, 0, 0});
+        ball.keepsRest = true;
+        scene.particles.push_back(ball);
+    }
+    scene.particles[1].velocity = {0, 0, 0.5f * radius};
+    test::Runner runner(scene, sleeping);
+    const int steps = stepsUntilAsleep(runner, 2);
+    std::printf("asleep after %d steps\n", steps);
+    EXPECT_GT(steps, 30);
+    EXPECT_EQ(runner.run(60).sleeping, 2u) << "they stay asleep";
+}
+
 // One margin is so small that even the last substep before sleep builds lists.
 TEST(Sleep, CostsNoGroupButThoseOfAFewSmallPasses) {
     for (const float margin : {0.5f, 1e-7f}) {

@@ -351,7 +351,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
     sleep.pairs = {contacts.lists.pooled.contacts, contacts.lists.pooled.ranges, contacts.lists.hits,
-                   contacts.lists.grid.bounds};
+                   contacts.touching, contacts.lists.grid.bounds};
 }
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
