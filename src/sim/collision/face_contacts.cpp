@@ -13,6 +13,7 @@
 #include "sim/sleep.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <set>
 
@@ -265,9 +266,13 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
     return rows;
 }
 
-// Loops of stop_at_faces for a point and a face: as often as the point may be stopped, and one more, a search
-// in the list, one for when it passes, one in the table of those that never touch; besides two over the list.
-constexpr std::uint32_t turnsOfStop = 5 * 3 + 2;
+// Largest number of loop turns of stop_at_faces for one point and one face. A point is stopped at most 4
+// times and looks once more. Each time the face takes a turn of the list, 9 turns that bracket the time of
+// passing (face_stop.glsl), and a bisection in the row of faces that the point never touches. Two more walk
+// the list.
+std::uint32_t turnsOfStop(std::uint32_t mostExcluded) {
+    return 5 * (1 + 9 + static_cast<std::uint32_t>(std::bit_width(mostExcluded))) + 2;
+}
 
 void addStopBuffers(ProgramBuilder& program, const Scene& scene, const ParticleBuffers& particles,
                     const Faces& faces, std::uint32_t items, Contacts& contacts) {
@@ -278,7 +283,8 @@ void addStopBuffers(ProgramBuilder& program, const Scene& scene, const ParticleB
     contacts.movingPoints = program.upload("faces.moving_points", points);
     contacts.movingPointCount = static_cast<std::uint32_t>(points.size());
     const std::uint32_t stills = contacts.faces - faces.moving;
-    contacts.pointsEach = many_items::fitting(items, turnsOfStop * std::max(stills, 1u));
+    contacts.pointsEach =
+        many_items::fitting(items, turnsOfStop(contacts.lists.mostExcluded) * std::max(stills, 1u));
     if (particles.forces && !particles.forces->stops.rows.empty())
         contacts.stopRows =
             program.upload("faces.stop_rows", stopRowsOf(faces, particles.forces->stops, layout));
