@@ -39,9 +39,9 @@ std::string Journal::stem(std::uint64_t step) const {
 void Journal::saveInput() {
     show_.settleAll();
     Screen& screen = show_.screen;
-    if (isBroken_) return screen.tell("a state that is no more cannot be reached again");
+    if (isBroken_) return screen.tell("not saved: the input no longer leads to this state");
     if (from_ && from_->file.empty())
-        return screen.tell("the name of the state that this began from fits in no line of a log");
+        return screen.tell("not saved: a log cannot hold the path of the loaded state");
     InputFile file = inputFile();
     vk::Queue queue(show_.device);
     file.hash = stateHash(show_.device, show_.stage, queue);
@@ -76,12 +76,12 @@ std::string Journal::keepInput(const std::filesystem::path& otherwise) const {
             if (!folder.empty()) std::filesystem::create_directories(folder);
             const std::filesystem::path name = freeName(stem(show_.stage.steps()), ".input", folder);
             mesh::writeWhole(name, [&](std::ostream& stream) { stream << text; });
-            return ": --replay " + std::filesystem::absolute(name).string() + " does again what hands did";
+            return ": --replay " + std::filesystem::absolute(name).string() + " replays the input";
         } catch (const std::exception& error) { // mesh::ExportError, std::filesystem::filesystem_error
             why = error.what();
         }
     }
-    return ": what hands did is lost: " + why;
+    return ": the input is lost: " + why;
 }
 
 std::string Journal::sceneName() const {
@@ -93,9 +93,9 @@ std::string Journal::sceneName() const {
 void Journal::saveState(bool isDiverged) {
     show_.settleAll();
     Screen& screen = show_.screen;
-    if (isDiverged) return screen.tell("a state that is no more cannot be saved");
+    if (isDiverged) return screen.tell("not saved: the simulation has diverged");
     if (show_.stage.lacksContactRoom())
-        return screen.tell("not saved: steps wait for more room; again in a moment");
+        return screen.tell("not saved: steps wait for more room; try again in a moment");
     vk::Queue queue(show_.device);
     try {
         app::SavedRun run = show_.stage.save(show_.device, queue);
@@ -104,7 +104,7 @@ void Journal::saveState(bool isDiverged) {
         const std::filesystem::path name = freeName(stem(show_.stage.played()), ".state");
         app::writeRun(name, run);
         printLine("state: " + name.string());
-        screen.tell("state: " + name.string() + "; dropped here or opened, it goes on");
+        screen.tell("state: " + name.string() + "; open it or drop it here to continue");
     } catch (const mesh::ExportError& error) {
         screen.warn(error.what());
     } catch (const vk::Error& error) {
@@ -149,12 +149,12 @@ void Journal::compareReplay() {
 }
 
 void Journal::endReplay(const std::string& why) {
-    if (!std::exchange(replay_, std::nullopt)) return;
-    show_.screen.warn("the replay ends here: " + why);
+    const bool isReplay = std::exchange(replay_, std::nullopt).has_value();
+    show_.screen.warn((isReplay ? "the replay ends here: " : "not changed: ") + why);
 }
 
 std::string Journal::howToEnd() {
-    return "a replay plays: " + std::string(keyOf(Action::drop)) + " ends it";
+    return "a replay is running: " + std::string(keyOf(Action::drop)) + " ends it";
 }
 
 bool Journal::takes(Action action) {

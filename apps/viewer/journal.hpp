@@ -31,7 +31,7 @@ public:
     void compareReplay();
     /// Ends a replay that was dropped by hand, once no simulation is about to be replaced.
     void dropReplay();
-    /// Ends the replay and says why; nothing if there is none.
+    /// Says why a change was refused, and ends the replay if there is one.
     void endReplay(const std::string& why);
     /// Sentence for hands that want the tools while a replay plays.
     static std::string howToEnd();

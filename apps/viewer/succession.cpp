@@ -39,8 +39,7 @@ void Succession::end() {
 // Once: only the picture lacks something.
 void Succession::warnOfSurface() {
     if (std::exchange(isSurfaceShort_, true)) return;
-    show_.screen.warn(
-        "the cuts have more surface than there is memory for: what is beyond is not drawn, or drawn uncut");
+    show_.screen.warn("too little memory for the surface of the cuts: a part is not drawn, or drawn uncut");
 }
 
 void Succession::takeShape() {
@@ -55,6 +54,7 @@ void Succession::reshape() {
     try {
         show_.stage.reshape(queue, show_.tools.bring());
     } catch (const std::invalid_argument& error) {
+        parts_.journal.breakOff(); // the log has the shape and the material already
         return parts_.journal.endReplay(error.what());
     }
     restartParts();

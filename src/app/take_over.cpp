@@ -44,7 +44,7 @@ void takeOverByHost(const vk::Device& toDevice, sim::Simulation& to, const vk::D
 std::string tooCrowded(std::uint64_t step) {
     return "the simulation is too crowded: step " + std::to_string(step) + ": more than " +
            std::to_string(sim::ranges::mostContactRoom) +
-           " particles, faces or edges are near one on average, or too many near a single one, the last "
+           " contact candidates for a particle on average, or too many for a single one: the last "
            "state was kept: move bodies apart, or use a smaller contacts.margin";
 }
 
