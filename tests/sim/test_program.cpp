@@ -1,5 +1,6 @@
 // Tests of step programs without a device: errors of the builder, the passes of scenes, and the printed form.
 #include "kernels.hpp"
+#include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/scenes.hpp"
 
@@ -247,6 +248,24 @@ TEST(Program, OfGaussSeidelKeepsMultipliersOnlyWhereSomethingNeedsThem) {
     EXPECT_FALSE(hasBuffer(compile(test::chain(5), {.solver = Solver::gaussSeidel, .warmStart = 0}), "warm"));
 }
 
+TEST(Program, GivesAnInvocationAsManyParticlesAsAsked) {
+    Scene scene;
+    for (std::uint32_t i = 0; i < 4096; ++i)
+        scene.particles.push_back(
+            {.position = {0.1f * static_cast<float>(i % 64), 0.1f * static_cast<float>(i / 64), 0}});
+    scene.colliders.push_back({.radius = 0.1f});
+    const auto invocations = [&](std::uint32_t items, bool sleeps) {
+        const StepProgram program =
+            compile(scene, {.substeps = 1, .sleeps = sleeps, .forms = {.items = items}});
+        for (const Pass& pass : program.step)
+            if (pass.label.starts_with("solve_colliders")) return pass.items;
+        return 0u;
+    };
+    EXPECT_EQ(invocations(1, false), 4096u);
+    EXPECT_EQ(invocations(16, false), 256u);
+    EXPECT_EQ(invocations(16, true), 4096u) << "work groups sleep as they are";
+}
+
 TEST(Program, OfAnEmptySceneHasNoPass) {
     for (const Solver solver : {Solver::jacobi, Solver::split, Solver::gaussSeidel}) {
         const StepProgram program = compile({}, {.solver = solver});
@@ -280,6 +299,25 @@ struct Golden {
     Settings settings;
 };
 
+// Two bodies of 2^3 cells, one above the other over a floor; both have skins.
+Scene twoBlocks(bool isCuttable) {
+    Scene scene{.name = "two blocks"};
+    Lattice lattice{.cells = {2, 2, 2}, .spacing = 0.05f, .radius = 0.025f, .isCuttable = isCuttable};
+    for (const float height : {0.1f, 0.3f}) {
+        lattice.origin.y = height;
+        addLatticeSkin(scene, lattice, addLattice(scene, lattice), {1, 1, 1});
+    }
+    test::addRoom(scene);
+    return scene;
+}
+
+// A sheet that may be cut and touches itself.
+Scene thickSheet() {
+    Scene scene{.name = "sheet"};
+    addCloth(scene, {.size = {4, 4}, .spacing = 0.1f, .thickness = 0.02f, .isCuttable = true});
+    return scene;
+}
+
 std::vector<Golden> goldens() {
     return {{"jacobi_chain.txt", test::chain(5), {.solver = Solver::jacobi, .substeps = 2, .iterations = 2}},
             {"jacobi_sheet_in_a_room.txt",
@@ -293,7 +331,10 @@ std::vector<Golden> goldens() {
              {.solver = Solver::gaussSeidel, .substeps = 10, .iterations = 2}},
             {"split_particle.txt", test::particleAt({0, 1, 0}), {.substeps = 1}},
             {"split_block.txt", test::block(2, 0.1f, 1e5f), {.substeps = 32}},
-            {"split_sheet_in_a_room.txt", inRoom(test::sheet(4, 1e-5f)), {.substeps = 7}}};
+            {"split_sheet_in_a_room.txt", inRoom(test::sheet(4, 1e-5f)), {.substeps = 7}},
+            {"split_blocks_that_touch_and_sleep.txt", twoBlocks(false), {.substeps = 2, .sleeps = true}},
+            {"split_blocks_that_are_cut.txt", twoBlocks(true), {.substeps = 2}},
+            {"split_sheet_that_touches_itself.txt", thickSheet(), {.substeps = 2}}};
 }
 
 std::string contents(const std::string& path) {
