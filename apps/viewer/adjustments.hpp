@@ -64,7 +64,7 @@ private:
     const Comparison& comparison_;
     SceneFacts& facts_;
     Knobs knobs_;                // as they were turned, also while that is being worked out
-    std::optional<Knobs> asked_; // of the library
+    std::optional<Knobs> asked_; // requested from the library
     bool isRefused_ = false;     // a material that needs other passes
 };
 

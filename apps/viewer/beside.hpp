@@ -40,7 +40,7 @@ public:
     /// Records the step that was just recorded for `first`. `isTimed`: the step of the first is timed too.
     void recordStep(VkCommandBuffer commands, const Stage& first, const StepHands& hands, std::uint32_t slot,
                     bool isTimed) noexcept;
-    /// What is drawn, and with `isMeasured` a copy of where particles are.
+    /// Records the skins and, if `isMeasured`, a copy of the particle positions.
     void recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured) noexcept;
 
     /// Why it cannot continue; if contacts need more room, for how many.

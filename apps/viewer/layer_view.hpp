@@ -26,11 +26,9 @@ public:
     /// Begins to make what is on and not there. Call it before record(). `isCounting`: contacts of a particle
     /// are counted.
     void prepare(bool isCounting);
-    /// Layers that are on and there.
-    const Layers& drawn() const noexcept { return drawn_.layers; }
     /// Counts the contacts of a particle; null while it is not there.
     const ContactMarks* counter() const noexcept { return backstage_.inspection().counter(); }
-    /// Records the kernels of drawn() and returns what the picture draws, with hands.
+    /// Records the kernels of the layers that are on and there, and returns what the picture draws.
     Overlay record(const Presenter::Frame& frame);
     /// Takes the results of a slot that has finished.
     void settle(std::uint32_t slot);

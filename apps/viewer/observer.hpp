@@ -42,7 +42,7 @@ public:
     /// Chooses the questions of a picture after `steps` steps. One copy answers all; none is asked while
     /// another is on its way. `asksTools`: the tools may ask.
     void ask(std::uint32_t slot, std::uint32_t steps, bool asksTools);
-    /// Records the copies for them, after the skins. True if the strain is asked.
+    /// Records the copies that these questions need; call it after the skins were recorded.
     void record(const Presenter::Frame& frame);
     bool isMeasured(std::uint32_t slot) const noexcept { return pending_[slot].isMeasured; }
     /// Answers the questions of a slot that has finished.
@@ -81,13 +81,13 @@ private:
     std::optional<StateProbe> probe_; // for the stage's simulation
     PieceProbe pieceProbe_;
     Inspector inspector_;
-    Vector2 pointer_ = Vector2::Zero(); // as Input::pointer
+    Vector2 pointer_ = Vector2::Zero(); // see Input::pointer
     std::optional<Look> wantsLook_;
     std::optional<Target> armed_;
     bool wantsBounds_ = false, wantsCount_ = false;
     Clock::time_point lastStrain_ = Clock::now(), lastCount_ = lastStrain_;
     std::uint32_t linksCut_ = 0;  // Status::linksCutInAll of the newest step that has finished
-    std::uint32_t allPieces_ = 0; // Status::pieces, likewise
+    std::uint32_t allPieces_ = 0; // Status::pieces of that step
     std::array<Pending, Presenter::framesInFlight> pending_;
 };
 

@@ -13,12 +13,12 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr double idleWait = 0.1;                   // [s] at most between looks at signals while nothing moves
-constexpr double rehearsalWait = 0.005;            // [s] between looks at whether a rehearsal is over
-constexpr std::chrono::milliseconds patience{300}; // until hands are told that something is being made
-constexpr std::uint32_t picturesOfATouch = 3;      // until Dear ImGui shows what a press has changed
+constexpr double idleWait = 0.1;                   // [s] longest wait between polls while nothing moves
+constexpr double rehearsalWait = 0.005;            // [s] between polls of a rehearsal
+constexpr std::chrono::milliseconds patience{300}; // delay of the message about preparation
+constexpr std::uint32_t picturesOfATouch = 3;      // until Dear ImGui shows the effect of a press
 constexpr std::uint32_t picturesOfAFocus = 5;      // until Dear ImGui passes keys to a new text field
-constexpr double stillAfter = 0.25; // [s] without a change before a paused picture is the last one
+constexpr double stillAfter = 0.25; // [s] without a change before a still picture in full quality
 
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
 static_assert(6 * Presenter::framesInFlight < Renderer::slots); // films and files of halves
@@ -514,8 +514,8 @@ void Show::sayWhatIsMade() {
     if (!makingSince_) makingSince_ = Clock::now();
     if (isMakingSaid_ || Clock::now() - *makingSince_ < patience) return;
     isMakingSaid_ = true;
-    screen_.tell(stage_.lacksContactRoom() ? "more room for contacts is being made: steps wait for it"
-                                           : "what is to be shown is being prepared");
+    screen_.tell(stage_.lacksContactRoom() ? "preparing room for more contacts: steps wait for it"
+                                           : "the requested change is being prepared");
 }
 
 } // namespace sinew::viewer

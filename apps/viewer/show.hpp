@@ -1,5 +1,5 @@
-// A scene playing in a window: input, steps in real time, one submission a frame. A paused picture is drawn
-// once and then left alone; on a software device that last one has full quality.
+// Scene player: a scene that plays in a window, with input, steps in real time, and one submission per frame.
+// A paused picture is drawn once and kept; on a software device that last one has full quality.
 #pragma once
 
 #include "viewer/capture.hpp"

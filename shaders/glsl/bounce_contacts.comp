@@ -25,9 +25,9 @@ void main() {
     const float own = bouncing[i];
     const uvec2 list = lists[i];
 #ifdef FORCES
-    const uint words = wordsOf(list); // what never moves is struck
+    const uint words = wordsOf(list); // static particles receive forces too
 #else
-    const uint words = own > 0.0 ? wordsOf(list) : 0u; // what never moves rebounds from nothing
+    const uint words = own > 0.0 ? wordsOf(list) : 0u; // static particles do not rebound
 #endif
     const Self self = selfOf(i);
     const vec4 velocity = VELOCITY(i);

@@ -79,8 +79,8 @@ vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
     return impulseAlong(direction.n, reach - direction.distance, i, candidate.x, slot, velocity, self.w + other.w, offset);
 }
 
-// The same in a substep with fast particles. Those that met stay where they did: they lose their approach, and are not moved. A marked
-// candidate may have met another before: then the two do not meet.
+// The impulse from the candidate in `slot` in a substep with fast particles. A pair that met stays at the point of contact: it loses its
+// approach, and is not moved. If one of a marked pair has met another particle first, the two do not meet.
 void addSwept(uint i, uint slot, vec4 self, vec3 velocity, inout vec3 moving, inout vec3 stopping) {
     const uvec2 candidate = CONTACT(slot);
     const uint j = candidate.x;

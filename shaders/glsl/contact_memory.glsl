@@ -10,12 +10,12 @@ layout(std430, binding = 11) readonly buffer Before { vec4 before[]; }; // veloc
 #endif
 #endif
 #ifdef HAS_MEMORY
-layout(std430, binding = 12) buffer Slips { vec4 slips[]; }; // of each candidate: t [m]; what is left of an overlap [m], below 0 = stays
+layout(std430, binding = 12) buffer Slips { vec4 slips[]; }; // slip; w = remaining overlap, below 0 = keeps its rest distance [m]
 layout(constant_id = 3) const bool hasFriction = true;
 layout(constant_id = 4) const bool hasRecovery = false;
 layout(constant_id = 5) const bool keepsRest = false;
 #ifdef HAS_SURFACES
-layout(std430, binding = 13) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
+layout(std430, binding = 13) readonly buffer Surfaces { uint surfaces[]; }; // by particle
 layout(std430, binding = 14) readonly buffer Pairs { SurfacePair pairs[]; };
 #define PAIR(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]]
 #define PLANE_BINDING 15

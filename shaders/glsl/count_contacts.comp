@@ -30,7 +30,7 @@ layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // time
 #define HITS_ACCESS
 #include "hit_masks.glsl"
 #ifdef HAS_RECOVERY
-layout(std430, binding = 9) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m], below 0 = stays
+layout(std430, binding = 9) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m], below 0 = keeps its rest distance
 layout(constant_id = 5) const bool keepsRest = false;
 layout(constant_id = 6) const bool canOpen = false; // a cut can let pairs touch
 #define MARKS_BINDING 10

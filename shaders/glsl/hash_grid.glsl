@@ -23,8 +23,8 @@ struct Frame {
     uint strideY, strideZ, mask;
 };
 
-// Cells a little larger than bounds.edge: rounding of (x - low) perLength must not put two particles that are `edge` apart
-// two cells apart, however large the box is.
+// Cells are slightly larger than bounds.edge: rounding of (x - low) perLength must not put two particles that are
+// bounds.edge apart two cells apart, however large the box is.
 Frame frameOf(GridBounds bounds, uint cells) {
     Frame frame;
     frame.low = vec3(valueOf(bounds.lowX), valueOf(bounds.lowY), valueOf(bounds.lowZ));

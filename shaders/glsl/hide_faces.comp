@@ -1,5 +1,5 @@
 #version 460
-// The surface of a cut: triangles of a skin of which pieces are drawn instead shrink to a point.
+// The surface of a cut: collapses skin triangles that are drawn in pieces to a point.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -1,5 +1,6 @@
 // Masks of the candidates that a particle touches: a bit a candidate, 32 candidates a word, in the order of its list. count_contacts
-// decides once a substep who touches; later passes visit marked candidates alone. In the name HITS_BINDING of a kernel.
+// determines once a substep which candidates touch; later passes visit marked candidates alone. In a substep with fast particles a mark
+// means that the two may touch: the first impact of both decides. The including kernel defines HITS_BINDING, the binding of the masks.
 //   x: touches in this substep.   y: touched in the last one, and does so no more.
 // The first word of a list stands at its owner. Word w > 0 of a list that begins at element e stands behind those of all owners, at
 // e / 32 + w: element 32 (e / 32 + w) of the pool is of that list, so no other list has that word.

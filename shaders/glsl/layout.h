@@ -281,7 +281,7 @@ struct GridBounds {
     // lists; links from faces to entries.
     uint pairs, entries, links;
     uint lacksLists; // StatusWords::lacksLists of the last step
-    float edge;      // of the cells of the grid that was built last, at least [m]
+    float edge;      // smallest size of a cell in the grid that was built last [m]
 };
 
 #include "frames_layout.h"
@@ -307,9 +307,9 @@ struct GridBounds {
 struct GridPush {
     uint count;  // number of particles; whole work groups
     uint cells;  // a power of two
-    float edge;  // of a cell where contacts may lie on somebody's way, at least [m]
-    float quietEdge; // of a cell elsewhere [m]
-    float most;  // radius in the grid [m]; particles with more are searched one by one
+    float edge;  // smallest size of a cell in a substep in which contacts may lie on paths [m]
+    float quietEdge; // the same in other substeps [m]
+    float most;  // largest radius in the grid [m]; larger particles are searched one by one
     uint others; // items of further passes that run with a build; 0 = none
     float quiet; // motion in a substep up to which no contact can lie on a path [m]
     uint bodies; // bodies with a frame
@@ -325,7 +325,7 @@ struct ContactCandidate {
 
 struct FindPush {
     uint count, cells;
-    float most;    // as in GridPush
+    float most;    // largest radius in the grid [m]
     float margin;  // distance beyond the reach up to which a pair is listed [m]
     uint room;     // capacity of the pool, in entries of all lists together
     uint large;    // particles that are searched one by one

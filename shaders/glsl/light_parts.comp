@@ -1,7 +1,7 @@
 #version 460
-// Normals of split skins at vertices that only parts have, each in one or two whole triangles: interpolated between the corners of
-// one, as it was lit before the cut. The corners of a whole triangle beside a cut may be on the other side of it: there the normal at
-// rest is turned with the material.
+// Normals of split skins at vertices that only parts have; each lies in one whole triangle or on the edge of two. They are interpolated
+// between the corners of one whole triangle, so that it looks as before the cut. The corners of a whole triangle beside a cut may be on
+// the other side of it: there the rest normal, rotated with the material, is used instead.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -47,15 +47,15 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, int layer, Frame frame
             const vec3 xj = uintBitsToFloat(other.xyz);
             const ivec3 cell = cellOf(xj, frame);
             const ivec3 rowStart = firstCellOf(home, layer, visit < second ? 0 : visit < third ? 1 : 2);
-            if (cell.yz != rowStart.yz || cell == home && other.w <= i) continue; // of two in one cell the first lists both
+            if (cell.yz != rowStart.yz || cell == home && other.w <= i) continue; // in one cell the smaller index lists the pair
             if (isFast(other.w) || !isNear(i, other.w, radius, x - xj)) continue;
             list(i, other.w);
         }
     }
 }
 
-// Half of the 27 cells around a particle: those behind its own in z, y, x, and its own. A pair is found once. One copy of the search serves
-// both layers: the kernel is half as large.
+// Searches half of the 27 cells around a particle: those after its own in z, y, x, and its own. A pair is found once. One copy of the
+// search code serves both layers, which halves the kernel.
 void searchCells(uint i, vec3 x, float radius, Frame frame) {
     const ivec3 home = cellOf(x, frame);
     const uint total = START(push.cells);

@@ -1,6 +1,6 @@
 #version 460
-// Split skins, first pass: finds the whole triangles beside a cut. A part of such a one is drawn in pieces, or one of its corners may
-// have moved onto the rim or lies in a cell that the cut parts.
+// Split skins, first pass: marks the whole triangles beside a cut. They are those with a part that is drawn in pieces, or that has a
+// corner that moved onto the rim or lies in a cell that the cut divides.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

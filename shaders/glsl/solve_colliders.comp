@@ -61,7 +61,7 @@ Start startOf(uint i) {
     start.velocityBefore = before[2u * i + 1u].xyz;
 #elif defined HAS_CONTACTS
     const vec3 way = x - (predicted[i].xyz - h * predictedVelocities[i].xyz);
-    if (largest(way - start.movement.way) > 1e-4 * largest(way) + 1e-5 * largest(x)) { // else h v is finer
+    if (largest(way - start.movement.way) > 1e-4 * largest(way) + 1e-5 * largest(x)) { // else h v is more exact
         start.movement.pushed = way - start.movement.way;
         start.movement.way = way;
     }

@@ -1,6 +1,7 @@
 #version 460
-// Normals of skins beside a cut. In split skins also of the corners of whole triangles beside a cut, as far as it is known how the
-// material has turned: corners beyond that have the normal of their triangles, none of which a rim draws together.
+// Normals of skins beside a cut: rest normals, rotated with the material. In split skins also those at corners of whole triangles beside
+// a cut, where the gradient of the material is known: corners farther away have the normal of their triangles, none of which is
+// distorted by a rim.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -262,7 +262,7 @@ struct StepProgram {
     std::vector<Carried> carried;     ///< buffers copied when a simulation takes over another's state
     BufferId parameters, status, positions, velocities; ///< public buffers; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
-    BufferId wholeIndices;                              ///< Skin::wholeTriangles, or triangles, of all skins
+    BufferId wholeIndices;                              ///< of all skins: wholeTriangles, else triangles
     ContactBuffers contacts;
     std::vector<GridBuffers> grids; ///< one for each contact search that uses a grid
     SleepBuffers sleep;

@@ -360,7 +360,7 @@ public:
     struct DrawnSkins {
         vk::BufferView indices{};
         std::span<const SkinRange> ranges{};
-        bool areWhole = false; ///< Skin::wholeTriangles, where a skin has some
+        bool areWhole = false; ///< Skin::wholeTriangles, for skins that have them
     };
     DrawnSkins drawnSkins() const noexcept;
     CutSurface cutSurface() const noexcept;

@@ -97,8 +97,8 @@ sim::Scene smallOrgan() {
 
 constexpr std::array<sim::Vec3, 2> from{{{0, 1, -1}, {0, 1, 1}}}, to{{{0, -1, -1}, {0, -1, 1}}};
 
-// With a cut mesh, only the vertices that a layer draws are computed. All vertices are filled with NaN
-// before, and the pictures must equal those with all vertices computed.
+// After a cut all vertices are computed for every picture, with any layers: a picture after all vertices were
+// filled with NaN must equal the one before.
 TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
     constexpr std::uint32_t poison = 0x7fc12345; // a NaN
     const sim::Scene scene = smallOrgan();

@@ -76,8 +76,8 @@ public:
     /// Applies the material from the next step on; waits, so that replays are exact. A material that needs
     /// other passes waits for reshape(). Throws as Simulation::prepareChange.
     void turnNow(const sim::Material& material);
-    /// Result of turn(), if there is one; to be called for every picture. Refused is a material that other
-    /// passes are needed for. Throws likewise: all is then as it was.
+    /// Polls the material change; call it for every picture. `refused`: the material needs other passes.
+    /// Throws as turnNow(); the stage is then unchanged.
     enum class Turn { none, ready, refused };
     Turn takeTurn(bool isPaused);
     /// Records the prepared material for the next step; returns it. Does nothing if none is ready or
@@ -87,24 +87,25 @@ public:
     /// Report on the scene as it is.
     const sim::StiffnessReport& stiffness() const noexcept { return stiffness_; }
 
-    /// Another solver and number of substeps, at reshape(), in place of what was wanted before. For replays:
-    /// no step may be recorded before that, but for undoneSteps().
+    /// Requests another solver and number of substeps for reshape(), in place of an earlier request. In
+    /// replays no step may be recorded before reshape(), except undoneSteps().
     void wantShape(sim::Solver solver, std::uint32_t substeps);
-    /// None after all.
+    /// Withdraws the request.
     void keepShape();
     bool wantsShape() const noexcept { return shape_ || refused_; }
-    /// Whether the simulation that is wanted has been made. The first call begins to make it, in a thread of
-    /// its own, in place of more room for the surface of cuts. False while there are undoneSteps() or
-    /// lacksContactRoom(): the simulation that took those steps takes them again first.
+    /// Whether the requested simulation has been made. The first call starts a thread that makes it, and
+    /// cancels a growth for the surface of cuts. False while there are undoneSteps() or lacksContactRoom():
+    /// the present simulation repeats those steps first.
     bool isShapeMade();
-    /// Goes on after the newest step in another simulation(), as wanted. Waits for `queue`, in which all was
-    /// submitted, and for what has not been made yet. Throws as sim::Simulation: all is then as it was, and
-    /// nothing wanted any more. Not while there are undoneSteps() or lacksContactRoom().
+    /// Continues after the newest step in the requested simulation. Waits for `queue`, in which everything
+    /// was submitted, and for the simulation in the making. Throws as sim::Simulation; the stage is then
+    /// unchanged, without a request. Not while there are undoneSteps() or lacksContactRoom().
     void reshape(vk::Queue& queue, const app::Bring& bring = {});
 
-    /// Goes on where `from` stands, a stage of the same scene that may have another material, solver, number
-    /// of substeps and device, with as much room as that has, instead of recordReset(). All steps of both
-    /// have finished. Waits. Throws as sim::Simulation: it is then to be reset, and `from` is as it was.
+    /// Continues from the state of `from`, a stage of the same scene that may have another material, solver,
+    /// number of substeps and device; capacities become at least those of `from`. Instead of recordReset().
+    /// All steps of both must have finished. Waits. Throws as sim::Simulation: this stage must then be reset,
+    /// and `from` is unchanged.
     void takeOver(const Stage& from, const app::Bring& bring = {});
 
     /// Records a take-over on the same device; all steps of both must have finished before the commands run.
@@ -130,8 +131,8 @@ public:
     /// state may come.
     std::uint64_t undoneSteps() const noexcept { return newest_ - steps_; }
 
-    /// Divergence of a finished step: nothing if all is well, or if a step after a reset has taken its
-    /// place. It must be one of the last Simulation::framesInFlight recorded.
+    /// The divergence that a finished step found; empty if all is well, or if a step after a reset has
+    /// replaced it. The step must be one of the last Simulation::framesInFlight recorded.
     std::optional<Divergence> check(std::uint64_t step) const;
 
     /// Status::contactRoom of such a step; if more than 0, that step and all after it were undone.
@@ -155,9 +156,10 @@ public:
     /// missing. Waits for `queue`.
     bool makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::Bring& bring = {});
 
-    /// The same without waiting: a simulation with that much room is made in a thread of its own. Before more
-    /// room for contacts no step may be recorded; for the surface of cuts steps go on meanwhile. False where
-    /// there can be none. For the surface one at a time, and not while wantsShape().
+    /// Like the two functions above, without waiting: a thread of its own makes a simulation with that
+    /// capacity. No step may be recorded meanwhile if it is for contacts; steps go on if it is for the
+    /// surface of cuts. False if there cannot be such a capacity. Growth for the surface: only while nothing
+    /// else grows, and not while wantsShape().
     bool beginRoom(std::uint64_t step);
     bool beginSurfaceRoom(std::uint32_t needed);
     bool isGrowing() const noexcept { return next_ && next_->purpose != Purpose::shape; }
@@ -239,7 +241,7 @@ private:
     std::optional<sim::Material> wanted_; // prepared after the present one
     std::optional<Turned> ready_;
     std::optional<Shape> shape_;               // for reshape()
-    std::optional<sim::Material> refused_;     // likewise
+    std::optional<sim::Material> refused_;     // for reshape()
     std::deque<Recorded> recorded_;            // that the device may still copy from
     std::optional<Next> next_;                 // of successor_ or made_
     std::optional<sim::Successor::Made> made_; // takes over at endGrowth()

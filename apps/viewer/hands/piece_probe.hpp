@@ -17,7 +17,8 @@ public:
 
     /// Call after the stage changed its simulation: drops the copies.
     void restart() noexcept { copies_.clear(); }
-    /// After recordSkin() of the simulation. Takes memory the first time; without any, nothing is recorded.
+    /// Records the copies; call it after recordSkin() of the simulation. Allocates at the first use; without
+    /// memory it records nothing.
     void record(VkCommandBuffer commands) noexcept;
     /// Counts the pieces in the last recorded copy, which must have finished. `all` is sim::Status::pieces of
     /// its newest step. PieceCount::isCounted is false if nothing was recorded.

@@ -23,7 +23,8 @@ public:
 
     /// Copies velocities too, if the simulation has any; in the same commands as record().
     void recordVelocities(VkCommandBuffer commands) const noexcept;
-    /// After recordSkin() of the simulation, if there are skins and what is asked is what a ray meets.
+    /// Records the copies. If there are skins and a ray is to be cast, call it after recordSkin() of the
+    /// simulation.
     void record(VkCommandBuffer commands) noexcept;
 
     /// The box around all finite positions of the scene [m]; empty if there are none. Here and below, the

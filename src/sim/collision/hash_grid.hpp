@@ -15,13 +15,13 @@ namespace sinew::sim::collision::hash_grid {
 /// The contents of a grid.
 struct Request {
     std::span<const float> radii; ///< by state slot, whole work groups [m]; below 0 = no particle there
-    float margin = 0; ///< how much farther than touching two particles may be and must still be found [m]
-    float edge = 0;   ///< of a cell, at least [m]
-    /// The same while no particle moves farther than `quiet` in a substep [m]; 0 = no other width.
+    float margin = 0;             ///< distance beyond contact up to which pairs must be found [m]
+    float edge = 0;               ///< smallest size of a cell [m]
+    /// The same while no particle moves farther than `quiet` in a substep [m]; 0 = no other size.
     float quietEdge = 0;
     std::uint32_t others = 0; ///< items of further passes that run with a build; 0 = none
-    /// How far a particle may move in a substep before contacts are looked for on its way [m]; below 0 where
-    /// nobody watches.
+    /// Distance that a particle may move in a substep before contacts are searched along its path [m]; below
+    /// 0 if particles are not checked.
     float quiet = -1;
     bool usesTexels = true;
     /// The bodies whose motion particles are expected to share; null = they are expected to stay in place.

@@ -25,11 +25,11 @@ struct CutBodies {
     std::vector<layout::HungVertex> vertices;
     std::vector<layout::vec4> planes; ///< by vertex: normals of the triangles around
     std::vector<layout::WholeTriangle> wholes;
-    std::vector<layout::PartVertex> parts; ///< that are no corners of these
-    std::vector<layout::SkinSlot> slots;   ///< that vertices go with
-    std::vector<std::uint32_t> hanging;    ///< what hangs there
-    std::vector<HungRange> ranges;         ///< of bodies with prisms
-    double cells = 0;                      ///< of all bodies whose skin is clipped; 0 = there are none
+    std::vector<layout::PartVertex> parts; ///< vertices that are no corners of whole triangles
+    std::vector<layout::SkinSlot> slots;   ///< slots that prisms and vertices depend on
+    std::vector<std::uint32_t> hanging;    ///< prisms and vertices by slot
+    std::vector<HungRange> ranges;         ///< one for each body with prisms
+    double cells = 0;                      ///< of all bodies with a clipped skin; 0 = there are none
     std::uint32_t room = 0;                ///< Settings::cutSurfaceRoom
     std::vector<std::uint32_t> skins;      ///< clipped skins
 };

@@ -10,8 +10,8 @@
 // the particles they depend on), write_inside (indices, normals at rest), write_outside (pieces of outer
 // faces, with their own vertices), hide_faces (skin triangles that pieces replace).
 //
-// Items of the surface are slots, and prisms behind them. When somebody draws: find_gradients (how the
-// material around particles near a cut has turned and strained), normals of skins that hang and of split ones
+// Items of the surface are slots, followed by prisms. StepProgram::skin runs: find_gradients (rotation and
+// strain of the material around particles near a cut), normals of attached skins and of split ones
 // (hung_surface, split_normals), skin_cut (points and their normals), skin_pieces (corners of pieces, at the
 // points).
 //
@@ -64,15 +64,15 @@ struct CutSurface {
     BufferId bladeRest; ///< rest positions for a blade: `rest`, or below the skin
     HungSurface hung;
     std::uint32_t wholeCount = 0;     ///< whole triangles of split skins; 0 = there are none
-    BufferId wholes;                  ///< these
+    BufferId wholes;                  ///< these whole triangles
     BufferId wholeStates;             ///< by whole triangle: 1 = it is beside a cut
-    BufferId wholeMarks;              ///< by vertex that hangs: 1 = a corner of a whole triangle beside a cut
+    BufferId wholeMarks;              ///< by attached vertex: 1 = a corner of a whole triangle beside a cut
     std::uint32_t partCount = 0;      ///< vertices that only parts of whole triangles have
-    BufferId partVertices;            ///< these
+    BufferId partVertices;            ///< these vertices
     BufferId wholeIndices;            ///< corners of whole triangles, as vertices of all skins
     VertexFans wholeFans;             ///< whole triangles around each of these vertices
     std::uint32_t wholeVertices = 0;  ///< vertices in wholeFans
-    std::vector<std::uint32_t> skins; ///< that are clipped
+    std::vector<std::uint32_t> skins; ///< clipped skins
 };
 
 /// Adds the buffers, and the index buffer of skins, which cuts change. Call it after the buffers of

@@ -1,6 +1,7 @@
-// Normals of a skin at rest, in the words of skin_normals.comp: a vertex beside a cut has this one, turned
-// with the material, where others have theirs from the triangles around them, and the two must meet. Within
-// a whole triangle of a split skin they go over from corner to corner, as they do before a cut.
+// Normals of a skin at rest, computed as in skin_normals.comp. A vertex beside a cut has its rest normal,
+// rotated with the material, while other vertices have normals from the triangles around them; the two must
+// agree. Within a whole triangle of a split skin normals are interpolated between its corners, as they are
+// before a cut.
 #pragma once
 
 #include "sim/surface/point.hpp"
@@ -17,12 +18,12 @@ namespace sinew::sim::surface {
 std::vector<Point> restNormals(std::span<const std::array<std::uint32_t, 3>> triangles,
                                std::span<const Point> rest);
 
-/// Vertices that are no corners of whole triangles, by their index: in a triangle whose parts have them,
-/// whose index it is. Empty without Skin::wholeOf.
+/// Vertices that are no corners of whole triangles, with the whole triangle that contains each; both are
+/// indices. Empty if the skin is not split.
 std::vector<layout::PartVertex> partVertices(const Skin& skin, std::span<const Point> rest);
 
-/// Of a split skin as it is lit: corners of whole triangles have the normals of these, and vertices of parts
-/// (`parts`, as above) what those are in between. Of another skin those of its triangles.
+/// Normals as drawn. In a split skin corners of whole triangles have the normals of these, and vertices of
+/// parts (`parts`, see partVertices) interpolate them. In another skin normals are those of its triangles.
 std::vector<Point> litNormals(const Skin& skin, std::span<const layout::PartVertex> parts,
                               std::span<const Point> rest);
 

@@ -16,9 +16,9 @@ struct VertexFans {
 VertexFans uploadFans(ProgramBuilder& program, const std::vector<std::uint32_t>& indices,
                       std::uint32_t vertexCount, const std::string& name);
 
-/// Appends the skin passes, and those of whole skins where some were split, and sets the program's skin
-/// buffers; nothing where `skins` is empty. Skins lie behind one another in one vertex and one index buffer,
-/// in the order of the scene. `usesTexels` as Forms has it.
+/// Appends the skin passes, and those of whole skins if some were split, and sets the program's skin buffers;
+/// nothing if `skins` is empty. Skins are consecutive in one vertex and one index buffer, in the order of the
+/// scene. `usesTexels` is Forms::usesTexels.
 void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins, bool usesTexels);
 
 /// Appends smooth normals of the vertices of one variant of skin_normals.comp, with texels or loads. `more`

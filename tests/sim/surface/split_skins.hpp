@@ -21,7 +21,7 @@ bool isThere(const Triangle& triangle);
 /// The triangles that are drawn of all skins, without those that shrank to a point.
 std::vector<Triangle> drawnOf(const sim::Simulation& simulation);
 
-/// Vertices of all skins, recorded with this detail and overlap.
+/// Vertices of all skins, recorded with this detail.
 std::vector<sim::layout::SkinVertex> drawnBy(Runner& runner, sim::SkinDetail detail);
 Eigen::Vector3d normalOf(const sim::layout::SkinVertex& vertex);
 Eigen::Vector3d placeOf(const sim::layout::SkinVertex& vertex);
