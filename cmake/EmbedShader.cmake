@@ -4,7 +4,7 @@ file(READ ${SPIRV} bytes HEX)
 string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words ${bytes}) # the words are little-endian
 string(REGEX REPLACE "(0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,)" "\\1\n    " words ${words})
 file(WRITE ${OUTPUT}
-"#include \"vk/shader_code.hpp\"
+"#include \"sinew/vk/shader_code.hpp\"
 
 namespace ${NAMESPACE} {
 namespace vk = ::sinew::vk;

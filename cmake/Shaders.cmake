@@ -107,7 +107,7 @@ function(add_kernels target)
 "// Generated from the shader files by cmake/Shaders.cmake.
 #pragma once
 
-#include \"vk/shader_code.hpp\"
+#include \"sinew/vk/shader_code.hpp\"
 
 namespace @ARG_NAMESPACE@ {
 namespace vk = ::sinew::vk;
@@ -124,5 +124,9 @@ inline constexpr const vk::ShaderCode* all[] = {
 @all@};
 } // namespace @ARG_NAMESPACE@
 ")
-    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${folder}>)
+    if(PROJECT_IS_TOP_LEVEL) # tests read kernels, a host does not
+        target_include_directories(${target} PUBLIC ${folder})
+    else()
+        target_include_directories(${target} PRIVATE ${folder})
+    endif()
 endfunction()

@@ -15,10 +15,12 @@ MOST_LINES, MOST_COLUMNS = 150, 110
 REFERENCES = ["CHANGELOG.md"] + [f"docs/{name}.md" for name in ("scene-files", "report", "accuracy", "performance")]
 # The first words that no sentence of a page may have: a sentence names its subject first.
 FIRST_WORDS = re.compile(r"(?:^|[.:;!?]\s+|\|\s+)(?:[*]+ ?)?(Of|What|Which|Likewise|Where|Who|As|The same)\b")
-SOURCES = ("src", "shaders", "apps", "tools", "tests", "cmake", "scenes")
+SOURCES = ("src", "include", "shaders", "apps", "tools", "tests", "cmake", "scenes")
 SUFFIXES = {".cpp", ".hpp", ".h", ".inc", ".comp", ".glsl", ".vert", ".frag", ".cmake", ".txt", ".toml", ".sh", ".py", ".json"}
-FOLDERS = ("", "src/", "src/sim/", "apps/viewer/", "shaders/glsl/", "docs/", "tests/", "src/mesh/", "src/sim/solvers/", "src/sim/collision/",
-           "tests/sim/collision/", "tests/scenes/", "tests/viewer/")
+FOLDERS = ["", "src/", "include/", "include/sinew/", "apps/viewer/", "docs/", "tests/", "src/mesh/", "tests/sim/collision/", "tests/scenes/",
+           "tests/viewer/", "src/sim/", "shaders/glsl/"]
+FOLDERS += [f"{folder.relative_to(ROOT).as_posix()}/" for top in ("src/sim", "shaders/glsl") for folder in (ROOT / top).iterdir()
+            if folder.is_dir()]
 # Rules for comments of these folders: the largest share that may begin with one of these words, and no citation of a document
 # by a section, in brackets, that is not in the repository.
 COMMENTED = ("src", "include", "shaders", "apps", "tools", "tests")

@@ -1,7 +1,7 @@
 // A material is worked out by the stage; what needs other passes, by the library.
 #include "viewer/adjustments.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "viewer/gauges.hpp"
 #include "viewer/panels/knob_keys.hpp"
 

@@ -1,7 +1,7 @@
 // Makes one set of layers after another in a thread, then rehearses them, one submission each.
 #include "viewer/backstage.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <array>
 #include <chrono>

@@ -3,9 +3,9 @@
 // because drivers of software devices compile at the first use. Input is handled meanwhile.
 #pragma once
 
+#include "sinew/vk/queue.hpp"
 #include "viewer/hands/inspection.hpp"
 #include "viewer/prepared_show.hpp"
-#include "vk/queue.hpp"
 
 #include <functional>
 #include <future>

@@ -2,9 +2,9 @@
 #include "viewer/beside.hpp"
 
 #include "scenes/recovery.hpp"
-#include "sim/compile.hpp"
-#include "sim/ranges.hpp"
-#include "sim/substeps.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/ranges.hpp"
+#include "sinew/substeps.hpp"
 
 #include <algorithm>
 #include <charconv>

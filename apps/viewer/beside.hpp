@@ -3,11 +3,11 @@
 // and error can be compared while they play.
 #pragma once
 
+#include "sinew/vk/timestamps.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/gauges.hpp"
 #include "viewer/hands/state_probe.hpp"
 #include "viewer/tools.hpp"
-#include "vk/timestamps.hpp"
 
 namespace sinew::viewer {
 

@@ -3,7 +3,7 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 // A thread makes it. Rehearsals in Backstage put it into the state of the first.
 #include "viewer/comparison.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <chrono>
 #include <stdexcept>

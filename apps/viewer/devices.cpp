@@ -1,8 +1,8 @@
 // Opens every device with an instance of its own, so that threads share none.
 #include "viewer/devices.hpp"
 
+#include "sinew/vk/check.hpp"
 #include "viewer/opening.hpp"
-#include "vk/check.hpp"
 
 #include <algorithm>
 #include <chrono>

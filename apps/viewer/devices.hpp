@@ -1,9 +1,9 @@
 // The Vulkan devices that can draw in a window, and the opening of one of them.
 #pragma once
 
+#include "sinew/vk/loader.hpp"
 #include "viewer/options.hpp"
 #include "viewer/window/window.hpp"
-#include "vk/loader.hpp"
 
 #include <atomic>
 #include <future>

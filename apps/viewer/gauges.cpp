@@ -1,7 +1,7 @@
 // Reads step programs and status words.
 #include "viewer/gauges.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "viewer/draw/renderer.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Statistics of the scene on show for the panels: what a step consists of, and the results of finished steps.
 #pragma once
 
-#include "layout.h"
+#include "common/layout.h"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/state_probe.hpp"
 #include "viewer/opening.hpp"

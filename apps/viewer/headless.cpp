@@ -6,6 +6,9 @@
 #include "app/guard.hpp"
 #include "app/progress.hpp"
 #include "scenes/recovery.hpp"
+#include "sinew/vk/check.hpp"
+#include "sinew/vk/loader.hpp"
+#include "sinew/vk/queue.hpp"
 #include "viewer/beside.hpp"
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
@@ -16,9 +19,6 @@
 #include "viewer/pictures/video.hpp"
 #include "viewer/replay.hpp"
 #include "viewer/tools.hpp"
-#include "vk/check.hpp"
-#include "vk/loader.hpp"
-#include "vk/queue.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,9 +1,9 @@
 // Times of frames without a window: the same table as in the window, as far as it applies.
 #pragma once
 
+#include "sinew/vk/timestamps.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/window/frame_times.hpp"
-#include "vk/timestamps.hpp"
 
 #include <chrono>
 #include <optional>

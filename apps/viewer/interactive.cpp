@@ -2,12 +2,12 @@
 #include "viewer/interactive.hpp"
 
 #include "app/guard.hpp"
+#include "sinew/vk/check.hpp"
+#include "sinew/vk/loader.hpp"
 #include "viewer/devices.hpp"
 #include "viewer/prepared_show.hpp"
 #include "viewer/replay.hpp"
 #include "viewer/show.hpp"
-#include "vk/check.hpp"
-#include "vk/loader.hpp"
 
 #include <chrono>
 #include <cstdio>

@@ -3,12 +3,12 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/vk/check.hpp"
+#include "sinew/vk/queue.hpp"
 #include "viewer/panels/knob_keys.hpp"
 #include "viewer/pictures/recording.hpp"
 #include "viewer/window/preferences.hpp"
-#include "vk/check.hpp"
-#include "vk/queue.hpp"
 
 #include <ostream>
 #include <utility>

@@ -1,7 +1,7 @@
 // A picture whose colors turn out to have another range is drawn once more.
 #include "viewer/layer_view.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <utility>
 

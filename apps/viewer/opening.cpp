@@ -1,8 +1,8 @@
 // Loads scenes and chooses their first view.
 #include "viewer/opening.hpp"
 
-#include "sim/compile.hpp"
-#include "sim/ranges.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/ranges.hpp"
 #include "viewer/prepared_show.hpp"
 
 #include <cstdio>

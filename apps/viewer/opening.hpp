@@ -2,12 +2,12 @@
 #pragma once
 
 #include "app/state_file.hpp"
+#include "sinew/vk/device.hpp"
 #include "viewer/draw/png.hpp"
 #include "viewer/draw/stage_light.hpp"
 #include "viewer/hands/input_log.hpp"
 #include "viewer/options.hpp"
 #include "viewer/panels/facts.hpp"
-#include "vk/device.hpp"
 
 #include <atomic>
 #include <memory>

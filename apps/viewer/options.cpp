@@ -2,8 +2,8 @@
 #include "viewer/options.hpp"
 
 #include "app/guard.hpp"
-#include "sim/compile.hpp"
-#include "sim/ranges.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/ranges.hpp"
 #include "viewer/beside.hpp"
 #include "viewer/hands/bindings.hpp"
 #include "viewer/window/preferences.hpp"

@@ -1,8 +1,8 @@
 // Two spans of drawing a slot, and a span for each phase of a step.
 #include "viewer/picture_times.hpp"
 
-#include "vk/commands.hpp"
-#include "vk/kernel_store.hpp"
+#include "sinew/vk/commands.hpp"
+#include "sinew/vk/kernel_store.hpp"
 
 #include <numeric>
 #include <utility>

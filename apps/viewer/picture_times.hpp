@@ -2,8 +2,8 @@
 // pipelines that the window's thread has made.
 #pragma once
 
+#include "sinew/vk/timestamps.hpp"
 #include "viewer/show_context.hpp"
-#include "vk/timestamps.hpp"
 
 namespace sinew::viewer {
 

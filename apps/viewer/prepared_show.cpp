@@ -1,12 +1,12 @@
 // Makes the simulation, the renderers and the warm-up.
 #include "viewer/prepared_show.hpp"
 
-#include "sim/gpu_tune.hpp"
+#include "sinew/gpu_tune.hpp"
+#include "sinew/vk/kernel_store.hpp"
+#include "sinew/vk/queue.hpp"
 #include "viewer/gauges.hpp"
 #include "viewer/replay.hpp"
 #include "viewer/warm_up.hpp"
-#include "vk/kernel_store.hpp"
-#include "vk/queue.hpp"
 
 namespace sinew::viewer {
 

@@ -1,11 +1,11 @@
 // A thread that waits for wanted previews.
 #include "viewer/previews.hpp"
 
+#include "sinew/vk/queue.hpp"
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/panels/picture_sheet.hpp"
-#include "vk/queue.hpp"
 
 #include <sys/resource.h>
 

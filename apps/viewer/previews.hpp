@@ -1,9 +1,9 @@
 // Previews of scenes: small pictures, made in the background.
 #pragma once
 
+#include "sinew/vk/device.hpp"
 #include "viewer/draw/png.hpp"
 #include "viewer/options.hpp"
-#include "vk/device.hpp"
 
 #include <condition_variable>
 #include <functional>

@@ -2,7 +2,7 @@
 #include "viewer/replay.hpp"
 
 #include "app/guard.hpp"
-#include "sim/hash.hpp"
+#include "sim/core/hash.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/state_probe.hpp"
 #include "viewer/opening.hpp"

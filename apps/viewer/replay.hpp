@@ -1,9 +1,9 @@
 // Plays an input log: passes the logged input before each step to the tools.
 #pragma once
 
+#include "sinew/vk/queue.hpp"
 #include "viewer/hands/input_log.hpp"
 #include "viewer/options.hpp"
-#include "vk/queue.hpp"
 
 namespace sinew::viewer {
 

@@ -1,7 +1,7 @@
 // Changes swapchain and panels together.
 #include "viewer/screen.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <cmath>

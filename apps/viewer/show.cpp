@@ -2,7 +2,7 @@
 #include "viewer/show.hpp"
 
 #include "app/guard.hpp"
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,7 +2,7 @@
 #include "viewer/succession.hpp"
 
 #include "scenes/recovery.hpp"
-#include "vk/queue.hpp"
+#include "sinew/vk/queue.hpp"
 
 #include <stdexcept>
 #include <utility>

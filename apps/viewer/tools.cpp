@@ -1,10 +1,10 @@
 // Three tools for one pointer: the left button belongs to the active one.
 #include "viewer/tools.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/vk/check.hpp"
 #include "viewer/hands/controller.hpp"
 #include "viewer/opening.hpp"
-#include "vk/check.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,7 +2,7 @@
 // history.
 #pragma once
 
-#include "sim/holds.hpp"
+#include "sinew/holds.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/cut_tool.hpp"
 #include "viewer/hands/grab_tool.hpp"

@@ -1,7 +1,7 @@
 // The tools' part in steps, and undo of steps.
 #include "viewer/tools.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <utility>

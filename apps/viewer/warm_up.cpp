@@ -1,8 +1,8 @@
 // Takes a step and a cut through the middle, and draws pictures of every size.
 #include "viewer/warm_up.hpp"
 
+#include "sinew/vk/queue.hpp"
 #include "viewer/draw/image.hpp"
-#include "vk/queue.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // others.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <functional>
 #include <span>

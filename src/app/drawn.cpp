@@ -2,8 +2,8 @@
 // particle or anchor. All three vertices of a triangle go with the same piece.
 #include "app/drawn.hpp"
 
-#include "sim/compile.hpp"
-#include "sim/counted.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/core/counted.hpp"
 
 #include <algorithm>
 #include <set>

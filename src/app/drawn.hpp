@@ -3,9 +3,9 @@
 #pragma once
 
 #include "app/piece_count.hpp"
-#include "layout.h"
-#include "sim/simulation.hpp"
-#include "vk/queue.hpp"
+#include "common/layout.h"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/queue.hpp"
 
 #include <functional>
 

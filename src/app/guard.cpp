@@ -3,7 +3,7 @@
 
 #include "mesh/export.hpp"
 #include "mesh/import.hpp"
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <atomic>

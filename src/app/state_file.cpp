@@ -3,10 +3,10 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
-#include "sim/gpu_compile.hpp"
-#include "sim/hash.hpp"
-#include "sim/ranges.hpp"
-#include "vk/commands.hpp"
+#include "sim/core/hash.hpp"
+#include "sim/device/gpu_compile.hpp"
+#include "sinew/ranges.hpp"
+#include "sinew/vk/commands.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,9 +1,9 @@
 // A simulation between two steps as a file, to go on from in another run.
 #pragma once
 
-#include "sim/material.hpp"
-#include "sim/simulation.hpp"
-#include "vk/queue.hpp"
+#include "sinew/material.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/queue.hpp"
 
 #include <filesystem>
 #include <optional>

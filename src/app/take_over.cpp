@@ -1,7 +1,7 @@
 // Submits what Simulation::recordTakeOver records.
 #include "app/take_over.hpp"
 
-#include "sim/ranges.hpp"
+#include "sinew/ranges.hpp"
 
 #include <cstring>
 

@@ -1,8 +1,8 @@
 // Submissions that take the state of one simulation over into another one, for programs that wait for them.
 #pragma once
 
-#include "sim/simulation.hpp"
-#include "vk/queue.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/queue.hpp"
 
 #include <functional>
 

@@ -5,7 +5,7 @@
 #include "mesh/topology.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "mesh/vector3.hpp"
-#include "sim/counted.hpp"
+#include "sim/core/counted.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
 // The report of repair() in sentences.
 #include "mesh/repair.hpp"
 
-#include "sim/counted.hpp"
+#include "sim/core/counted.hpp"
 
 #include <cstdio>
 

@@ -8,7 +8,7 @@
 #include "mesh/split_skin.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/wrap.hpp"
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <algorithm>
 #include <cmath>

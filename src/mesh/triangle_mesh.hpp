@@ -1,7 +1,7 @@
 // A plain triangle mesh, its defects and its measures.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 namespace sinew::mesh {
 

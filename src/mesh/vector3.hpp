@@ -1,7 +1,7 @@
 // Double-precision vectors for the geometry inside sinew_mesh; never part of its interface.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,7 +1,7 @@
 // The edge of a blade goes straight from where it is at one time to where it is at the next.
 #include "scenes/blades.hpp"
 
-#include "sim/ranges.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>

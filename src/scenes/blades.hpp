@@ -4,7 +4,7 @@
 
 #include "scenes/load.hpp"
 #include "scenes/section.hpp"
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
 
 namespace sinew::scenes {
 

@@ -4,7 +4,7 @@
 
 #include "scenes/origin.hpp"
 #include "scenes/surface.hpp"
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <algorithm>
 #include <cmath>

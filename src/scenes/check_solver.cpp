@@ -2,9 +2,9 @@
 #include "scenes/check_solver.hpp"
 
 #include "scenes/section.hpp"
-#include "sim/compile.hpp"
-#include "sim/touching.hpp"
-#include "sim/validate.hpp"
+#include "sim/collision/touching.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/validate.hpp"
 
 #include <algorithm>
 
@@ -54,14 +54,14 @@ void requireForms(const LoadedScene& loaded, const std::string& file) {
     const std::string none =
         std::string("solver ") + sim::solverName(loaded.settings.solver) + " does not support ";
     const std::vector<bool> isCorner = cornersOf(scene); // sheets with a thickness touch by their faces
-    if (sim::particlesTouch(scene))
+    if (sim::collision::particlesTouch(scene))
         fail(file,
              none + "particles that touch each other, as those of " +
                  bodyWhere(scene,
                            [&](std::uint32_t i) { return scene.particles[i].radius > 0 && !isCorner[i]; }) +
                  " do",
              "use split, or leave out collides and [[particles]]");
-    if (sim::facesTouch(scene))
+    if (sim::collision::facesTouch(scene))
         fail(file,
              none + "particles that touch surfaces, as that of " +
                  bodyWhere(scene, [&](std::uint32_t i) { return isCorner[i]; }),

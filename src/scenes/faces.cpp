@@ -1,7 +1,7 @@
 #include "scenes/faces.hpp"
 
 #include "scenes/bodies.hpp"
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include "scenes/sentences.hpp"
 
 #include "mesh/triangle_tree.hpp"
-#include "sim/holds.hpp"
+#include "sinew/holds.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,12 +12,12 @@
 #include "scenes/sentences.hpp"
 #include "scenes/surface.hpp"
 #include "scenes/untouched.hpp"
-#include "sim/compile.hpp"
-#include "sim/counted.hpp"
-#include "sim/ranges.hpp"
-#include "sim/start.hpp"
-#include "sim/substeps.hpp"
-#include "sim/validate.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/core/counted.hpp"
+#include "sinew/ranges.hpp"
+#include "sinew/start.hpp"
+#include "sinew/substeps.hpp"
+#include "sinew/validate.hpp"
 
 #include <algorithm>
 #include <cmath>

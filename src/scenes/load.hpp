@@ -3,8 +3,8 @@
 
 #include "mesh/import.hpp"
 #include "mesh/to_scene.hpp"
-#include "sim/holds.hpp"
-#include "sim/substeps.hpp"
+#include "sinew/holds.hpp"
+#include "sinew/substeps.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -11,8 +11,8 @@
 #include "scenes/place_mesh.hpp"
 #include "scenes/recovery.hpp"
 #include "scenes/surface.hpp"
-#include "sim/bodies.hpp"
-#include "sim/counted.hpp"
+#include "sim/core/counted.hpp"
+#include "sinew/bodies.hpp"
 
 #include <algorithm>
 

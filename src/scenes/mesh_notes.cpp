@@ -2,7 +2,7 @@
 #include "scenes/mesh_notes.hpp"
 
 #include "scenes/place_mesh.hpp"
-#include "sim/counted.hpp"
+#include "sim/core/counted.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "scenes/origin.hpp"
 #include "scenes/sentences.hpp"
 
-#include "sim/collision/check_colliders.hpp"
-#include "sim/complaints.hpp"
+#include "sim/core/complaints.hpp"
+#include "sim/rigid/check_colliders.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -42,7 +42,7 @@ void requireOrder(const Section& section, const std::vector<Section>& keyframes,
                                   sim::number(keys[k - 1].time) + " s of the keyframe before",
                               "give a later time");
     if (path.end == sim::PathEnd::loop && keys.size() > 1 &&
-        !sim::collision::isSame(keys.front().pose, keys.back().pose))
+        !sim::rigid::isSame(keys.front().pose, keys.back().pose))
         section.fail("path_end", "is \"loop\", but the last keyframe is not where the first one is",
                      "give it the same center and rotation, or say \"hold\"");
 }

@@ -1,9 +1,9 @@
 // Whether a mesh body can have what it did not ask for.
 #include "scenes/recovery.hpp"
 
-#include "sim/compile.hpp"
-#include "sim/ranges.hpp"
-#include "sim/validate.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/ranges.hpp"
+#include "sinew/validate.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// The table itself. Ranges that the simulation shares come from sim/ranges.hpp.
+// The table itself. Ranges that the simulation shares come from sinew/ranges.hpp.
 #include "scenes/schema.hpp"
 
 #include <algorithm>

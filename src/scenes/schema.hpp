@@ -1,7 +1,7 @@
 // Every key of a scene file: one table for the parser, the suggested spellings and docs/scene-files.md.
 #pragma once
 
-#include "sim/ranges.hpp"
+#include "sinew/ranges.hpp"
 
 #include <cstdint>
 #include <span>

@@ -2,7 +2,7 @@
 // like any others.
 #include "scenes/blades.hpp"
 
-#include "sim/random.hpp"
+#include "sim/core/random.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,8 +1,8 @@
 // Planes and colliders stop every particle that moves, a mesh stops particles with a radius and other faces.
 #include "scenes/untouched.hpp"
 
-#include "sim/compile.hpp"
-#include "sim/counted.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/core/counted.hpp"
 
 #include <algorithm>
 

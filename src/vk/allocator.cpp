@@ -1,7 +1,7 @@
 // The block allocator, and the adapter for a host's allocation hook.
 #include "vk/allocator.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 #include "vk/free_ranges.hpp"
 
 #include <algorithm>

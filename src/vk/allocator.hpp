@@ -2,7 +2,7 @@
 // many buffers in each, and a host's own two functions.
 #pragma once
 
-#include "vk/device.hpp"
+#include "sinew/vk/device.hpp"
 
 namespace sinew::vk {
 

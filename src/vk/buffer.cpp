@@ -1,8 +1,8 @@
 // Checks sizes before a request reaches the allocator.
-#include "vk/buffer.hpp"
+#include "sinew/vk/buffer.hpp"
 
+#include "sinew/vk/check.hpp"
 #include "vk/allocator.hpp"
-#include "vk/check.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // Names of VkResult values and their mapping to Failure.
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 namespace sinew::vk {
 

@@ -1,8 +1,8 @@
 // Device choice: GPUs before software devices; an index or a part of a name overrides.
 #include "vk/choice.hpp"
 
+#include "sinew/vk/check.hpp"
 #include "vk/allocator.hpp"
-#include "vk/check.hpp"
 
 #include <algorithm>
 #include <cctype>

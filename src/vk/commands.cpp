@@ -1,6 +1,6 @@
 // All pipeline stages and access masks of the core. Synchronisation 1, since Vulkan 1.2 has no other without
 // an optional feature; global memory barriers, since a planned barrier covers several buffers.
-#include "vk/commands.hpp"
+#include "sinew/vk/commands.hpp"
 
 #include <cassert>
 

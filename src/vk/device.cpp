@@ -1,12 +1,12 @@
 // Creation and borrowing of devices. Parts that others point at are in the heap-allocated State, so that a
 // Device can be moved.
-#include "vk/device.hpp"
+#include "sinew/vk/device.hpp"
 
+#include "sinew/vk/check.hpp"
+#include "sinew/vk/kernel_store.hpp"
 #include "vk/allocator.hpp"
-#include "vk/check.hpp"
 #include "vk/choice.hpp"
 #include "vk/instance.hpp"
-#include "vk/kernel_store.hpp"
 
 #include <algorithm>
 #include <string_view>

@@ -1,7 +1,7 @@
 // Fills the private function tables.
-#include "vk/functions.hpp"
+#include "sinew/vk/functions.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <string_view>
 
@@ -24,7 +24,7 @@ InstanceFunctions loadInstanceFunctions(PFN_vkGetInstanceProcAddr getInstancePro
 #define SINEW_VK(name) functions.name = required<PFN_##name>(getInstanceProcAddr(instance, #name), #name);
 #define SINEW_VK_DEVICE(name)
 #define SINEW_VK_DRAWING(name)
-#include "vk/functions.inc"
+#include "sinew/vk/functions.inc"
     return functions;
 }
 
@@ -34,7 +34,7 @@ DeviceFunctions loadDeviceFunctions(PFN_vkGetDeviceProcAddr getDeviceProcAddr, V
 #define SINEW_VK_DEVICE(name) functions.name = required<PFN_##name>(getDeviceProcAddr(device, #name), #name);
 #define SINEW_VK_DRAWING(name)                                                                               \
     functions.name = reinterpret_cast<PFN_##name>(getDeviceProcAddr(device, #name));
-#include "vk/functions.inc"
+#include "sinew/vk/functions.inc"
     return functions;
 }
 

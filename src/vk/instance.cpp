@@ -1,7 +1,7 @@
 // Creates the instance of our own programs: extensions, validation layer, messenger.
 #include "vk/instance.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <string_view>

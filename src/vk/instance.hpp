@@ -2,7 +2,7 @@
 // messages. Private to src/vk.
 #pragma once
 
-#include "vk/device.hpp"
+#include "sinew/vk/device.hpp"
 
 #include <mutex>
 

@@ -1,9 +1,9 @@
 // Pipelines and descriptor sets, both checked against the reflected interface.
-#include "vk/kernel.hpp"
+#include "sinew/vk/kernel.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
+#include "sinew/vk/kernel_store.hpp"
 #include "vk/exact.hpp"
-#include "vk/kernel_store.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 // A map from shader code and constants to kernels.
-#include "vk/kernel_store.hpp"
+#include "sinew/vk/kernel_store.hpp"
 
 #include <utility>
 

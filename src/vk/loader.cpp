@@ -1,7 +1,7 @@
 // Opens the Vulkan loader with dlopen.
-#include "vk/loader.hpp"
+#include "sinew/vk/loader.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <cstdlib>
 #include <dlfcn.h>

@@ -1,7 +1,7 @@
 // One queue with one timeline semaphore.
-#include "vk/queue.hpp"
+#include "sinew/vk/queue.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <cstring>

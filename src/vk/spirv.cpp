@@ -1,5 +1,5 @@
 // Derives the interface of a kernel from a parsed module.
-#include "vk/spirv.hpp"
+#include "sinew/vk/spirv.hpp"
 
 #include "vk/spirv_module.hpp"
 
@@ -127,7 +127,7 @@ void addVariable(const Module& module, const spirv::Variable& variable, KernelIn
     }
 }
 
-// The binding that need not follow the one before it: LAST_BINDING of shaders/glsl/layout.h.
+// The binding that need not follow the one before it: LAST_BINDING of shaders/glsl/common/layout.h.
 constexpr std::uint32_t lastBinding = 31;
 
 void checkBindings(const Module& module, const std::vector<KernelBinding>& bindings) {

@@ -2,7 +2,7 @@
 // src/vk. Opcodes and layout follow the SPIR-V specification 1.5, sections 2.3 and 3.
 #pragma once
 
-#include "vk/spirv.hpp"
+#include "sinew/vk/spirv.hpp"
 
 #include <map>
 #include <stdexcept>

@@ -1,7 +1,7 @@
 // Two queries per span.
-#include "vk/timestamps.hpp"
+#include "sinew/vk/timestamps.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <cassert>
 #include <utility>

@@ -3,7 +3,7 @@
 
 #include "mesh/export.hpp"
 #include "scenes/load.hpp"
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <gtest/gtest.h>
 

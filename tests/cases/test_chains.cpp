@@ -1,6 +1,6 @@
 // Cases 6 to 8: chains that stretch, sag and swing.
 #include "cases/cases.hpp"
-#include "sim/coloring.hpp"
+#include "sim/model/coloring.hpp"
 
 #include <algorithm>
 #include <functional>

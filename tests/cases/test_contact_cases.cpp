@@ -1,6 +1,6 @@
 // Cases 16 to 18, 20 and 21: particles in contact with particles and planes, solved by `split`.
 #include "cases/cases.hpp"
-#include "layout.h"
+#include "common/layout.h"
 #include "sim/collision/contact_scenes.hpp"
 
 #include <Eigen/Geometry>

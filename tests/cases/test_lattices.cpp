@@ -2,9 +2,9 @@
 // Poisson ratio 1/4, for all numbers of substeps. Lengths are given in cells of 5 cm, times in the time that
 // a wave needs to cross a cell.
 #include "cases/cases.hpp"
-#include "sim/bodies.hpp"
 #include "sim/reference/implicit_step.hpp"
-#include "sim/substeps.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/substeps.hpp"
 
 #include <algorithm>
 #include <numbers>

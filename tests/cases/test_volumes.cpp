@@ -2,10 +2,10 @@
 // their volume under pressure. Only `split` supports cell volumes; for the other solvers, the cases press a
 // lattice of links.
 #include "cases/cases.hpp"
-#include "sim/bodies.hpp"
 #include "sim/reference/cells.hpp"
 #include "sim/reference/elasticity.hpp"
 #include "sim/reference/implicit_step.hpp"
+#include "sinew/bodies.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,9 +1,9 @@
 // Hard cases 15, 25 and 26: contacts in extreme situations. Case 14 is in test_interlocked.cpp.
 #include "cases_hard/trial.hpp"
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

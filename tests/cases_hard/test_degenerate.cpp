@@ -1,6 +1,6 @@
 // Hard cases 3, 11, 20 and 33: constraints without length, mass or stiffness, and empty scenes.
 #include "cases_hard/trial.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/scenes.hpp"
 
 #include <gtest/gtest.h>

@@ -3,14 +3,14 @@
 #include "cases/cases.hpp"
 #include "cases_hard/trial.hpp"
 #include "scenes/load.hpp"
-#include "sim/bodies.hpp"
-#include "sim/coloring.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/model/coloring.hpp"
 #include "sim/reference/reference.hpp"
 #include "sim/scenes.hpp"
-#include "sim/step_clock.hpp"
-#include "sim/substeps.hpp"
-#include "sim/validate.hpp"
+#include "sim/simulation/step_clock.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/substeps.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Hard case 12: validate() rejects negative, infinite and NaN values by name before anything runs.
-#include "sim/bodies.hpp"
 #include "sim/scenes.hpp"
-#include "sim/simulation.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/validate.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Hard case 14 for lattices: bodies that overlap by a third or a half at the start part at the recovery
 // speed, for all numbers of substeps, positions, rotations and deformations.
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 #include "support/full.hpp"
 
 #include <Eigen/Geometry>

@@ -3,7 +3,7 @@
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/substeps.hpp"
+#include "sinew/substeps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Hard cases 13 and 30, and the bound on the time of all others: faults during a run, more colors than a step
 // allows, and work that does not depend on the state.
 #include "cases_hard/trial.hpp"
-#include "sim/bodies.hpp"
-#include "sim/coloring.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/model/coloring.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include "cases_hard/trial.hpp"
 
 #include "cases/cases.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/scenes.hpp"
-#include "sim/substeps.hpp"
+#include "sinew/substeps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sim/runner.hpp"
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <functional>
 

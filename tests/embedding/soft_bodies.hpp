@@ -1,8 +1,8 @@
 // The README's embedding example, compiled and run by the tests. README.md quotes the text below the pragma.
 #pragma once
 
-#include "sim/bodies.hpp"
-#include "sim/simulation.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/simulation.hpp"
 
 struct SoftBodies {
     sinew::vk::Device device;

@@ -1,8 +1,8 @@
 // Tests a host with mapped memory that is cached and not coherent. The host side of every buffer is a copy,
 // which is synchronised with the device memory only where Sinew flushes or invalidates.
 #include "embedding/soft_bodies.hpp"
+#include "sinew/vk/check.hpp"
 #include "support/host_device.hpp"
-#include "vk/check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "mesh/generate.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "meshes.hpp"
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Draws one to three bodies, and each property of a body, a scene or the settings with its own probability.
 #include "scenes/drawn_scenes.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <array>
 #include <random>

@@ -2,7 +2,7 @@
 // its results.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 namespace sinew::test {
 

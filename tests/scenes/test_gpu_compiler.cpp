@@ -5,12 +5,12 @@
 #include "all_kernels.hpp"
 #include "scenes/drawn_scenes.hpp"
 #include "scenes/load.hpp"
-#include "sim/compile.hpp"
-#include "sim/gpu_compile.hpp"
-#include "sim/validate.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/device/gpu_compile.hpp"
+#include "sinew/validate.hpp"
+#include "sinew/vk/kernel_store.hpp"
 #include "support/full.hpp"
 #include "support/null_hardware.hpp"
-#include "vk/kernel_store.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ struct Maker {
     }
 };
 
-// The scene far from the origin, so that positions need rounding remainders (sim/rounding.hpp).
+// The scene far from the origin, so that positions need rounding remainders (sim/model/rounding.hpp).
 sim::Scene farAway(sim::Scene scene) {
     for (sim::Particle& particle : scene.particles) particle.position.x += 100;
     return scene;

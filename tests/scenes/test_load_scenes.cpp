@@ -1,7 +1,7 @@
 // Tests of the conversion of a file's tables to a scene.
 #include "scenes/load_fixture.hpp"
 
-#include "sim/validate.hpp"
+#include "sinew/validate.hpp"
 
 #include <cmath>
 #include <map>

@@ -2,8 +2,8 @@
 // enter the body.
 #include "scenes/blades.hpp"
 #include "scenes/load.hpp"
-#include "sim/bodies.hpp"
 #include "sim/cutting/cut_gaps.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

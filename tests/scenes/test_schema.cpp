@@ -2,7 +2,7 @@
 // suggestions.
 #include "scenes/schema.hpp"
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <gtest/gtest.h>
 #include <toml++/toml.h>

@@ -1,9 +1,9 @@
 // Scenes for tests of repeated steps: bodies meet after a flight, so that a calm step needs contact lists.
 #pragma once
 
-#include "sim/bodies.hpp"
-#include "sim/simulation.hpp"
-#include "sim/start.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/start.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Submits one command buffer a step and waits for it.
 #include "sim/runner.hpp"
 
-#include "sim/compile.hpp"
-#include "sim/hash.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/core/hash.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // A Simulation on the shared device that is stepped and read back one step at a time.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
 #include "support/device.hpp"
 
 #include <Eigen/Core>

@@ -1,8 +1,8 @@
 // Builds the shared scenes.
 #include "sim/scenes.hpp"
 
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

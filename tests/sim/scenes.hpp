@@ -1,8 +1,8 @@
 // Small scenes shared by several tests. Random ones have fixed seeds.
 #pragma once
 
-#include "sim/scene.hpp"
-#include "sim/simulation.hpp"
+#include "sinew/scene.hpp"
+#include "sinew/simulation.hpp"
 
 #include <Eigen/Core>
 #include <functional>

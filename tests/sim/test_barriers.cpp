@@ -1,7 +1,7 @@
 // Tests planBarriers against a brute-force search, on random lists of passes and on programs of real scenes.
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/scenes.hpp"
 
 #include <gtest/gtest.h>

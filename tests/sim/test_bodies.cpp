@@ -1,8 +1,8 @@
 // Tests of cloth, chain and lattice bodies: mass, topology and the elastic constants of the per-cell assembly
 // (cases 11 and 23).
-#include "sim/bodies.hpp"
 #include "sim/reference/implicit_step.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/Sparse>

@@ -1,11 +1,11 @@
 // Tests of calm steps, which build contact lists only in their first substep. They must give the same bits as
 // steps that may build lists in any substep, also after undone and repeated steps and with several in flight.
 #include "sim/calm_cases.hpp"
-#include "sim/calm_steps.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/face_scenes.hpp"
-#include "sim/hash.hpp"
+#include "sim/core/hash.hpp"
 #include "sim/scenes.hpp"
+#include "sim/simulation/calm_steps.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

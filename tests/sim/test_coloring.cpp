@@ -1,8 +1,8 @@
 // Tests of colorings without a device: valid on any graph, and with the few colors that regular bodies allow.
-#include "sim/bodies.hpp"
-#include "sim/coloring.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/model/coloring.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

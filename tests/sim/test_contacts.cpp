@@ -1,5 +1,5 @@
 // Tests of boundary planes on the device: rest, restitution and friction (analytic cases 16 to 18).
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 

@@ -1,8 +1,8 @@
 // Tests for equal bits from run to run, after a reset, and with reversed invocation order. The number of
 // threads of a software device is fixed for a process, so compare_thread_counts.cmake runs this binary once
 // for each number.
-#include "sim/compile.hpp"
-#include "sim/gpu_executor.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/device/gpu_executor.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 #include "sim_test_kernels.hpp"

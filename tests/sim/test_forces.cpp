@@ -1,13 +1,13 @@
 // Compares the forces that a step reports with weight, momentum and Hooke's law. Reporting forces must not
 // change the motion of a scene.
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
-#include "sim/compile.hpp"
-#include "sim/hash.hpp"
-#include "sim/holds.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/core/hash.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/holds.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

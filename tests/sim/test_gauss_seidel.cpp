@@ -1,11 +1,11 @@
 // Tests of the special properties of `gauss_seidel`: static shapes independent of the number of substeps, and
 // a warm start that improves convergence and is limited by its guard where it would diverge.
-#include "sim/bodies.hpp"
-#include "sim/coloring.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/model/coloring.hpp"
 #include "sim/reference/reference.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

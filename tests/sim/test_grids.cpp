@@ -1,11 +1,11 @@
 // Tests of bodies with computed neighbours: all forms of the kernel give the same bits, one step agrees with
 // double precision, and a grid that contradicts the lists is refused.
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/constraints/agreement.hpp"
 #include "sim/lattice/placement.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Tests of forces on fixed objects: there are none between two fixed objects, a hold reports the opposite of
 // the contact forces on its particles, and fixed faces accept any number of points.
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
-#include "sim/hash.hpp"
-#include "sim/holds.hpp"
-#include "sim/program.hpp"
+#include "sim/core/hash.hpp"
+#include "sim/program/program.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/holds.hpp"
 
 #include <gtest/gtest.h>
 

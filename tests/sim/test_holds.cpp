@@ -1,12 +1,12 @@
-// Tests of held and driven particles (sim/holds.hpp) of all kinds of bodies.
-#include "sim/holds.hpp"
+// Tests of held and driven particles (sinew/holds.hpp) of all kinds of bodies.
+#include "sinew/holds.hpp"
 
-#include "sim/bodies.hpp"
-#include "sim/colliders.hpp"
 #include "sim/collision/collider_shapes.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/colliders.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Tests of passes that a kernel switches on or off: errors of the builder, the printed form, and execution on
 // the device under validation.
-#include "layout.h"
-#include "sim/gpu_executor.hpp"
+#include "common/layout.h"
+#include "sim/device/gpu_executor.hpp"
 #include "sim/scenes.hpp"
 #include "sim_indirect_kernels.hpp"
 #include "support/device.hpp"

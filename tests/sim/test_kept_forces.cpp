@@ -1,14 +1,14 @@
 // Tests that keeping forces does not change the motion, is not part of the state, is independent of the
 // invocation order, and does not count undone steps.
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/face_scenes.hpp"
-#include "sim/compile.hpp"
-#include "sim/hash.hpp"
-#include "sim/holds.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/core/hash.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/holds.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

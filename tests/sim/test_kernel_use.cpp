@@ -1,8 +1,8 @@
 // Tests that simulations of one device share the common parts of their programs.
-#include "sim/program.hpp"
+#include "sim/program/program.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "vk/kernel_store.hpp"
+#include "sinew/vk/kernel_store.hpp"
 
 #include <gtest/gtest.h>
 

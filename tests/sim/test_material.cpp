@@ -1,9 +1,9 @@
 // Tests of material changes during a run: they act from the next step on, and before any motion they give the
 // bits of a scene made with that material.
-#include "sim/bodies.hpp"
-#include "sim/material.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/material.hpp"
 
 #include <gtest/gtest.h>
 

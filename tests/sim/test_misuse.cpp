@@ -1,8 +1,8 @@
 // Tests that each mistake of a host gives one sentence, once, and that correct use gives none.
-#include "sim/bodies.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of damping on the device, which is not an analytic case of tests/cases.
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 

@@ -1,8 +1,8 @@
 // Tests of step programs without a device: errors of the builder, the passes of scenes, and the printed form.
 #include "kernels.hpp"
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

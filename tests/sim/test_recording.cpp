@@ -1,14 +1,14 @@
 // Tests of recording: it must not allocate, create buffers, or cost more than its dispatches. Runs without
 // the validation layer, which allocates memory of its own.
-#include "sim/bodies.hpp"
 #include "sim/count_allocations.hpp"
-#include "sim/program.hpp"
+#include "sim/program/program.hpp"
 #include "sim/scenes.hpp"
-#include "sim/simulation.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/loader.hpp"
+#include "sinew/vk/queue.hpp"
 #include "support/host_device.hpp"
 #include "vk/allocator.hpp"
-#include "vk/loader.hpp"
-#include "vk/queue.hpp"
 
 #include <gtest/gtest.h>
 

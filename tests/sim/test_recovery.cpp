@@ -1,11 +1,11 @@
 // Hard cases 4 to 7: a cube that is flattened, mirrored, scattered or collapsed to a point recovers its
 // shape, and its energy never grows. Runs with cell volumes (Poisson ratio 0.45), and with links alone and
 // recovery pressure.
-#include "sim/bodies.hpp"
 #include "sim/reference/cells.hpp"
 #include "sim/reference/trajectory.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Tests of the time between a step that lacked contact lists and its repetition, and of host mistakes.
 #include "sim/calm_cases.hpp"
-#include "sim/hash.hpp"
-#include "sim/material.hpp"
+#include "sim/core/hash.hpp"
+#include "sinew/material.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // How much more room a successor gets.
-#include "sim/ranges.hpp"
-#include "sim/rooms.hpp"
+#include "sinew/ranges.hpp"
+#include "sinew/rooms.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Tests that loading a saved state restores every bit, whatever happened since.
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

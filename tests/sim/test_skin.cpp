@@ -1,7 +1,7 @@
 // Tests of skins on the device: vertices in lattice cells, vertices on particles, smooth normals.
-#include "sim/bodies.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

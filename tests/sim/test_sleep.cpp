@@ -1,12 +1,12 @@
 // Tests of sleep: bodies at rest fall asleep, keep their positions exactly and cost nothing; every wake
 // condition works.
-#include "layout.h"
-#include "sim/bodies.hpp"
+#include "common/layout.h"
 #include "sim/collision/contact_scenes.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

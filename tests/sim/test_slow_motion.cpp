@@ -1,9 +1,9 @@
 // Tests of steady motion by less than the spacing of float32 numbers in a substep.
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
-#include "sim/rounding.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/model/rounding.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Compares steps on the device with the same steps in double (reference R3), to bound the error of float32
 // and the GPU.
-#include "sim/bodies.hpp"
-#include "sim/coloring.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/constraints/agreement.hpp"
+#include "sim/model/coloring.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-// Tests of the initial rotation, velocity and spin of bodies (sim/start.hpp).
-#include "sim/start.hpp"
+// Tests of the initial rotation, velocity and spin of bodies (sinew/start.hpp).
+#include "sinew/start.hpp"
 
-#include "sim/bodies.hpp"
 #include "sim/collision/collider_shapes.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/validate.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Tests of the status of a step: a state that is not finite is reported and never published.
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 

@@ -1,12 +1,12 @@
 // Tests of the number of substeps, which follows from stiffness, mass, frame time and tolerance, and of the
 // reported stiffness, which a loaded body must show.
-#include "sim/substeps.hpp"
+#include "sinew/substeps.hpp"
 
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/step_clock.hpp"
+#include "sim/simulation/step_clock.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

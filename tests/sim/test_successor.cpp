@@ -1,9 +1,9 @@
 // The next simulation is made on a thread beside the one that is stepped. At most one exists at a time.
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/successor.hpp"
+#include "sinew/successor.hpp"
+#include "sinew/vk/kernel_store.hpp"
 #include "vk/allocator.hpp"
-#include "vk/kernel_store.hpp"
 
 #include <gtest/gtest.h>
 

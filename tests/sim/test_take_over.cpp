@@ -1,8 +1,8 @@
 // Tests of a simulation with other settings that takes over the state of one of the same scene.
-#include "sim/bodies.hpp"
-#include "sim/material.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/material.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Tests of the measurement at start: it takes the fastest of the tried forms for any clock, and changes no
 // bit.
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
-#include "sim/gpu_compile.hpp"
-#include "sim/gpu_tune.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/device/gpu_compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/gpu_tune.hpp"
 
 #include <gtest/gtest.h>
 

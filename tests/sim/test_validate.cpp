@@ -1,10 +1,10 @@
 // Tests that every complaint about a scene names the item, the value and the allowed range.
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
-#include "sim/ranges.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/scenes.hpp"
-#include "sim/substeps.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/ranges.hpp"
+#include "sinew/substeps.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

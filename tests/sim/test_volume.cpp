@@ -1,7 +1,6 @@
 // Tests of cell volumes in `split`: equal bits in every form of the kernel, momentum, one step against double
 // precision, and the double precision against its own energy. Scenes that cannot be computed are refused.
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/constraints/agreement.hpp"
 #include "sim/lattice/cells.hpp"
 #include "sim/reference/elasticity.hpp"
@@ -10,8 +9,9 @@
 #include "sim/reference/trajectory.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/substeps.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/substeps.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include "support/full.hpp"
 
-#include "vk/kernel_store.hpp"
-#include "vk/loader.hpp"
+#include "sinew/vk/kernel_store.hpp"
+#include "sinew/vk/loader.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 // no layer, and Runner records the first steps of each kind on a second device with the layer.
 #pragma once
 
-#include "vk/queue.hpp"
+#include "sinew/vk/queue.hpp"
 
 #include <string>
 #include <vector>

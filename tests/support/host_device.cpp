@@ -1,7 +1,7 @@
 // Uses raw Vulkan, so that Device::borrow is tested without help from Device::create.
 #include "support/host_device.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <cstdio>

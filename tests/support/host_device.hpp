@@ -2,8 +2,8 @@
 // messenger and, if a test requests it, replaced Vulkan functions.
 #pragma once
 
-#include "vk/device.hpp"
-#include "vk/loader.hpp"
+#include "sinew/vk/device.hpp"
+#include "sinew/vk/loader.hpp"
 
 #include <chrono>
 #include <map>

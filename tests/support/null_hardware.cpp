@@ -1,7 +1,7 @@
 // Borrows the device, so that the functions that make and name pipelines can be wrapped.
 #include "support/null_hardware.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 // on any machine. Nothing can be submitted, and no buffer can be made.
 #pragma once
 
-#include "vk/device.hpp"
-#include "vk/loader.hpp"
-#include "vk/shader_code.hpp"
+#include "sinew/vk/device.hpp"
+#include "sinew/vk/loader.hpp"
+#include "sinew/vk/shader_code.hpp"
 
 #include <map>
 #include <memory>

@@ -5,7 +5,7 @@
 #include "sinew/overlap.hpp"
 #include "sinew/runner.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #include "sinew/bullet_body.hpp"
 
 #include "scenes/load.hpp"
-#include "sim/bodies.hpp"
 #include "sim/reference/trajectory.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

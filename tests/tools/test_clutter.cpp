@@ -4,7 +4,7 @@
 #include "sinew/clutter/sequential.hpp"
 #include "sinew/overlap.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

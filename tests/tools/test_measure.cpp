@@ -5,7 +5,7 @@
 #include "sinew/skin_mesh.hpp"
 #include "sinew/statistics.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

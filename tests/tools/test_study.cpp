@@ -4,7 +4,7 @@
 #include "sinew/study/plot_axes.hpp"
 #include "sinew/study/rest_report.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/reference/trajectory.hpp"
 
 #include <gtest/gtest.h>

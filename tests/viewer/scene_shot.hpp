@@ -4,7 +4,7 @@
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 #include "support/device.hpp"
 
 #include <algorithm>

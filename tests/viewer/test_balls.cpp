@@ -1,7 +1,7 @@
 // Tests of the selection of bodies without a skin, which are drawn as balls. No device is needed.
 #include "viewer/draw/balls.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 #include "viewer/draw/geometry.hpp"
 
 #include <gtest/gtest.h>

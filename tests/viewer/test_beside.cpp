@@ -1,7 +1,7 @@
 // Tests of two solvers side by side: in step, with the same input, measured alike, drawn in two halves.
 #include "played.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "viewer/beside.hpp"
 #include "viewer/draw/offscreen.hpp"
 

@@ -2,9 +2,9 @@
 // makes no pipeline, and the result has the same bits as with waiting.
 #include "played.hpp"
 
+#include "sinew/vk/kernel_store.hpp"
 #include "viewer/backstage.hpp"
 #include "viewer/draw/shot.hpp"
-#include "vk/kernel_store.hpp"
 
 #include <chrono>
 #include <thread>

@@ -2,11 +2,11 @@
 // (support/null_hardware.hpp). GPU families as in the test of the simulation's pipelines, more with
 // SINEW_FULL=1. SINEW_KERNEL_TABLE names a folder for a table of all shaders.
 #include "all_viewer_shaders.hpp"
+#include "sinew/vk/kernel_store.hpp"
 #include "support/full.hpp"
 #include "support/null_hardware.hpp"
 #include "viewer/draw/renderer.hpp"
 #include "viewer/panels/panel_painter.hpp"
-#include "vk/kernel_store.hpp"
 
 #include <gtest/gtest.h>
 

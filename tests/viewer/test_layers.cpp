@@ -3,7 +3,7 @@
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/inspection.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/inspection.hpp"
 
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/bodies.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

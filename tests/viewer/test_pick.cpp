@@ -2,7 +2,7 @@
 #include "viewer/hands/grab_tool.hpp"
 #include "viewer/hands/inspector.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "viewer/draw/collider_meshes.hpp"
 #include "viewer/hands/state_probe.hpp"
 
-#include "sim/colliders.hpp"
+#include "sinew/colliders.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "viewer/hands/pins.hpp"
 #include "viewer/hands/state_probe.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

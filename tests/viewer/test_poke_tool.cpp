@@ -5,7 +5,7 @@
 #include "viewer/hands/poke_tool.hpp"
 #include "viewer/hands/state_probe.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "viewer/hands/inspection.hpp"
 #include "viewer/hands/state_probe.hpp"
 
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/bodies.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Tests of steps that lacked contact lists and are repeated by the stage: later changes must follow them, and
 // times must count them once.
 #include "sim/calm_cases.hpp"
-#include "sim/hash.hpp"
+#include "sim/core/hash.hpp"
 #include "support/device.hpp"
 #include "viewer/headless_times.hpp"
 

@@ -2,8 +2,8 @@
 // files are refused.
 #include "app/guard.hpp"
 #include "app/state_file.hpp"
-#include "sim/gpu_compile.hpp"
-#include "sim/hash.hpp"
+#include "sim/core/hash.hpp"
+#include "sim/device/gpu_compile.hpp"
 #include "support/device.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/opening.hpp"

@@ -1,7 +1,7 @@
 // Tests of the stage's bounds, and of the volume that the shadow maps cover.
 #include "viewer/draw/stage_light.hpp"
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include "played.hpp"
 
 #include "app/guard.hpp"
+#include "sinew/vk/loader.hpp"
 #include "vk/allocator.hpp"
-#include "vk/loader.hpp"
 
 #include <algorithm>
 #include <chrono>

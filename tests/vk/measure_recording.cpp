@@ -1,8 +1,8 @@
 // Prints the cost of recording one pass without validation: bind, descriptor set, dispatch without push
 // constants, barrier.
 #include "measured_kernels.hpp"
-#include "vk/loader.hpp"
-#include "vk/queue.hpp"
+#include "sinew/vk/loader.hpp"
+#include "sinew/vk/queue.hpp"
 
 #include <algorithm>
 #include <chrono>

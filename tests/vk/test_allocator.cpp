@@ -3,8 +3,8 @@
 #include "support/device.hpp"
 #include "support/host_device.hpp"
 
+#include "sinew/vk/check.hpp"
 #include "vk/allocator.hpp"
-#include "vk/check.hpp"
 #include "vk/free_ranges.hpp"
 
 #include <gtest/gtest.h>

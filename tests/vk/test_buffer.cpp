@@ -1,8 +1,8 @@
 // Tests of buffers: sizes, names, moves.
 #include "support/device.hpp"
 
+#include "sinew/vk/check.hpp"
 #include "vk/allocator.hpp"
-#include "vk/check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
 
-#include "vk/commands.hpp"
+#include "sinew/vk/commands.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 #include "vk/choice.hpp"
 
 #include <gtest/gtest.h>

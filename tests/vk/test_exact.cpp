@@ -3,9 +3,9 @@
 // all of them. Dot products and similar instructions remain free. They must not occur in functions whose
 // results must have equal bits everywhere: predicates used by several kernels, signs of determinants, and
 // code shared by the forms of a step. The test reads the SPIR-V of every kernel in the build.
-#include "vk/device.hpp"
+#include "sinew/vk/device.hpp"
+#include "sinew/vk/spirv.hpp"
 #include "vk/exact.hpp"
-#include "vk/spirv.hpp"
 
 #include <gtest/gtest.h>
 
@@ -113,11 +113,19 @@ std::vector<fs::path> kernelsIn(const fs::path& folder) {
     return files;
 }
 
+std::set<std::string> sourcesIn(const fs::path& folder) {
+    std::set<std::string> stems;
+    for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder))
+        if (file.path().extension() == ".comp") stems.insert(file.path().stem().string());
+    return stems;
+}
+
 // The kernel of a form. A form's name begins with that of its source.
 std::string kernelOf(const fs::path& file) {
+    static const std::set<std::string> sources = sourcesIn(GLSL_FOLDER);
     const std::string whole = file.stem().stem().string();
     for (std::size_t end = whole.size(); end != std::string::npos && end > 0; end = whole.rfind('_', end - 1))
-        if (fs::exists(fs::path(GLSL_FOLDER) / (whole.substr(0, end) + ".comp"))) return whole.substr(0, end);
+        if (sources.contains(whole.substr(0, end))) return whole.substr(0, end);
     return whole;
 }
 

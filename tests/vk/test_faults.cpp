@@ -4,8 +4,8 @@
 #include "support/faults.hpp"
 #include "test_kernels.hpp"
 
-#include "vk/check.hpp"
-#include "vk/timestamps.hpp"
+#include "sinew/vk/check.hpp"
+#include "sinew/vk/timestamps.hpp"
 
 #include <gtest/gtest.h>
 

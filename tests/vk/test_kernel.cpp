@@ -3,8 +3,8 @@
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
 
-#include "vk/check.hpp"
-#include "vk/kernel.hpp"
+#include "sinew/vk/check.hpp"
+#include "sinew/vk/kernel.hpp"
 
 #include <gtest/gtest.h>
 

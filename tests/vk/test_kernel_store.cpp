@@ -2,7 +2,7 @@
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
 
-#include "vk/kernel_store.hpp"
+#include "sinew/vk/kernel_store.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Tests of submission, reuse of command buffers, and transfers.
 #include "support/device.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <gtest/gtest.h>
 

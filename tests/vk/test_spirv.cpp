@@ -1,6 +1,6 @@
 // Tests of the reader of kernel interfaces: its results, its refusals, and its agreement with spirv-cross.
+#include "sinew/vk/spirv.hpp"
 #include "test_kernels.hpp"
-#include "vk/spirv.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
 
-#include "vk/timestamps.hpp"
+#include "sinew/vk/timestamps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,13 +4,13 @@
 #include "app/guard.hpp"
 #include "app/progress.hpp"
 #include "scenes/load.hpp"
-#include "sim/gpu_tune.hpp"
-#include "sim/simulation.hpp"
 #include "sinew/clutter/jacobi.hpp"
 #include "sinew/clutter/sequential.hpp"
+#include "sinew/gpu_tune.hpp"
 #include "sinew/peers.hpp"
 #include "sinew/report.hpp"
 #include "sinew/sequential.hpp"
+#include "sinew/simulation.hpp"
 
 #include <fmt/format.h>
 

@@ -3,10 +3,10 @@
 #include "sinew/bench_contacts.hpp"
 
 #include "app/guard.hpp"
-#include "layout.h"
+#include "common/layout.h"
 #include "scenes/load.hpp"
-#include "sim/compile.hpp"
-#include "sim/gpu_tune.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/gpu_tune.hpp"
 #include "sinew/report.hpp"
 #include "sinew/runner.hpp"
 #include "sinew/statistics.hpp"

@@ -1,7 +1,7 @@
 // `sinew bench --contacts`: cost of contacts without any touch, with a body at rest, and in shipped scenes.
 #pragma once
 
-#include "sim/program.hpp"
+#include "sim/program/program.hpp"
 #include "sinew/json.hpp"
 #include "sinew/session.hpp"
 

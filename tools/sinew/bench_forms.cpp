@@ -4,13 +4,14 @@
 
 #include "app/guard.hpp"
 #include "scenes/load.hpp"
-#include "sim/bodies.hpp"
-#include "sim/gpu_compile.hpp"
-#include "sim/lattice/batches.hpp"
-#include "sim/program.hpp"
-#include "sim/simulation.hpp"
+#include "sim/device/gpu_compile.hpp"
+#include "sim/lattice/grids.hpp"
+#include "sim/program/program.hpp"
+#include "sim/solvers/batches.hpp"
+#include "sinew/bodies.hpp"
 #include "sinew/options.hpp"
-#include "vk/timestamps.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/timestamps.hpp"
 
 #include <fmt/format.h>
 
@@ -66,7 +67,7 @@ std::vector<sim::Forms> formsOf(const vk::Device& device, const sim::Scene& scen
     forms.push_back({.usesTexels = false, .columns = 1, .chunk = 16});
     const sim::Settings resident{.forms = {.residentBytes = device.limits().maxSharedMemory}};
     const std::vector<std::uint32_t> grids = sim::lattice::computedGrids(scene, resident);
-    if (sim::lattice::isResident(scene, resident, grids))
+    if (sim::solvers::isResident(scene, resident, grids))
         for (const auto& [columns, chunk] : {std::pair{2u, 16u}, {1u, 1u}})
             forms.push_back(
                 {.columns = columns, .chunk = chunk, .residentBytes = resident.forms.residentBytes});

@@ -3,10 +3,10 @@
 #include "sinew/bench_kernels.hpp"
 
 #include "app/guard.hpp"
-#include "sim/bodies.hpp"
-#include "sim/gpu_compile.hpp"
-#include "sim/gpu_tune.hpp"
-#include "sim/program.hpp"
+#include "sim/device/gpu_compile.hpp"
+#include "sim/program/program.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/gpu_tune.hpp"
 
 #include <fmt/format.h>
 

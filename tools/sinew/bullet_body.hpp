@@ -2,7 +2,7 @@
 // time on collision detection that the scene does not need.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <Eigen/Core>
 #include <memory>

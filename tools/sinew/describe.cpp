@@ -1,5 +1,5 @@
 // `sinew describe`: prints the step program of a scene. Needs no device.
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/options.hpp"
 #include "sinew/outputs.hpp"

@@ -2,8 +2,8 @@
 #include "app/guard.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/outputs.hpp"
-#include "vk/device.hpp"
-#include "vk/loader.hpp"
+#include "sinew/vk/device.hpp"
+#include "sinew/vk/loader.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 #include "sinew/measure.hpp"
 
 #include "app/cut_links.hpp"
-#include "sim/colliders.hpp"
-#include "sim/hash.hpp"
+#include "sim/core/hash.hpp"
+#include "sinew/colliders.hpp"
 #include "sinew/crossings.hpp"
 #include "sinew/overlap.hpp"
 #include "sinew/skin_mesh.hpp"

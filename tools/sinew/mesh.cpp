@@ -9,13 +9,13 @@
 #include "scenes/mesh_choice.hpp"
 #include "scenes/mesh_notes.hpp"
 #include "scenes/place_mesh.hpp"
-#include "sim/counted.hpp"
+#include "sim/core/counted.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
 #include "sinew/outputs.hpp"
 #include "sinew/report.hpp"
 #include "sinew/session.hpp"
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // Ranges are those of the table that validates scenes.
 #include "sinew/options.hpp"
 
-#include "sim/compile.hpp"
-#include "sim/material.hpp"
-#include "sim/ranges.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/material.hpp"
+#include "sinew/ranges.hpp"
 
 #include <CLI/CLI.hpp>
 

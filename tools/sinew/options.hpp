@@ -3,7 +3,7 @@
 
 #include "app/state_file.hpp"
 #include "scenes/load.hpp"
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <optional>
 #include <string>

@@ -5,15 +5,15 @@
 
 #include "app/guard.hpp"
 #include "app/progress.hpp"
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
-#include "sim/validate.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/bodies.hpp"
 #include "sinew/bullet_body.hpp"
 #include "sinew/clutter/bullet.hpp"
 #include "sinew/runner.hpp"
 #include "sinew/statistics.hpp"
 #include "sinew/study/analysis.hpp"
 #include "sinew/study/trial.hpp"
+#include "sinew/validate.hpp"
 
 #include <fmt/format.h>
 

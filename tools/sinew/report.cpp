@@ -1,8 +1,8 @@
 // One function per part of the report, in the order of docs/report.md.
 #include "sinew/report.hpp"
 
-#include "sim/compile.hpp"
-#include "sim/counted.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/core/counted.hpp"
 #include "sinew/json.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scenes/load.hpp"
-#include "sim/program.hpp"
+#include "sim/program/program.hpp"
 #include "sinew/measure.hpp"
 #include "sinew/runner.hpp"
 #include "sinew/statistics.hpp"

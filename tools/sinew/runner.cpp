@@ -5,10 +5,10 @@
 #include "app/cut_links.hpp"
 #include "app/guard.hpp"
 #include "app/take_over.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sinew/cut_mesh.hpp"
 #include "sinew/skin_mesh.hpp"
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <chrono>
 #include <numeric>

@@ -5,10 +5,10 @@
 #include "app/state_file.hpp"
 #include "mesh/export_gltf.hpp"
 #include "scenes/blades.hpp"
-#include "sim/rooms.hpp"
-#include "sim/successor.hpp"
 #include "sinew/measure.hpp"
+#include "sinew/rooms.hpp"
 #include "sinew/session.hpp"
+#include "sinew/successor.hpp"
 
 #include <functional>
 

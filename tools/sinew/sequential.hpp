@@ -4,7 +4,7 @@
 // the order of the scene or sorted by colour.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 namespace sinew::tools {
 

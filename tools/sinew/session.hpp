@@ -2,10 +2,10 @@
 #pragma once
 
 #include "sinew/options.hpp"
-#include "vk/device.hpp"
-#include "vk/kernel_store.hpp"
-#include "vk/loader.hpp"
-#include "vk/queue.hpp"
+#include "sinew/vk/device.hpp"
+#include "sinew/vk/kernel_store.hpp"
+#include "sinew/vk/loader.hpp"
+#include "sinew/vk/queue.hpp"
 
 namespace sinew::tools {
 

@@ -2,8 +2,8 @@
 // and the mesh of one ball, drawn at the positions that the simulation holds.
 #pragma once
 
-#include "sim/holds.hpp"
-#include "vk/buffer.hpp"
+#include "sinew/holds.hpp"
+#include "sinew/vk/buffer.hpp"
 
 namespace sinew::viewer {
 

@@ -1,9 +1,9 @@
 // Triangle meshes of the colliders of a scene, which have no skin: made once, moved by a pose when drawn.
 #pragma once
 
-#include "layout.h"
-#include "sim/scene.hpp"
-#include "vk/buffer.hpp"
+#include "common/layout.h"
+#include "sinew/scene.hpp"
+#include "sinew/vk/buffer.hpp"
 
 #include <optional>
 #include <vector>

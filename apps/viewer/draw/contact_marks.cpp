@@ -2,8 +2,8 @@
 // their poses.
 #include "viewer/draw/contact_marks.hpp"
 
-#include "layout.h"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/compile/compile.hpp"
 #include "viewer/draw/balls.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
 #include "viewer/draw/removed.hpp"

@@ -2,11 +2,11 @@
 // contact lists.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/commands.hpp"
+#include "sinew/vk/kernel_store.hpp"
 #include "viewer/draw/hand_mesh.hpp"
 #include "viewer/values.h"
-#include "vk/commands.hpp"
-#include "vk/kernel_store.hpp"
 
 namespace sinew::viewer {
 

@@ -2,7 +2,7 @@
 // vectors.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,9 +1,9 @@
 // The mesh that shows a grab: a ball at the hand, and a rope from there to the held point.
 #pragma once
 
+#include "sinew/vk/buffer.hpp"
 #include "viewer/draw/geometry.hpp"
 #include "viewer/draw/layers.hpp"
-#include "vk/buffer.hpp"
 
 #include <span>
 

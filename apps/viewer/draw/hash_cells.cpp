@@ -1,8 +1,8 @@
 // One kernel per grid; the marks of a grid follow those of the one before.
 #include "viewer/draw/hash_cells.hpp"
 
-#include "layout.h"
-#include "sim/program.hpp"
+#include "common/layout.h"
+#include "sim/program/program.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>

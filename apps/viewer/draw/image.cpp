@@ -1,8 +1,8 @@
 // Allocates images directly from the driver: src/vk provides only buffers.
 #include "viewer/draw/image.hpp"
 
+#include "sinew/vk/check.hpp"
 #include "vk/allocator.hpp"
-#include "vk/check.hpp"
 
 #include <utility>
 

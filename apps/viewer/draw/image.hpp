@@ -1,7 +1,7 @@
 // A two-dimensional image with its memory and one view: render targets and shadow maps.
 #pragma once
 
-#include "vk/device.hpp"
+#include "sinew/vk/device.hpp"
 
 namespace sinew::viewer {
 

@@ -2,9 +2,9 @@
 // user.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/buffer.hpp"
 #include "viewer/draw/section.hpp"
-#include "vk/buffer.hpp"
 
 #include <array>
 #include <span>

@@ -1,10 +1,10 @@
 // Uses the solver's own classes: colouring is a pure function of the scene.
 #include "viewer/draw/link_lines.hpp"
 
-#include "layout.h"
-#include "sim/coloring.hpp"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/compile/compile.hpp"
 #include "sim/lattice/link_bits.hpp"
+#include "sim/model/coloring.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
 #include "viewer/draw/removed.hpp"
 #include "viewer/draw/value_maps.hpp"

@@ -2,11 +2,11 @@
 // is first turned on.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/commands.hpp"
+#include "sinew/vk/kernel_store.hpp"
 #include "viewer/draw/layers.hpp"
 #include "viewer/values.h"
-#include "vk/commands.hpp"
-#include "vk/kernel_store.hpp"
 
 namespace sinew::viewer {
 

@@ -1,7 +1,7 @@
 // Buffers of meshes that the host makes once.
 #pragma once
 
-#include "vk/buffer.hpp"
+#include "sinew/vk/buffer.hpp"
 
 #include <cstring>
 

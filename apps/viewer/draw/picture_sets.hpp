@@ -1,10 +1,10 @@
 // Descriptor sets of the picture's shaders: frame parameters and light maps, one set per picture in flight.
 #pragma once
 
+#include "sinew/vk/buffer.hpp"
 #include "viewer/draw/light_maps.hpp"
 #include "viewer/draw/set_layout.hpp"
 #include "viewer/frame.h"
-#include "vk/buffer.hpp"
 
 namespace sinew::viewer {
 

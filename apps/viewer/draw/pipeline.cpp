@@ -1,10 +1,10 @@
 // Fills in Vulkan's structs for a graphics pipeline.
 #include "viewer/draw/pipeline.hpp"
 
-#include "layout.h"
+#include "common/layout.h"
+#include "sinew/vk/check.hpp"
+#include "sinew/vk/kernel_store.hpp"
 #include "viewer/values.h"
-#include "vk/check.hpp"
-#include "vk/kernel_store.hpp"
 
 #include <array>
 #include <utility>

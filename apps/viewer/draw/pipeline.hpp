@@ -1,8 +1,8 @@
 // Graphics pipelines from the embedded shaders. A request holds what differs between the viewer's pipelines.
 #pragma once
 
-#include "vk/device.hpp"
-#include "vk/kernel.hpp"
+#include "sinew/vk/device.hpp"
+#include "sinew/vk/kernel.hpp"
 
 namespace sinew::viewer {
 

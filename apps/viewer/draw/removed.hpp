@@ -1,7 +1,7 @@
 // Marks of particles that are no longer drawn, because their piece was removed as a fragment.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
 
 namespace sinew::viewer {
 

@@ -2,7 +2,7 @@
 // multisampled images.
 #include "viewer/draw/render_pass.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <utility>
 

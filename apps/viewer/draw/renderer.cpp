@@ -2,8 +2,8 @@
 // which is multisampled if the quality asks for it.
 #include "viewer/draw/renderer.hpp"
 
+#include "sinew/vk/commands.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
-#include "vk/commands.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 // under a sky. The same code serves the window and files.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
 #include "viewer/draw/balls.hpp"
 #include "viewer/draw/collider_meshes.hpp"
 #include "viewer/draw/halves.hpp"

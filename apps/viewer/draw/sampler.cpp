@@ -1,7 +1,7 @@
 // Uses the same filter for magnification and minification.
 #include "viewer/draw/sampler.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <utility>
 

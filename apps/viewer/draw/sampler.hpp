@@ -1,7 +1,7 @@
 // A sampler: how shaders read an image.
 #pragma once
 
-#include "vk/device.hpp"
+#include "sinew/vk/device.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // The public constructor delegates, so that the destructor frees what was made before an exception.
 #include "viewer/draw/set_layout.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 namespace sinew::viewer {
 

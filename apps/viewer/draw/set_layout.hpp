@@ -1,7 +1,7 @@
 // Descriptor sets with one layout, and the pipeline layout that they fit.
 #pragma once
 
-#include "vk/device.hpp"
+#include "sinew/vk/device.hpp"
 
 #include <span>
 #include <string>

@@ -1,7 +1,7 @@
 // Draws into an image and copies it to a mapped buffer.
 #include "viewer/draw/shot.hpp"
 
-#include "vk/commands.hpp"
+#include "sinew/vk/commands.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 #include "viewer/draw/stage.hpp"
 
 #include "scenes/recovery.hpp"
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -6,10 +6,10 @@
 #include "app/take_over.hpp"
 #include "scenes/blades.hpp"
 #include "scenes/load.hpp"
-#include "sim/material.hpp"
-#include "sim/rooms.hpp"
-#include "sim/substeps.hpp"
-#include "sim/successor.hpp"
+#include "sinew/material.hpp"
+#include "sinew/rooms.hpp"
+#include "sinew/substeps.hpp"
+#include "sinew/successor.hpp"
 #include "viewer/draw/camera.hpp"
 
 #include <deque>

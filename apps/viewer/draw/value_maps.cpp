@@ -1,8 +1,8 @@
 // Tables are made on the host, once; kernels run for every picture.
 #include "viewer/draw/value_maps.hpp"
 
-#include "layout.h"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/compile/compile.hpp"
 #include "sim/lattice/link_bits.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
 #include "viewer/draw/removed.hpp"

@@ -1,7 +1,7 @@
 // Copies into mapped memory, which grows.
 #include "viewer/hands/cut_probe.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <cstring>

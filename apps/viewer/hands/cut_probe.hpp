@@ -2,10 +2,10 @@
 // now, so a copy takes as much as the last time and some more.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/buffer.hpp"
+#include "sinew/vk/commands.hpp"
 #include "viewer/hands/pick.hpp"
-#include "vk/buffer.hpp"
-#include "vk/commands.hpp"
 
 #include <optional>
 

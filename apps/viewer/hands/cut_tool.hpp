@@ -4,7 +4,7 @@
 // later.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
 #include "viewer/draw/camera.hpp"
 #include "viewer/draw/hand_mesh.hpp"
 #include "viewer/hands/pick.hpp"

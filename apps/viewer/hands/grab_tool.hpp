@@ -2,7 +2,7 @@
 // device finds the particle under the pointer, so the answer comes one or two frames after the press.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
 #include "viewer/draw/hand_mesh.hpp"
 #include "viewer/hands/pick.hpp"
 

@@ -1,9 +1,9 @@
 // Saved states for undo and redo: one from before every cut, with its time; or one from before every step.
 #pragma once
 
+#include "sinew/vk/buffer.hpp"
+#include "sinew/vk/queue.hpp"
 #include "viewer/draw/stage.hpp"
-#include "vk/buffer.hpp"
-#include "vk/queue.hpp"
 
 #include <deque>
 

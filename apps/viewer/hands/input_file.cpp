@@ -2,8 +2,8 @@
 #include "viewer/hands/input_log.hpp"
 
 #include "app/guard.hpp"
-#include "sim/compile.hpp"
-#include "sim/ranges.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 // bits.
 #pragma once
 
-#include "sim/material.hpp"
+#include "sinew/material.hpp"
 #include "viewer/hands/bindings.hpp"
 #include "viewer/hands/pick.hpp"
 

@@ -1,7 +1,7 @@
 // Picks on the host; the device counts the contacts of the particle that was picked last.
 #include "viewer/hands/inspector.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/state_probe.hpp"
 

@@ -2,7 +2,7 @@
 // that frames bring along, without waiting.
 #pragma once
 
-#include "sim/holds.hpp"
+#include "sinew/holds.hpp"
 #include "viewer/draw/contact_marks.hpp"
 #include "viewer/hands/found.hpp"
 #include "viewer/hands/pick.hpp"

@@ -2,7 +2,7 @@
 // or two.
 #include "viewer/hands/pick.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 
 #include <algorithm>
 #include <cmath>

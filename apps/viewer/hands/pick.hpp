@@ -1,7 +1,7 @@
 // Picking: the particle nearest to the point where a ray meets a skin or a ball.
 #pragma once
 
-#include "layout.h"
+#include "common/layout.h"
 #include "viewer/draw/balls.hpp"
 #include "viewer/draw/camera.hpp"
 #include "viewer/draw/section.hpp"

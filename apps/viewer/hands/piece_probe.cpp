@@ -2,9 +2,9 @@
 #include "viewer/hands/piece_probe.hpp"
 
 #include "app/drawn.hpp"
+#include "sinew/vk/check.hpp"
+#include "sinew/vk/commands.hpp"
 #include "viewer/draw/stage.hpp"
-#include "vk/check.hpp"
-#include "vk/commands.hpp"
 
 #include <algorithm>
 #include <cstring>

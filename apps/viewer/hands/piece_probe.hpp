@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/piece_count.hpp"
-#include "vk/buffer.hpp"
+#include "sinew/vk/buffer.hpp"
 
 #include <vector>
 

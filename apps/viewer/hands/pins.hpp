@@ -1,8 +1,8 @@
 // Pins: grabs that stay where they were placed.
 #pragma once
 
-#include "sim/ranges.hpp"
-#include "sim/simulation.hpp"
+#include "sinew/ranges.hpp"
+#include "sinew/simulation.hpp"
 #include "viewer/draw/camera.hpp"
 #include "viewer/draw/hand_mesh.hpp"
 

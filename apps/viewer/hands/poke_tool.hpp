@@ -3,7 +3,7 @@
 // press.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
 #include "viewer/hands/pick.hpp"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // Copies into mapped memory.
 #include "viewer/hands/state_probe.hpp"
 
-#include "sim/compile.hpp"
-#include "vk/commands.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/vk/commands.hpp"
 
 namespace sinew::viewer {
 

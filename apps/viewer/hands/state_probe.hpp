@@ -3,10 +3,10 @@
 #pragma once
 
 #include "app/cut_links.hpp"
-#include "layout.h"
-#include "sim/simulation.hpp"
+#include "common/layout.h"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/buffer.hpp"
 #include "viewer/hands/cut_probe.hpp"
-#include "vk/buffer.hpp"
 
 #include <functional>
 #include <optional>

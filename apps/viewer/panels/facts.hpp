@@ -3,10 +3,10 @@
 #pragma once
 
 #include "app/piece_count.hpp"
+#include "sinew/vk/device.hpp"
 #include "viewer/draw/layers.hpp"
 #include "viewer/hands/bindings.hpp"
 #include "viewer/hands/found.hpp"
-#include "vk/device.hpp"
 
 #include <algorithm>
 #include <array>

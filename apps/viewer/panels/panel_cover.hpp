@@ -1,7 +1,7 @@
 // The areas of a picture that panels cover, so that only these are blended.
 #pragma once
 
-#include "vk/device.hpp"
+#include "sinew/vk/device.hpp"
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 // pictures get the parts of that image that are not empty.
 #include "viewer/panels/panel_painter.hpp"
 
+#include "sinew/vk/check.hpp"
 #include "viewer/panel.h"
 #include "viewer_shaders.hpp"
-#include "vk/check.hpp"
 
 #include <imgui.h>
 

@@ -3,6 +3,7 @@
 // regard to sRGB.
 #pragma once
 
+#include "sinew/vk/buffer.hpp"
 #include "viewer/draw/geometry.hpp"
 #include "viewer/draw/pipeline.hpp"
 #include "viewer/draw/render_pass.hpp"
@@ -10,7 +11,6 @@
 #include "viewer/draw/set_layout.hpp"
 #include "viewer/panels/panel_cover.hpp"
 #include "viewer/panels/picture_sheet.hpp"
-#include "vk/buffer.hpp"
 
 #include <optional>
 #include <vector>

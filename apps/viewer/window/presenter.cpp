@@ -2,9 +2,9 @@
 #include "viewer/window/presenter.hpp"
 
 #include "app/guard.hpp"
+#include "sinew/vk/check.hpp"
 #include "viewer/draw/image.hpp"
 #include "viewer/draw/renderer.hpp"
-#include "vk/check.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 #include "viewer/window/window.hpp"
 
 #include "app/guard.hpp"
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -1,10 +1,10 @@
 // The window and its input events, through GLFW. Its only use of Vulkan is to make a surface.
 #pragma once
 
+#include "sinew/vk/device.hpp"
 #include "viewer/hands/bindings.hpp"
 #include "viewer/panels/panel_input.hpp"
 #include "viewer/window/display.hpp"
-#include "vk/device.hpp"
 
 #include <memory>
 #include <optional>

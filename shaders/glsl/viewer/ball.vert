@@ -1,7 +1,7 @@
 #version 460
 // Particles of bodies without a skin: one unit ball, placed and scaled per instance.
 #extension GL_GOOGLE_include_directive : require
-#include "pieces.h"
+#include "common/pieces.h"
 #include "viewer/frame.glsl"
 
 layout(push_constant) uniform Push { SkinPush push; };

@@ -1,7 +1,7 @@
 #version 460
 // Draws balls into the two maps, as depth.vert does skins.
 #extension GL_GOOGLE_include_directive : require
-#include "pieces.h"
+#include "common/pieces.h"
 #include "viewer/frame.glsl"
 
 layout(constant_id = 3) const bool isPlan = false;

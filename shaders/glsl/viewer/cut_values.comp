@@ -2,7 +2,7 @@
 // Interpolates values of particles to the vertices of the surface of cuts; vertices that coincide with a skin vertex
 // take its value.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common/kernel.glsl"
 #include "viewer/values.h"
 
 layout(std430, binding = 0) readonly buffer Values { float values[]; }; // one per particle

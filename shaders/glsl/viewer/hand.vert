@@ -2,7 +2,7 @@
 // The handle of a grab and its rope (hand_mesh.cpp): a ball at the target of the grab, and a rope from there to a
 // point that moves with the particle of the instance, if that was not removed.
 #extension GL_GOOGLE_include_directive : require
-#include "pieces.h"
+#include "common/pieces.h"
 #include "viewer/frame.glsl"
 
 layout(push_constant) uniform Push { SkinPush push; }; // position: of the ball, w: size; rotation.xyz: of the held point, w: radius of the ball over the size, below 0 for a pin

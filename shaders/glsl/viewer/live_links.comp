@@ -1,7 +1,7 @@
 #version 460
 // Writes the ends of links, two indices each; for dead or removed links the same index twice, which draws nothing.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common/kernel.glsl"
 #include "viewer/values.h"
 
 layout(std430, binding = 0) readonly buffer Links { LineLink links[]; };

@@ -2,8 +2,8 @@
 // Marks the occupied cells of a hash grid, as built last: the first particle of a cell writes its mark, with the
 // number of its particles and of those of other cells that share its slot of the table.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "hash_grid.glsl"
+#include "common/kernel.glsl"
+#include "collision/hash_grid.glsl"
 #include "viewer/values.h"
 
 layout(std430, binding = 0) readonly buffer Bounds { GridBounds bounds; };

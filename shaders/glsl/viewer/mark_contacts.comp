@@ -2,9 +2,9 @@
 // Marks contacts in the shown state: particles on planes and colliders, and of the pairs in the solver's contact
 // lists those that touch: particles with particles, and particles on faces. Marks are in any order.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "triangle.glsl"
-#include "pose.glsl"
+#include "common/kernel.glsl"
+#include "common/triangle.glsl"
+#include "rigid/pose.glsl"
 #include "viewer/values.h"
 
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };

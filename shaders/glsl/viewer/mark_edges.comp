@@ -2,8 +2,8 @@
 // Marks contacts between edges of faces in the shown state: of the pairs in the solver's contact lists those whose
 // interiors are within reach.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "segments.glsl"
+#include "common/kernel.glsl"
+#include "common/segments.glsl"
 #include "viewer/values.h"
 
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };

@@ -1,7 +1,7 @@
 #version 460
 // Interpolates values of particles to the skin vertices of a sheet along cuts.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common/kernel.glsl"
 #include "viewer/values.h"
 
 layout(std430, binding = 0) readonly buffer Values { float values[]; }; // one per particle

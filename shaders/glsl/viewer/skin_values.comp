@@ -1,7 +1,7 @@
 #version 460
 // Interpolates values of particles to the vertices of skins, by their shares.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common/kernel.glsl"
 #include "viewer/values.h"
 
 layout(std430, binding = 0) readonly buffer Values { float values[]; }; // one per particle

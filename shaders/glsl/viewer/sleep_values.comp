@@ -2,7 +2,7 @@
 // Sleep state of each particle: 1 = awake, 0 = asleep, none = static. The public inverse mass of a sleeping particle
 // is 0.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common/kernel.glsl"
 #include "viewer/values.h"
 
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };

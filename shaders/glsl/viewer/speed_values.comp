@@ -1,7 +1,7 @@
 #version 460
 // Speed of each particle.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common/kernel.glsl"
 #include "viewer/values.h"
 
 layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; };

@@ -1,7 +1,7 @@
 #version 460
 // Strain of each particle: root mean square of (length - rest) / rest over its live links.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common/kernel.glsl"
 #include "viewer/values.h"
 
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };

@@ -1,7 +1,7 @@
 // The walk from passes to commands; sim/program plans the barriers.
 #include "mesh/gpu/job.hpp"
 
-#include "vk/check.hpp"
+#include "sinew/vk/check.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -2,8 +2,8 @@
 // counts computed on the device: the set-up counterpart of a step program.
 #pragma once
 
-#include "sim/program.hpp"
-#include "vk/queue.hpp"
+#include "sim/program/program.hpp"
+#include "sinew/vk/queue.hpp"
 
 #include <map>
 

@@ -5,8 +5,8 @@
 
 #include "mesh/gpu/whole_mesh.hpp"
 #include "mesh/triangle_tree.hpp"
+#include "mesh/voxel_layout.h"
 #include "mesh_kernels.hpp"
-#include "voxel_layout.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,8 +2,9 @@
 #include "sim/collision/body_frames.hpp"
 
 #include "kernels.hpp"
-#include "sim/components.hpp"
-#include "sim/constraints/driven.hpp"
+#include "sim/model/components.hpp"
+#include "sim/model/inverse_masses.hpp"
+#include "sim/rigid/driven.hpp"
 
 #include <algorithm>
 #include <array>
@@ -95,7 +96,7 @@ Shares sharesOf(const Bodies& bodies, std::span<const float> radii) {
 
 Bodies bodiesOf(const Scene& scene, const StateLayout& layout) {
     const std::vector<float> inverseMass = inverseMasses(scene);
-    const std::vector<bool> isDriven = constraints::driven::areDriven(scene);
+    const std::vector<bool> isDriven = rigid::driven::areDriven(scene);
     const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
     const std::map<std::uint32_t, std::uint32_t> large = largestOf(components);
     const std::vector<std::uint32_t> movers = linkedMovers(scene, inverseMass);

@@ -4,8 +4,8 @@
 // or flies needs no new lists. A frame never changes a result, only how often lists are made.
 #pragma once
 
-#include "layout.h"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/model/state.hpp"
 
 #include <span>
 #include <vector>

@@ -1,8 +1,8 @@
 // The host side of contact lists: large particles, and the order of the passes.
 #include "sim/collision/contact_lists.hpp"
 
+#include "common/rest_slack.h"
 #include "kernels.hpp"
-#include "rest_slack.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "sim/collision/pooled_lists.hpp"
-#include "sim/compile.hpp"
+#include "sim/model/state.hpp"
 
 #include <vector>
 
@@ -47,7 +47,7 @@ struct Lists {
     float quietMost = 0; ///< the largest radius of a particle that is in the grid [m]
     pooled_lists::Lists pooled;
     BufferId large, excluded;
-    BufferId hits; ///< which candidates touch (shaders/glsl/hit_masks.glsl)
+    BufferId hits; ///< which candidates touch (shaders/glsl/common/hit_masks.glsl)
     bool hasOneRadius = false;
     BufferId touching, marks; ///< work groups with a candidate; only if requested
 };

@@ -2,9 +2,9 @@
 // powers of two.
 #include "sim/collision/crowding.hpp"
 
-#include "sim/compile.hpp"
-#include "sim/components.hpp"
-#include "sim/ranges.hpp"
+#include "sim/model/components.hpp"
+#include "sim/model/inverse_masses.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // Detection of more particles in one place than contact lists can hold, before a scene is compiled.
 #pragma once
 
-#include "sim/complaints.hpp"
-#include "sim/scene.hpp"
+#include "sim/core/complaints.hpp"
+#include "sinew/scene.hpp"
 
 namespace sinew::sim::collision {
 

@@ -1,8 +1,9 @@
 // The host side of contacts between edges: the participants, and the order of the passes.
 #include "sim/collision/edge_contacts.hpp"
 
-#include "rest_slack.h"
-#include "sim/cutting/crumbs.hpp"
+#include "common/rest_slack.h"
+#include "sim/collision/crumb_contacts.hpp"
+#include "sim/model/inverse_masses.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +52,7 @@ edge_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .particles = layout.count,
                                                         .bodies = &bodies,
                                                         .substeps = settings.substeps});
-    cutting::letCrumbsLeave(program, lists.grid.watched, lists.grid);
+    collision::letCrumbsLeave(program, lists.grid.watched, lists.grid);
     return lists;
 }
 

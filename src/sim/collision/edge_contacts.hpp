@@ -6,6 +6,7 @@
 
 #include "sim/collision/edge_lists.hpp"
 #include "sim/collision/face_contacts.hpp"
+#include "sim/model/state.hpp"
 
 namespace sinew::sim::collision::edge_contacts {
 

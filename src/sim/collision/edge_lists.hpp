@@ -5,7 +5,7 @@
 #pragma once
 
 #include "sim/collision/pooled_lists.hpp"
-#include "sim/compile.hpp"
+#include "sim/model/state.hpp"
 
 #include <array>
 #include <vector>

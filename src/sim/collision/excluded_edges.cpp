@@ -3,6 +3,7 @@
 #include "sim/collision/contact_lists.hpp"
 #include "sim/collision/edge_contacts.hpp"
 #include "sim/collision/vectors.hpp"
+#include "sim/model/inverse_masses.hpp"
 
 #include <algorithm>
 #include <cmath>

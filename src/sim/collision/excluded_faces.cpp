@@ -5,6 +5,7 @@
 #include "sim/collision/vectors.hpp"
 #include "sim/lattice/depths.hpp"
 #include "sim/lattice/link_masks.hpp"
+#include "sim/model/state.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 // Pairs of particles of linked bodies that may not touch, from the scene at rest. Bodies are assumed to start
 // at rest; other initial positions are used as they are.
 #include "sim/collision/contact_lists.hpp"
+#include "sim/model/state.hpp"
 
 #include <algorithm>
 #include <array>

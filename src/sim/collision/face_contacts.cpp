@@ -1,16 +1,17 @@
 // The host side of contacts with faces: the participants, and the order of the passes.
 #include "sim/collision/face_contacts.hpp"
 
+#include "common/rest_slack.h"
 #include "kernels.hpp"
-#include "rest_slack.h"
 #include "sim/collision/contact_lists.hpp"
-#include "sim/cutting/crumbs.hpp"
-#include "sim/cutting/cut_contacts.hpp"
-#include "sim/cutting/cut_faces.hpp"
-#include "sim/forces.hpp"
+#include "sim/collision/crumb_contacts.hpp"
+#include "sim/collision/cut_contacts.hpp"
+#include "sim/collision/cut_faces.hpp"
+#include "sim/forces/forces.hpp"
 #include "sim/lattice/squares.hpp"
-#include "sim/many_items.hpp"
-#include "sim/sleep.hpp"
+#include "sim/model/inverse_masses.hpp"
+#include "sim/model/many_items.hpp"
+#include "sim/sleep/sleep.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -198,9 +199,9 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .usesTexels = settings.forms.usesTexels,
                                                         .bodies = &bodies,
                                                         .substeps = settings.substeps});
-    cutting::letCrumbsLeave(program, lists.grid.radii, lists.grid);
-    cutting::letCrumbsLeave(program, lists.grid.watched, lists.grid);
-    cutting::letCrumbsLeave(program, lists.radii, lists.grid);
+    collision::letCrumbsLeave(program, lists.grid.radii, lists.grid);
+    collision::letCrumbsLeave(program, lists.grid.watched, lists.grid);
+    collision::letCrumbsLeave(program, lists.radii, lists.grid);
     return lists;
 }
 
@@ -342,7 +343,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                bool isFirst) {
     addListUpdate(program, contacts, predicted, isFirst);
-    if (isFirst) cutting::addFaceOpening(program, contacts, predicted);
+    if (isFirst) collision::addFaceOpening(program, contacts, predicted);
     if (contacts.hasStops()) {
         program.copy(predicted.positions, contacts.linkedPositions);
         program.copy(predicted.velocities, contacts.linkedVelocities);

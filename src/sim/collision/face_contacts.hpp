@@ -4,6 +4,7 @@
 
 #include "sim/collision/face_lists.hpp"
 #include "sim/collision/row_contacts.hpp"
+#include "sim/model/state.hpp"
 
 namespace sinew::sim::collision::face_contacts {
 

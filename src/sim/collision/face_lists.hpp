@@ -7,7 +7,7 @@
 #pragma once
 
 #include "sim/collision/pooled_lists.hpp"
-#include "sim/compile.hpp"
+#include "sim/model/state.hpp"
 
 #include <vector>
 

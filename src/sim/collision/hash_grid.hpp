@@ -1,11 +1,12 @@
-// A hash grid on the device: particles in cells, built by a counting sort (shaders/glsl/hash_grid.glsl). It
-// is built only when a particle has strayed from its expected position by more than a given distance: its
-// passes are indirect. A scene in which nothing can meet has no grid.
+// A hash grid on the device: particles in cells, built by a counting sort
+// (shaders/glsl/collision/hash_grid.glsl). It is built only when a particle has strayed from its expected
+// position by more than a given distance: its passes are indirect. A scene in which nothing can meet has no
+// grid.
 #pragma once
 
-#include "layout.h"
+#include "common/layout.h"
 #include "sim/collision/body_frames.hpp"
-#include "sim/program.hpp"
+#include "sim/program/program.hpp"
 
 #include <array>
 #include <span>

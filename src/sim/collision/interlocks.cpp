@@ -2,7 +2,7 @@
 #include "sim/collision/interlocks.hpp"
 
 #include "kernels.hpp"
-#include "sim/forces.hpp"
+#include "sim/forces/forces.hpp"
 #include "sim/lattice/depths.hpp"
 #include "sim/lattice/placement.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "sim/collision/contact_lists.hpp"
 #include "sim/collision/overlaps.hpp"
-#include "sim/compile.hpp"
+#include "sim/model/state.hpp"
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 // The longest substep in which contacts between particles bear the weight that may rest on them.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 // The search of the device, done once on the host: by cells for most particles, one by one for large ones.
 #include "sim/collision/overlaps.hpp"
 
-#include "rest_slack.h"
+#include "common/rest_slack.h"
 #include "sim/collision/hash_grid.hpp"
 
 #include <algorithm>

@@ -1,15 +1,16 @@
 // The host side of contacts between particles: the form of each kernel, and the order of the passes.
 #include "sim/collision/particle_contacts.hpp"
 
+#include "common/rest_slack.h"
 #include "kernels.hpp"
-#include "rest_slack.h"
+#include "sim/collision/crumb_contacts.hpp"
+#include "sim/collision/cut_contacts.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/overlaps.hpp"
-#include "sim/cutting/crumbs.hpp"
-#include "sim/cutting/cut_contacts.hpp"
-#include "sim/forces.hpp"
-#include "sim/ranges.hpp"
-#include "sim/sleep.hpp"
+#include "sim/forces/forces.hpp"
+#include "sim/model/inverse_masses.hpp"
+#include "sim/sleep/sleep.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 #include <array>
@@ -292,7 +293,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const bool settles = // keeping forces requires one end of the substep
         !settings.sleeps && !settings.keepsForces && areMostlyLinked(scene) && !surfaces.hasRestitution &&
         !overlaps::haveParting(overlaps);
-    const bool isCuttable = !exclusions.empty() && cutting::canMeet(program.program(), scene);
+    const bool isCuttable = !exclusions.empty() && collision::canMeet(program.program(), scene);
     const bool hasRecovery = !overlaps.empty() || isCuttable;
     BufferId allExcluded;
     BufferId marks;
@@ -314,7 +315,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                                               .hasMemory = surfaces.hasFriction || hasRecovery,
                                               .initial = first,
                                               .listsGroups = settles}),
-        .planes = planes::addColliders(program, scene, layout),
+        .planes = rigid::planes::add(program, scene, layout),
         .surfaces = std::move(surfaces),
         .settles = settles,
         .hasRebound =
@@ -323,7 +324,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         .hasKept = overlaps::haveKept(overlaps),
         .allExcluded = allExcluded,
         .marks = marks};
-    cutting::letCrumbsLeave(program, contacts.lists.grid.radii, contacts.lists.grid);
+    collision::letCrumbsLeave(program, contacts.lists.grid.radii, contacts.lists.grid);
     contacts.push = {.count = contacts.lists.push.count,
                      .friction = contacts.surfaces.friction,
                      .staticFriction = contacts.surfaces.staticFriction,
@@ -357,7 +358,7 @@ void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next, bool isFirst) {
     addListUpdate(program, contacts, predicted, next, isFirst, !contacts.interlocks);
-    if (isFirst) cutting::addContactOpening(program, contacts);
+    if (isFirst) collision::addContactOpening(program, contacts);
     if (contacts.interlocks) {
         interlocks::addPasses(program, *contacts.interlocks,
                               {contacts.lists, contacts.lists.pooled.memory->memory, contacts.touching},

@@ -6,8 +6,9 @@
 
 #include "sim/collision/contact_lists.hpp"
 #include "sim/collision/interlocks.hpp"
-#include "sim/collision/planes.hpp"
 #include "sim/collision/surfaces.hpp"
+#include "sim/model/state.hpp"
+#include "sim/rigid/planes.hpp"
 
 namespace sinew::sim::collision::particle_contacts {
 
@@ -16,7 +17,7 @@ bool areIn(const Scene& scene);
 
 struct Contacts {
     contact_lists::Lists lists;
-    planes::Colliders planes;
+    rigid::planes::Planes planes;
     surfaces::Surfaces surfaces;
     layout::ContactPush push{};
     /// Whether the substep ends for all particles as if they touched nothing, and then again for groups with

@@ -2,7 +2,7 @@
 #include "sim/collision/pooled_lists.hpp"
 
 #include "kernels.hpp"
-#include "sim/ranges.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 

@@ -1,13 +1,14 @@
 // Contact lists in a common pool: each list has the length it needs, so that one owner may have many
-// candidates while others have few (shaders/glsl/listed_pairs.glsl, sort_lists.comp). A search writes pairs,
-// in chains of both owners; lists are made from the chains. Entries carry the memory of contacts: slip, the
-// side on which a face or an edge was met, and the remaining part of an overlap that existed when the scene
-// was loaded. Memory is copied from old lists to new ones, saved after every finished step, and restored
-// after an undone one.
+// candidates while others have few (shaders/glsl/collision/listed_pairs.glsl, sort_lists.comp). A search
+// writes pairs, in chains of both owners; lists are made from the chains. Entries carry the memory of
+// contacts: slip, the side on which a face or an edge was met, and the remaining part of an overlap that
+// existed when the scene was loaded. Memory is copied from old lists to new ones, saved after every finished
+// step, and restored after an undone one.
 #pragma once
 
 #include "sim/collision/hash_grid.hpp"
-#include "sim/compile.hpp"
+#include "sim/program/program.hpp"
+#include "sinew/scene.hpp"
 
 #include <optional>
 #include <string>

@@ -13,13 +13,15 @@
 // requires. Friction is within the same bound, because a row counts every direction. A contact shared by
 // several faces (an edge, a corner) does not become softer. Sums have a fixed order, without float atomics.
 //
-// The code that finds contacts sets the particles of a row (shaders/glsl/row.glsl) and the contact point.
+// The code that finds contacts sets the particles of a row (shaders/glsl/collision/row.glsl) and the contact
+// point.
 #pragma once
 
 #include "sim/collision/pooled_lists.hpp"
 #include "sim/collision/surfaces.hpp"
-#include "sim/forces.hpp"
-#include "sim/sleep.hpp"
+#include "sim/forces/forces.hpp"
+#include "sim/model/state.hpp"
+#include "sim/sleep/sleep.hpp"
 
 namespace sinew::sim::collision::row_contacts {
 

@@ -2,8 +2,8 @@
 // touching particles have one surface, else a table of pairs and an index per particle.
 #pragma once
 
-#include "layout.h"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/model/state.hpp"
 
 namespace sinew::sim::collision::surfaces {
 

@@ -1,7 +1,7 @@
 // Vectors in double, for computations on the host about a scene at rest.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <algorithm>
 #include <array>

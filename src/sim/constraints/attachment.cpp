@@ -3,7 +3,7 @@
 
 #include "kernels.hpp"
 #include "sim/constraints/moving_point.hpp"
-#include "sim/forces.hpp"
+#include "sim/forces/forces.hpp"
 
 #include <algorithm>
 #include <array>

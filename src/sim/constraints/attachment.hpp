@@ -2,8 +2,8 @@
 // without attachments has no such pass.
 #pragma once
 
-#include "layout.h"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/model/state.hpp"
 
 #include <algorithm>
 

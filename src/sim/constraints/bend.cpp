@@ -2,6 +2,7 @@
 #include "sim/constraints/bend.hpp"
 
 #include "kernels.hpp"
+#include "sim/model/inverse_masses.hpp"
 
 #include <algorithm>
 
@@ -58,7 +59,7 @@ GatherBends gatherBends(const Scene& scene, std::span<const float> inverseMass, 
     return result;
 }
 
-Rows reserve(const Scene& scene, solvers::CorrectionSlots& slots) {
+Rows reserve(const Scene& scene, CorrectionSlots& slots) {
     const std::vector<BendConstraint> bends = movable(scene, inverseMasses(scene));
     Rows rows{.count = static_cast<std::uint32_t>(bends.size()), .firstSlot = slots.size()};
     for (const BendConstraint& bend : bends)

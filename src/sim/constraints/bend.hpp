@@ -2,9 +2,9 @@
 // one pass for each color of `gauss_seidel`. Bends without a moving particle are left out.
 #pragma once
 
-#include "layout.h"
-#include "sim/compile.hpp"
-#include "sim/solvers/correction_slots.hpp"
+#include "common/layout.h"
+#include "sim/constraints/correction_slots.hpp"
+#include "sim/model/state.hpp"
 
 namespace sinew::sim::constraints::bend {
 
@@ -25,7 +25,7 @@ struct Rows {
     BufferId rows, multipliers;
 };
 /// Reserves three slots a bend: for a, b and c.
-Rows reserve(const Scene& scene, solvers::CorrectionSlots& slots);
+Rows reserve(const Scene& scene, CorrectionSlots& slots);
 void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Rows& rows);
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Rows& rows,
              BufferId corrections, bool isFirstIteration);

@@ -2,7 +2,9 @@
 #include "sim/constraints/bend.hpp"
 
 #include "kernels.hpp"
-#include "sim/coloring.hpp"
+#include "sim/model/coloring.hpp"
+#include "sim/model/inverse_masses.hpp"
+#include "sim/model/state.hpp"
 
 #include <algorithm>
 

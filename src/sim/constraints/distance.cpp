@@ -2,6 +2,7 @@
 #include "sim/constraints/distance.hpp"
 
 #include "kernels.hpp"
+#include "sim/model/inverse_masses.hpp"
 
 #include <algorithm>
 
@@ -23,7 +24,7 @@ bool canMove(const DistanceConstraint& constraint, std::span<const float> invers
     return inverseMass[constraint.a] + inverseMass[constraint.b] > 0;
 }
 
-Edges reserve(const Scene& scene, solvers::CorrectionSlots& slots) {
+Edges reserve(const Scene& scene, CorrectionSlots& slots) {
     const std::vector<DistanceConstraint> constraints = movable(scene);
     Edges edges{.count = static_cast<std::uint32_t>(constraints.size()),
                 .firstSlot = slots.size(),

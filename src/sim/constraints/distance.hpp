@@ -3,9 +3,9 @@
 // a moving end are left out.
 #pragma once
 
-#include "layout.h"
-#include "sim/compile.hpp"
-#include "sim/solvers/correction_slots.hpp"
+#include "common/layout.h"
+#include "sim/constraints/correction_slots.hpp"
+#include "sim/model/state.hpp"
 
 namespace sinew::sim::constraints::distance {
 
@@ -17,7 +17,7 @@ struct Edges {
 };
 
 /// Reserves two slots a constraint: first for its end a, then for its end b.
-Edges reserve(const Scene& scene, solvers::CorrectionSlots& slots);
+Edges reserve(const Scene& scene, CorrectionSlots& slots);
 
 /// Uploads the edges; `weights` are the factors that the particle pass will apply, one a particle.
 void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Edges& edges);

@@ -2,7 +2,8 @@
 // regular cloth and lattices then need one word a link instead of four.
 #include "sim/constraints/distance.hpp"
 
-#include "sim/ranges.hpp"
+#include "sim/model/state.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>

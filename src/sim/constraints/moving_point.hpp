@@ -1,8 +1,8 @@
 // Motion of a point that the host sets in each step, for attachments and grabs.
 #pragma once
 
-#include "layout.h"
-#include "sim/scene.hpp"
+#include "common/layout.h"
+#include "sinew/scene.hpp"
 
 #include <cmath>
 

@@ -2,29 +2,21 @@
 #include "sim/constraints/tether.hpp"
 
 #include "kernels.hpp"
-#include "sim/cutting/cut_tethers.hpp"
-#include "sim/forces.hpp"
+#include "sim/constraints/cut_tethers.hpp"
+#include "sim/forces/forces.hpp"
+#include "sim/model/tether_order.hpp"
 
 #include <algorithm>
 
 namespace sinew::sim::constraints::tether {
 
-std::vector<Tether> inOrder(const Scene& scene) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
-    std::vector<Tether> sorted;
-    std::ranges::copy_if(scene.tethers, std::back_inserter(sorted),
-                         [&](const Tether& tether) { return inverseMass[tether.particle] > 0; });
-    std::ranges::stable_sort(sorted, {}, &Tether::particle);
-    return sorted;
-}
-
 Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
-    const std::vector<Tether> sorted = inOrder(scene);
+    const std::vector<Tether> sorted = tethersInOrder(scene);
     if (sorted.empty()) return {};
     std::vector<layout::TetheredParticle> particles;
     std::uint32_t last = 0; // last particle, once there is one
     std::vector<layout::TetherReach> reaches;
-    std::vector<cutting::ListedTether> listed;
+    std::vector<ListedTether> listed;
     for (const Tether& tether : sorted) {
         if (particles.empty() || last != tether.particle)
             particles.push_back(
@@ -37,7 +29,7 @@ Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layo
     const Tethers tethers{.count = static_cast<std::uint32_t>(particles.size()),
                           .particles = program.upload("tethers.particles", particles),
                           .tethers = program.upload("tethers", reaches)};
-    cutting::addTetherFilter(program, tethers.tethers, listed);
+    addTetherFilter(program, tethers.tethers, listed);
     return tethers;
 }
 

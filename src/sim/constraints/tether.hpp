@@ -2,8 +2,8 @@
 // solver.
 #pragma once
 
-#include "layout.h"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/model/state.hpp"
 
 namespace sinew::sim::constraints::tether {
 
@@ -11,9 +11,6 @@ struct Tethers {
     std::uint32_t count = 0; ///< tethered particles that move
     BufferId particles, tethers;
 };
-
-/// Tethers of moving particles, sorted by particle: the order on the device.
-std::vector<Tether> inOrder(const Scene& scene);
 
 Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Tethers& tethers);

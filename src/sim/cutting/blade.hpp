@@ -1,9 +1,9 @@
 // The blade and ray of a step in the form that kernels read. Host only; never allocates.
 #pragma once
 
-#include "layout.h"
-#include "sim/ranges.hpp"
-#include "sim/simulation.hpp"
+#include "common/layout.h"
+#include "sinew/ranges.hpp"
+#include "sinew/step.hpp"
 
 #include <array>
 #include <span>

@@ -3,7 +3,7 @@
 // for them the triangles that depend on removed particles are collapsed in the index buffers.
 #pragma once
 
-#include "sim/compile.hpp"
+#include "sim/model/state.hpp"
 
 namespace sinew::sim::cutting {
 

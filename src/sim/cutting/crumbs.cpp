@@ -3,13 +3,10 @@
 #include "sim/cutting/crumbs.hpp"
 
 #include "kernels.hpp"
-#include "sim/collision/hash_grid.hpp"
-#include "sim/constraints/grab.hpp"
 #include "sim/cutting/crumb_skins.hpp"
-#include "sim/cutting/first_contents.hpp"
-#include "sim/sleep.hpp"
-
-#include <algorithm>
+#include "sim/grabs/grab.hpp"
+#include "sim/program/first_contents.hpp"
+#include "sim/sleep/sleep.hpp"
 
 namespace sinew::sim::cutting {
 
@@ -77,15 +74,6 @@ void addCrumbRemoval(ProgramBuilder& program, const Cut& cut, const ParticleBuff
         add(k::leaveContacts, {cut.particles, buffers.pieces, grid.radii, grid.bounds});
     if (particles.grabs) add(k::dropCrumbs, {cut.particles, buffers.pieces, particles.grabs->bodies});
     if (particles.sleep) add(k::restCrumbs, {cut.particles, buffers.pieces, particles.sleep->limits});
-}
-
-void letCrumbsLeave(ProgramBuilder& program, BufferId radii, const collision::hash_grid::Grid& grid) {
-    CuttingBuffers& buffers = program.program().cutting;
-    if (buffers.crumbs == 0) return;
-    buffers.contactGrids.push_back({radii, grid.bounds});
-    addToTopology(program, radii);
-    if (std::ranges::find(buffers.contactsSeen, grid.detected) == buffers.contactsSeen.end())
-        buffers.contactsSeen.push_back(grid.detected);
 }
 
 } // namespace sinew::sim::cutting

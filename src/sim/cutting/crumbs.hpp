@@ -11,10 +11,7 @@
 #pragma once
 
 #include "sim/cutting/cut_plan.hpp"
-
-namespace sinew::sim::collision::hash_grid {
-struct Grid;
-}
+#include "sim/model/state.hpp"
 
 namespace sinew::sim::cutting {
 
@@ -24,9 +21,5 @@ void addCrumbs(ProgramBuilder& program, const Scene& scene, Cut& cut, const Part
 /// Appends the removal of fragments, after everything that follows from new pieces. Nothing if the scene
 /// keeps all pieces.
 void addCrumbRemoval(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles);
-
-/// Registers a grid of contacts that fragments must leave: `radii` by state slot mark what is in the grid, or
-/// touches what is in it. Nothing if the scene keeps all pieces.
-void letCrumbsLeave(ProgramBuilder& program, BufferId radii, const collision::hash_grid::Grid& grid);
 
 } // namespace sinew::sim::cutting

@@ -2,11 +2,11 @@
 #include "sim/cutting/cut.hpp"
 
 #include "kernels.hpp"
-#include "sim/constraints/grab.hpp"
 #include "sim/cutting/crumbs.hpp"
 #include "sim/cutting/cut_plan.hpp"
 #include "sim/cutting/tearing.hpp"
-#include "sim/sleep.hpp"
+#include "sim/grabs/grab.hpp"
+#include "sim/sleep/sleep.hpp"
 #include "sim/surface/cut_surface.hpp"
 #include "sim/surface/sheet_pieces.hpp"
 

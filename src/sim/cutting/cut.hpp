@@ -7,7 +7,7 @@
 //   publish  undo all that if the step is undone; find the pieces again if links were cut
 #pragma once
 
-#include "sim/compile.hpp"
+#include "sim/model/state.hpp"
 
 namespace sinew::sim::cutting {
 

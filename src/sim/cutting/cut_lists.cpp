@@ -1,9 +1,9 @@
 // A link over two nodes dies with either unit link under it.
 #include "sim/cutting/cut_lists.hpp"
 
+#include "common/layout.h"
 #include "kernels.hpp"
-#include "layout.h"
-#include "sim/lattice/batches.hpp"
+#include "sim/lattice/grids.hpp"
 #include "sim/lattice/link_masks.hpp"
 
 #include <algorithm>

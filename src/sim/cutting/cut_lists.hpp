@@ -3,7 +3,8 @@
 // between neighbours: a link or a bend over two such links dies with either. A dead one has stiffness 0.
 #pragma once
 
-#include "sim/compile.hpp"
+#include "sim/program/program.hpp"
+#include "sinew/scene.hpp"
 
 #include <string>
 

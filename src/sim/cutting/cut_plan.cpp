@@ -1,16 +1,16 @@
 // Reads the grids, and makes runs of similar bodies.
 #include "sim/cutting/cut_plan.hpp"
 
-#include "sim/constraints/grab.hpp"
 #include "sim/cutting/cut_lists.hpp"
 #include "sim/cutting/tearing.hpp"
-#include "sim/lattice/batches.hpp"
+#include "sim/grabs/grab.hpp"
+#include "sim/lattice/grids.hpp"
 #include "sim/lattice/link_masks.hpp"
 #include "sim/lattice/pieces.hpp"
-#include "sim/ranges.hpp"
-#include "sim/sleep.hpp"
+#include "sim/sleep/sleep.hpp"
 #include "sim/surface/cut_surface.hpp"
 #include "sim/surface/sheet_pieces.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -171,7 +171,7 @@ void addSurface(ProgramBuilder& program, const Scene& scene, const surface::CutB
     cut.surface = surface::addCutSurface(program, scene, bodies, source, cut.usesTexels);
 }
 
-void addHands(ProgramBuilder& program, Cut& cut, const constraints::grab::Grabs& grabs) {
+void addHands(ProgramBuilder& program, Cut& cut, const grabs::Grabs& grabs) {
     const BufferSpec spec = program.program().buffers[grabs.bodies.index]; // copied: adding moves the list
     std::vector<layout::GrabBody> bodies(spec.count);
     std::memcpy(bodies.data(), spec.initial.data(), spec.initial.size());

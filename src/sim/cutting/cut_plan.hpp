@@ -1,9 +1,9 @@
 // The buffers of cuttable bodies, and their contents for uncut bodies.
 #pragma once
 
-#include "layout.h"
-#include "sim/compile.hpp"
+#include "common/layout.h"
 #include "sim/cutting/crumb_skins.hpp"
+#include "sim/model/state.hpp"
 
 #include <array>
 

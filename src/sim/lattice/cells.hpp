@@ -1,8 +1,8 @@
 // The filled cells of a grid with their corner particles: the elements of volume energies.
 #pragma once
 
-#include "layout.h"
-#include "sim/scene.hpp"
+#include "common/layout.h"
+#include "sinew/scene.hpp"
 
 #include <span>
 #include <vector>

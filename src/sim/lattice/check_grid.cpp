@@ -3,7 +3,7 @@
 #include "sim/lattice/check_grid.hpp"
 
 #include "sim/lattice/placement.hpp"
-#include "sim/ranges.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Comparison of a grid with the particles and constraints that it names.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <optional>
 

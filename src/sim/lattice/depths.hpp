@@ -1,7 +1,7 @@
 // Depth of the nodes of a lattice below the surface of their body, and the direction to the outside, at rest.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // Location on the device of the bit that says whether a link of the scene is alive (CuttingBuffers::links).
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 namespace sinew::sim::lattice {
 

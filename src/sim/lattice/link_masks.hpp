@@ -1,6 +1,6 @@
 // Bits of the live links of a node: cutting clears them, and kernels for cuttable bodies read them
-// (shaders/glsl/link_masks.glsl has the same bits). Bit b is the link in direction directionOf(b); the other
-// end stores the same link in bit 25 - b, and both bits always agree.
+// (shaders/glsl/lattice/link_masks.glsl has the same bits). Bit b is the link in direction directionOf(b);
+// the other end stores the same link in bit 25 - b, and both bits always agree.
 #pragma once
 
 #include "sim/lattice/placement.hpp"

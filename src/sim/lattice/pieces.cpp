@@ -1,7 +1,7 @@
 // Union-find towards the lower slot, with path halving.
 #include "sim/lattice/pieces.hpp"
 
-#include "layout.h"
+#include "common/layout.h"
 
 #include <numeric>
 

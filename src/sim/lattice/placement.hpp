@@ -3,8 +3,8 @@
 // kernels read one slice, row and node beyond a box.
 #pragma once
 
-#include "layout.h"
-#include "sim/scene.hpp"
+#include "common/layout.h"
+#include "sinew/scene.hpp"
 
 #include <span>
 #include <vector>

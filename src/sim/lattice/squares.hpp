@@ -3,7 +3,7 @@
 // links.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // volume is the determinant of its mean edges (scene.hpp). Used by all three references.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <Eigen/Core>
 #include <cstdint>

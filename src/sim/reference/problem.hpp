@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sim/reference/cells.hpp"
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <Eigen/Core>
 #include <cstdint>

@@ -4,7 +4,7 @@
 // k~_c min(tau_i, tau_j), tau_i = omega / (2 w_i sum k~). The volume of a cell has a share by the same rule,
 // k_c = 0.75 lambda_v a at full fill, and is clamped to 2 k~_c min tau_i / (sum |g_i|^2 + |C| a (|A|^2 / (6
 // a^2) + 1/2)), C = V - V0, A its mean edges. Pressure that unfolds cells has a share in addition to those
-// (sim/solvers/shares.hpp).
+// (sim/stiffness/shares.hpp).
 #include "sim/reference/attached.hpp"
 #include "sim/reference/reference.hpp"
 

@@ -4,14 +4,14 @@
 #include "sim/solvers/gauss_seidel.hpp"
 
 #include "kernels.hpp"
-#include "sim/collision/colliders.hpp"
-#include "sim/collision/planes.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
-#include "sim/constraints/grab.hpp"
 #include "sim/constraints/tether.hpp"
-#include "sim/forces.hpp"
+#include "sim/forces/forces.hpp"
+#include "sim/grabs/grab.hpp"
+#include "sim/rigid/colliders.hpp"
+#include "sim/rigid/planes.hpp"
 
 namespace sinew::sim::solvers::gaussSeidel {
 
@@ -39,7 +39,7 @@ struct Work {
     const ParticleBuffers& particles;
     constraints::distance::ColoredEdges edges;
     constraints::bend::ColoredBends bends;
-    collision::planes::Colliders colliders;
+    rigid::planes::Planes planes;
     BufferId corrections;
     bool hasColliders = false; // other than planes, which then come before them
 };
@@ -55,10 +55,10 @@ void addBetween(ProgramBuilder& program, const Work& work, const Form& form, boo
         buffers.insert(buffers.end(), {work.edges.links, work.edges.multipliers});
         constants.merge(work.edges.constants());
     }
-    const bool hasPlanes = form.planes && work.colliders.count > 0;
+    const bool hasPlanes = form.planes && work.planes.count > 0;
     if (hasPlanes) {
-        buffers.insert(buffers.end(), {work.colliders.planes, work.colliders.contactOffsets});
-        constants.merge(work.colliders.constants());
+        buffers.insert(buffers.end(), {work.planes.planes, work.planes.contactOffsets});
+        constants.merge(work.planes.constants());
         if (work.hasColliders) constants[hasCollidersId] = 1;
     }
     const vk::ShaderCode& code = hasPlanes ? forces::formFor(particles, {form.planes, form.forces},
@@ -81,7 +81,7 @@ void addSweeps(ProgramBuilder& program, const Work& work, const Settings& settin
                                         settings.warmStart,
                                         {.isOpening = isFirst && iteration == 0, .isClosing = isLast});
         constraints::bend::addSweep(program, work.particles, work.bends, work.corrections, iteration == 0);
-        if (!isLast) collision::planes::addTouch(program, work.particles, work.corrections, work.colliders);
+        if (!isLast) rigid::planes::addTouch(program, work.particles, work.corrections, work.planes);
     }
 }
 
@@ -96,12 +96,12 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
     Work work{.particles = particles,
               .edges = constraints::distance::uploadColors(program, scene, settings, particles.layout),
               .bends = constraints::bend::uploadColors(program, scene, settings, particles.layout),
-              .colliders = collision::planes::addColliders(program, scene, particles.layout),
+              .planes = rigid::planes::add(program, scene, particles.layout),
               .corrections =
                   program.scratch<layout::ParticleCorrection>("state.displacements", particles.layout.count)};
     const auto attachments = constraints::attachment::add(program, scene, particles.layout);
     const auto tethers = constraints::tether::add(program, scene, particles.layout);
-    const auto colliders = collision::colliders::add(program, scene, settings, particles.layout);
+    const auto colliders = rigid::colliders::add(program, scene, settings, particles.layout);
     work.hasColliders = colliders.count > 0;
     const bool isDamped = scene.dampingTime > 0 && !work.edges.colors.empty();
     const bool isWarm = work.edges.degree > 0, usesTexels = settings.forms.usesTexels;
@@ -114,11 +114,10 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
         addSweeps(program, work, settings, isFirst);
         constraints::attachment::addOpenPass(program, particles, work.corrections, attachments, substep,
                                              settings.substeps);
-        constraints::grab::addOpenPass(program, particles, work.corrections, substep, settings.substeps);
+        grabs::addOpenPass(program, particles, work.corrections, substep, settings.substeps);
         constraints::tether::addOpenPass(program, particles, work.corrections, tethers);
-        if (work.hasColliders)
-            collision::planes::addTouch(program, particles, work.corrections, work.colliders);
-        collision::colliders::addOpenPass(program, particles, work.corrections, colliders, substep);
+        if (work.hasColliders) rigid::planes::addTouch(program, particles, work.corrections, work.planes);
+        rigid::colliders::addOpenPass(program, particles, work.corrections, colliders, substep);
         if (!isDamped) continue;
         addBetween(program, work, close, false);
         constraints::distance::addDamping(program, particles, work.edges, scene.dampingTime);

@@ -3,7 +3,8 @@
 // accuracy.
 #pragma once
 
-#include "sim/compile.hpp"
+#include "sim/solvers/solver_plan.hpp"
+#include "sinew/scene.hpp"
 
 namespace sinew::sim::solvers::gaussSeidel {
 

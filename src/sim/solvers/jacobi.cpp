@@ -3,14 +3,14 @@
 #include "sim/solvers/jacobi.hpp"
 
 #include "kernels.hpp"
-#include "sim/collision/colliders.hpp"
-#include "sim/collision/planes.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
+#include "sim/constraints/correction_slots.hpp"
 #include "sim/constraints/distance.hpp"
-#include "sim/constraints/grab.hpp"
 #include "sim/constraints/tether.hpp"
-#include "sim/solvers/correction_slots.hpp"
+#include "sim/grabs/grab.hpp"
+#include "sim/rigid/colliders.hpp"
+#include "sim/rigid/planes.hpp"
 
 namespace sinew::sim::solvers::jacobi {
 
@@ -25,7 +25,7 @@ struct Corrections {
 };
 
 Corrections addCorrections(ProgramBuilder& program, const Scene& scene, const Settings& settings) {
-    CorrectionSlots slots(scene.particles.size());
+    constraints::CorrectionSlots slots(scene.particles.size());
     Corrections result{.distances = constraints::distance::reserve(scene, slots),
                        .bends = constraints::bend::reserve(scene, slots)};
     result.slotCount = slots.size();
@@ -33,7 +33,7 @@ Corrections addCorrections(ProgramBuilder& program, const Scene& scene, const Se
     const std::vector<float> weights = slots.weights(settings);
     constraints::distance::upload(program, scene, weights, result.distances);
     constraints::bend::upload(program, scene, weights, result.bends);
-    const CorrectionSlots::Lists lists = slots.lists(weights);
+    const constraints::CorrectionSlots::Lists lists = slots.lists(weights);
     result.corrections = program.scratch<layout::vec4>("corrections", result.slotCount);
     result.incidences = program.upload("incidences", lists.incidences);
     result.slots = program.upload("slots", lists.slots);
@@ -55,29 +55,29 @@ void addIteration(ProgramBuilder& program, const ParticleBuffers& particles, con
 void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                const ParticleBuffers& particles) {
     const Corrections corrections = addCorrections(program, scene, settings);
-    const collision::planes::Contacts contacts = collision::planes::addContacts(program, scene);
+    const rigid::planes::Contacts contacts = rigid::planes::addContacts(program, scene);
     const auto attachments = constraints::attachment::add(program, scene, particles.layout);
     const auto tethers = constraints::tether::add(program, scene, particles.layout);
-    auto colliders = collision::colliders::add(program, scene, settings, particles.layout);
-    collision::colliders::addMemory(program, colliders);
+    auto colliders = rigid::colliders::add(program, scene, settings, particles.layout);
+    rigid::colliders::addMemory(program, colliders);
     const std::uint32_t iterations = corrections.slotCount > 0 ? settings.iterations : 1;
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         program.beginSubstep();
-        collision::planes::addOpen(program, particles, contacts);
-        collision::colliders::addOpening(program, particles, colliders, substep == 0);
+        rigid::planes::addOpen(program, particles, contacts);
+        rigid::colliders::addOpening(program, particles, colliders, substep == 0);
         program.dispatch(kernels::predict, particles.count,
                          {particles.positions, particles.velocities, particles.step},
                          layout::CountPush{particles.count}, remainderConstants(particles.layout));
         for (std::uint32_t iteration = 0; iteration < iterations; ++iteration) {
             addIteration(program, particles, corrections, iteration == 0);
-            collision::planes::addSolve(program, particles, contacts);
+            rigid::planes::addSolve(program, particles, contacts);
         }
         constraints::attachment::addPass(program, particles, attachments, substep, settings.substeps);
-        constraints::grab::addPass(program, particles, substep, settings.substeps, Kick::half);
+        grabs::addPass(program, particles, substep, settings.substeps, Kick::half);
         constraints::tether::addPass(program, particles, tethers);
-        collision::colliders::addPass(program, particles, colliders, substep, Kick::half);
+        rigid::colliders::addPass(program, particles, colliders, substep, Kick::half);
         if (scene.damping > 0 || !scene.planes.empty()) {
-            collision::planes::addVelocityUpdate(program, particles, contacts);
+            rigid::planes::addVelocityUpdate(program, particles, contacts);
         }
     }
     program.endSubsteps();

@@ -3,7 +3,8 @@
 // with a half kick.
 #pragma once
 
-#include "sim/compile.hpp"
+#include "sim/solvers/solver_plan.hpp"
+#include "sinew/scene.hpp"
 
 namespace sinew::sim::solvers::jacobi {
 

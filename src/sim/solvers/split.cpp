@@ -3,25 +3,26 @@
 // first.
 #include "sim/solvers/split.hpp"
 
-#include "sim/collision/colliders.hpp"
+#include "sim/collision/cut_contacts.hpp"
+#include "sim/collision/cut_faces.hpp"
 #include "sim/collision/edge_contacts.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/particle_contacts.hpp"
-#include "sim/collision/planes.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
-#include "sim/constraints/driven.hpp"
-#include "sim/constraints/grab.hpp"
 #include "sim/constraints/tether.hpp"
-#include "sim/cutting/cut_contacts.hpp"
-#include "sim/cutting/cut_faces.hpp"
 #include "sim/cutting/cut_lists.hpp"
-#include "sim/forces.hpp"
-#include "sim/lattice/batches.hpp"
-#include "sim/sleep.hpp"
-#include "sim/solvers/shares.hpp"
+#include "sim/forces/forces.hpp"
+#include "sim/grabs/grab.hpp"
+#include "sim/lattice/grids.hpp"
+#include "sim/rigid/colliders.hpp"
+#include "sim/rigid/driven.hpp"
+#include "sim/rigid/planes.hpp"
+#include "sim/sleep/sleep.hpp"
+#include "sim/solvers/batches.hpp"
 #include "sim/solvers/split_kernels.hpp"
+#include "sim/stiffness/shares.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -43,7 +44,7 @@ struct Gather {
 struct Division {
     const std::vector<float>& inverseMass;
     std::vector<std::uint32_t> grids; // computed ones
-    Shares shares;
+    stiffness::Shares shares;
 };
 
 // Data that all dispatches of a program share.
@@ -53,17 +54,17 @@ struct Common {
     const Settings& settings;
     const Division& division;
     const StateLayout& layout;
-    collision::planes::Colliders colliders;
+    rigid::planes::Planes planes;
 
     const vk::ShaderCode& form(const Kernel& kernel) const {
-        return kernel.form(settings.forms.usesTexels, colliders.count > 0);
+        return kernel.form(settings.forms.usesTexels, planes.count > 0);
     }
     Gather gather() const {
         ProgramBuilder::Constants constants = remainderConstants(layout);
         if (settings.keepsForces) constants.merge(forces::pullConstants());
-        if (colliders.count == 0) return {{}, std::move(constants), {}};
-        constants.merge(colliders.constants());
-        return {{colliders.planes, colliders.contactOffsets}, std::move(constants), {}};
+        if (planes.count == 0) return {{}, std::move(constants), {}};
+        constants.merge(planes.constants());
+        return {{planes.planes, planes.contactOffsets}, std::move(constants), {}};
     }
 };
 
@@ -82,7 +83,7 @@ std::vector<constraints::distance::GatherLink> listedLinks(const Common& common)
         const DistanceConstraint& constraint = scene.distances[c];
         if (isComputed[c] || !constraints::distance::canMove(constraint, division.inverseMass)) continue;
         links.push_back({slot[constraint.a], slot[constraint.b], constraint.restLength,
-                         stiffnessOf(constraint.compliance), division.shares.ofLinks[c]});
+                         stiffness::stiffnessOf(constraint.compliance), division.shares.ofLinks[c]});
     }
     return links;
 }
@@ -190,7 +191,7 @@ Gather packedGather(const Common& common, const constraints::distance::GatherLin
 Gather listedGather(const Common& common, std::uint32_t count) {
     const auto listed = listedLinks(common);
     const auto bends = constraints::bend::gatherBends(common.scene, common.division.inverseMass,
-                                                      omegaOfBends(common.settings));
+                                                      stiffness::omegaOfBends(common.settings));
     const bool isDamped = !listed.empty() && common.scene.dampingTime > 0;
     const bool isRanged = constraints::distance::isIrregular(listed, count);
     if (bends.degree > 0 || isDamped || isRanged || cutting::haveLists(common.program.program(), count))
@@ -208,19 +209,19 @@ Gather listedGather(const Common& common, std::uint32_t count) {
 
 // The bodies on computed grids, and the buffer that all their kernels read.
 struct Grids {
-    lattice::Batches batches;
+    Batches batches;
     BufferId cells;
 };
 
-Grids uploadGrids(const Common& common, lattice::Residence residence) {
-    Grids grids{.batches = lattice::batchesOf(common.scene, common.settings, common.division.grids,
-                                              common.division.shares, residence)};
+Grids uploadGrids(const Common& common, Residence residence) {
+    Grids grids{.batches = batchesOf(common.scene, common.settings, common.division.grids,
+                                     common.division.shares, residence)};
     grids.cells = common.program.upload("grid.cells", grids.batches.cells);
     return grids;
 }
 
 // Buffers and constants shared by the kernels for a batch, those of a substep and those of a whole step.
-Gather gridGather(const Common& common, const lattice::Batch& batch, BufferId cells) {
+Gather gridGather(const Common& common, const Batch& batch, BufferId cells) {
     Gather gather = common.gather();
     gather.constants[bodyDiagonalsId] = batch.hasBodyDiagonals;
     if (batch.hasVolumes) {
@@ -240,8 +241,8 @@ std::vector<Gather> addGathers(const Common& common) {
     const std::uint32_t listed = lattice::listedParticles(common.scene, common.division.grids);
     if (listed > 0) gathers.push_back(listedGather(common, listed));
     if (common.division.grids.empty()) return gathers;
-    const auto [batches, cells] = uploadGrids(common, lattice::Residence::memory);
-    for (const lattice::Batch& batch : batches.batches) {
+    const auto [batches, cells] = uploadGrids(common, Residence::memory);
+    for (const Batch& batch : batches.batches) {
         gathers.push_back(gridGather(common, batch, cells));
         setDispatch(common, gathers.back(), kernelFor(batch, common.settings.forms), batch.push);
     }
@@ -250,9 +251,9 @@ std::vector<Gather> addGathers(const Common& common) {
 
 // Appends one dispatch a kind of body, for the whole step: positions stay in shared memory.
 void addResident(const Common& common, const ParticleBuffers& particles) {
-    const auto [batches, cells] = uploadGrids(common, lattice::Residence::sharedMemory);
+    const auto [batches, cells] = uploadGrids(common, Residence::sharedMemory);
     sleep::addOpening(common.program, particles);
-    for (const lattice::Batch& batch : batches.batches) {
+    for (const Batch& batch : batches.batches) {
         Gather gather = gridGather(common, batch, cells);
         gather.constants[residentSlotsId] = batch.push.bodySlots;
         std::vector<BufferId> buffers{particles.positions, particles.velocities, particles.step};
@@ -278,9 +279,9 @@ void addLinks(const std::vector<Gather>& gathers, const ParticleBuffers& current
 }
 
 // Adds the colliders other than planes.
-collision::colliders::Colliders addRigid(const Common& common) {
-    auto rigid = collision::colliders::add(common.program, common.scene, common.settings, common.layout);
-    collision::colliders::addMemory(common.program, rigid);
+rigid::colliders::Colliders addRigid(const Common& common) {
+    auto rigid = rigid::colliders::add(common.program, common.scene, common.settings, common.layout);
+    rigid::colliders::addMemory(common.program, rigid);
     return rigid;
 }
 
@@ -293,21 +294,21 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
     const auto tethers = constraints::tether::add(program, common.scene, layout);
     const auto rigid = addRigid(common);
-    const auto driven = constraints::driven::add(program, common.scene, layout, rigid);
+    const auto driven = rigid::driven::add(program, common.scene, layout, rigid);
     sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, next = particles;
     next.positions = program.scratch<layout::vec4>("state.next_positions", positionCount(layout));
     if (alternates) next.velocities = program.scratch<layout::vec4>("state.next_velocities", layout.count);
     for (std::uint32_t substep = 0; substep < substeps; ++substep) {
         program.beginSubstep();
-        collision::colliders::addOpening(program, current, rigid, substep == 0);
+        rigid::colliders::addOpening(program, current, rigid, substep == 0);
         addLinks(gathers, current, next, substep == 0);
         std::swap(current, next);
-        constraints::driven::addPass(program, current, driven, substep);
+        rigid::driven::addPass(program, current, driven, substep);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
-        constraints::grab::addPass(program, current, substep, substeps, Kick::whole);
+        grabs::addPass(program, current, substep, substeps, Kick::whole);
         constraints::tether::addPass(program, current, tethers);
-        collision::colliders::addPass(program, current, rigid, substep, Kick::whole);
+        rigid::colliders::addPass(program, current, rigid, substep, Kick::whole);
     }
     program.endSubsteps();
     if (current.positions != particles.positions) program.copy(current.positions, particles.positions);
@@ -321,7 +322,7 @@ struct Touching {
     std::optional<collision::particle_contacts::Contacts> pairs;
     BufferId before; // velocities at the start of the substep
     // Planes and the slots that hold a particle; only if no particles touch each other.
-    collision::planes::Colliders planes;
+    rigid::planes::Planes planes;
     BufferId particles;
     std::uint32_t particleCount = 0;
 
@@ -392,7 +393,7 @@ Touching addTouching(const Common& common, const ParticleBuffers& particles) {
         touching.edges = edges::add(common.program, scene, common.settings, particles, *touching.faces);
     if (!hasPairs) {
         const std::vector<std::uint32_t> slots = slotsInOrder(common.layout);
-        touching.planes = collision::planes::addColliders(common.program, scene, common.layout);
+        touching.planes = rigid::planes::add(common.program, scene, common.layout);
         touching.particles = common.program.upload("state.particles", slots);
         touching.particleCount = static_cast<std::uint32_t>(slots.size());
     }
@@ -409,14 +410,14 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     const std::uint32_t substeps = common.settings.substeps;
     Touching contacts = addTouching(common, particles);
     if (particles.sleep) contacts.joinIslands(*particles.sleep);
-    if (contacts.faces) cutting::addFaceFilter(program, *contacts.faces);
-    if (contacts.edges) cutting::addEdgeFilter(program, *contacts.edges);
-    if (contacts.pairs) cutting::addContactFilter(program, *contacts.pairs);
+    if (contacts.faces) collision::addFaceFilter(program, *contacts.faces);
+    if (contacts.edges) collision::addEdgeFilter(program, *contacts.edges);
+    if (contacts.pairs) collision::addContactFilter(program, *contacts.pairs);
     const std::vector<Gather> gathers = addGathers(common);
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
     const auto tethers = constraints::tether::add(program, common.scene, layout);
     const auto rigid = addRigid(common);
-    const auto driven = constraints::driven::add(program, common.scene, layout, rigid);
+    const auto driven = rigid::driven::add(program, common.scene, layout, rigid);
     sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, predicted = particles;
     predicted.positions = program.scratch<layout::vec4>("state.next_positions", positionCount(layout));
@@ -424,20 +425,20 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     BufferId spare = program.scratch<layout::vec4>("state.next_velocities", layout.count);
     for (std::uint32_t substep = 0; substep < substeps; ++substep) {
         program.beginSubstep();
-        collision::colliders::addOpening(program, current, rigid, substep == 0);
+        rigid::colliders::addOpening(program, current, rigid, substep == 0);
         contacts.begin(current.velocities);
         addLinks(gathers, current, predicted, substep == 0);
         if (particles.forces) forces::addPulls(program, predicted);
-        constraints::driven::addPass(program, predicted, driven, substep);
+        rigid::driven::addPass(program, predicted, driven, substep);
         std::swap(current.velocities, spare);
         contacts.addPasses(program, predicted, current, substep == 0);
         contacts.addBounces(program, predicted, current);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
-        constraints::grab::addPass(program, current, substep, substeps, Kick::whole);
+        grabs::addPass(program, current, substep, substeps, Kick::whole);
         constraints::tether::addPass(program, current, tethers);
         if (contacts.faces) collision::face_contacts::addStops(program, *contacts.faces, current);
-        collision::colliders::addPass(program, current, rigid, substep, Kick::whole,
-                                      contacts.moveUnseen() ? &predicted : nullptr);
+        rigid::colliders::addPass(program, current, rigid, substep, Kick::whole,
+                                  contacts.moveUnseen() ? &predicted : nullptr);
     }
     program.endSubsteps();
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
@@ -455,8 +456,8 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
     }
     const Common common{program,          scene,
                         settings,         division,
-                        particles.layout, collision::planes::addColliders(program, scene, particles.layout)};
-    if (lattice::isResident(scene, settings, division.grids))
+                        particles.layout, rigid::planes::add(program, scene, particles.layout)};
+    if (isResident(scene, settings, division.grids))
         addResident(common, particles);
     else
         addSubsteps(common, particles);
@@ -471,7 +472,7 @@ bool contactsFollow(const Scene& scene, const Settings& settings) {
 
 SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
     Division division{inverseMass, lattice::computedGrids(scene, settings),
-                      sharesOf(scene, settings, inverseMass)};
+                      stiffness::sharesOf(scene, settings, inverseMass)};
     StateLayout layout = lattice::layoutOf(scene, division.grids);
     std::vector<float> times = division.shares.times;
     return {std::move(layout), std::move(times),

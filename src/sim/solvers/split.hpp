@@ -2,7 +2,8 @@
 // solver. shares.hpp says why it is stable.
 #pragma once
 
-#include "sim/compile.hpp"
+#include "sim/solvers/solver_plan.hpp"
+#include "sinew/scene.hpp"
 
 namespace sinew::sim::solvers::split {
 

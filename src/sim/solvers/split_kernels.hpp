@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kernels.hpp"
-#include "sim/lattice/batches.hpp"
+#include "sim/solvers/batches.hpp"
 
 namespace sinew::sim::solvers::split {
 
@@ -83,15 +83,15 @@ inline const Kernel& generalKernel(bool isRanged, bool bends, bool damps) {
     return damps ? (bends ? bendingDamped : damped) : bends ? bending : general;
 }
 
-inline const Kernel& nodeKernelFor(const lattice::Batch& batch) {
+inline const Kernel& nodeKernelFor(const Batch& batch) {
     if (batch.isCuttable)
         return batch.isSheet ? nodeCuttableSheet : batch.hasVolumes ? nodeCuttableVolume : nodeCuttable;
     return batch.isSheet ? nodeSheet : batch.hasVolumes ? nodeVolume : node;
 }
 
 // Moves a batch by one substep.
-inline const Kernel& kernelFor(const lattice::Batch& batch, const Forms& forms) {
-    if (lattice::isOneNode(forms)) return nodeKernelFor(batch);
+inline const Kernel& kernelFor(const Batch& batch, const Forms& forms) {
+    if (isOneNode(forms)) return nodeKernelFor(batch);
     const std::uint32_t columns = forms.columns;
     if (batch.isCuttable) return batch.isSheet ? cuttableSheet : batch.hasVolumes ? cuttableVolume : cuttable;
     if (batch.isSheet) return sheet;
@@ -100,8 +100,8 @@ inline const Kernel& kernelFor(const lattice::Batch& batch, const Forms& forms) 
 }
 
 // Keeps a batch in shared memory for a whole step.
-inline const Kernel& residentKernelFor(const lattice::Batch& batch, const Forms& forms) {
-    if (lattice::isOneNode(forms))
+inline const Kernel& residentKernelFor(const Batch& batch, const Forms& forms) {
+    if (isOneNode(forms))
         return batch.isSheet ? residentNodeSheet : batch.hasVolumes ? residentNodeVolume : residentNode;
     if (batch.isSheet) return residentSheet;
     return batch.hasVolumes ? residentVolume : residentLattice;

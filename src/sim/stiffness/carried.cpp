@@ -1,8 +1,8 @@
 // Colliders are tested for each particle. Other bodies are projected along gravity into columns of particles.
 #include "sim/stiffness/carried.hpp"
 
-#include "sim/colliders.hpp"
 #include "sim/stiffness/columns.hpp"
+#include "sinew/colliders.hpp"
 
 #include <algorithm>
 #include <cmath>

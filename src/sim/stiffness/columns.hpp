@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/collision/vectors.hpp"
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <algorithm>
 #include <array>

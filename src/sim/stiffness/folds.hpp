@@ -1,7 +1,7 @@
 // The motion of parts of a sheet towards each other in a substep.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <cstdint>
 #include <span>

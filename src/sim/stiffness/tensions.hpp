@@ -1,7 +1,7 @@
 // The tension that the weight of a body may cause in each of its links.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <span>
 #include <vector>

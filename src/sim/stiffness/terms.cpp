@@ -1,7 +1,7 @@
 // Shares of constraints among their particles, and loads of particles.
 #include "sim/stiffness/terms.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/model/inverse_masses.hpp"
 #include "sim/stiffness/tensions.hpp"
 
 #include <numeric>
@@ -20,7 +20,7 @@ std::vector<std::uint32_t> componentsOf(const Scene& scene) {
     return parent;
 }
 
-double clampOfLink(const solvers::Shares& shares, const Scene& scene, std::size_t link) {
+double clampOfLink(const Shares& shares, const Scene& scene, std::size_t link) {
     const DistanceConstraint& c = scene.distances[link];
     return double{shares.ofLinks[link]} * double{std::min(shares.times[c.a], shares.times[c.b])};
 }
@@ -52,9 +52,9 @@ Load loadOf(const Scene& scene, double tolerance) {
     return load;
 }
 
-solvers::Shares sharesFor(const Scene& scene, const Settings& settings, const Load& load) {
+Shares sharesFor(const Scene& scene, const Settings& settings, const Load& load) {
     if (settings.solver != Solver::split) return {};
-    return solvers::sharesOf(scene, settings, load.inverseMass);
+    return sharesOf(scene, settings, load.inverseMass);
 }
 
 } // namespace sinew::sim::stiffness

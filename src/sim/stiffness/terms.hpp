@@ -1,10 +1,10 @@
 // The constraints of a scene as one list of terms, reduced to what the rules for substeps need. Only
-// src/sim/substeps.cpp walks it.
+// src/sim/stiffness/substeps.cpp walks it.
 #pragma once
 
 #include "sim/lattice/cells.hpp"
-#include "sim/scene.hpp"
-#include "sim/solvers/shares.hpp"
+#include "sim/stiffness/shares.hpp"
+#include "sinew/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ inline bool canMove(const Load& load, std::initializer_list<std::uint32_t> ends)
 }
 
 // Largest k h^2 [kg].
-double clampOfLink(const solvers::Shares& shares, const Scene& scene, std::size_t link);
+double clampOfLink(const Shares& shares, const Scene& scene, std::size_t link);
 
 double splitOfBend(const Load& load, const BendConstraint& c);
 
@@ -62,14 +62,14 @@ double splitOfBend(const Load& load, const BendConstraint& c);
 double shareOfSweep(const Settings& settings, std::uint32_t mostConstraints);
 
 // The mass shares of `split`; settings.substeps must be resolved. Empty for other solvers.
-solvers::Shares sharesFor(const Scene& scene, const Settings& settings, const Load& load);
+Shares sharesFor(const Scene& scene, const Settings& settings, const Load& load);
 
 // The terms of a scene: there are millions, so they are visited and not stored.
 struct Terms {
     const Scene& scene;
     const Settings& settings;
     const Load& load;
-    solvers::Shares shares = sharesFor(scene, settings, load);
+    Shares shares = sharesFor(scene, settings, load);
 
     bool isSplit() const { return settings.solver == Solver::split; }
     double shareAmong(std::initializer_list<std::uint32_t> ends) const {
@@ -96,7 +96,7 @@ struct Terms {
     }
 
     template <typename Visit> void forEachBend(const Visit& visit) const {
-        const double omega = solvers::omegaOfBends(settings);
+        const double omega = omegaOfBends(settings);
         for (const BendConstraint& c : scene.bends) {
             if (c.compliance == 0 || !canMove(load, {c.a, c.b, c.c})) continue;
             visit(Term{.stiffness = 1 / double{c.compliance},

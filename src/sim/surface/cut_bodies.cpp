@@ -1,12 +1,12 @@
 // Reads grids and their skins; for each grid the first skin that can be clipped.
 #include "sim/surface/cut_bodies.hpp"
 
-#include "sim/bodies.hpp"
-#include "sim/lattice/batches.hpp"
+#include "sim/lattice/grids.hpp"
 #include "sim/surface/lattice_faces.hpp"
 #include "sim/surface/skin_complex.hpp"
 #include "sim/surface/skin_slots.hpp"
 #include "sim/surface/unfold_anchors.hpp"
+#include "sinew/bodies.hpp"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 // cells, and skins of meshes with the prisms between skin and lattice.
 #pragma once
 
-#include "layout.h"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/model/state.hpp"
 
 #include <span>
 

@@ -18,7 +18,7 @@
 // No element is appended by a counter: the same cut gives the same bits in any order of execution.
 #pragma once
 
-#include "layout.h"
+#include "common/layout.h"
 #include "sim/surface/cut_bodies.hpp"
 #include "sim/surface/skin.hpp"
 

@@ -1,4 +1,5 @@
-// Kuhn's tetrahedra of a cell for the host, with the numbers of shaders/glsl/kuhn.glsl and cut_points.glsl.
+// Kuhn's tetrahedra of a cell for the host, with the numbers of shaders/glsl/lattice/kuhn.glsl and
+// cut_points.glsl.
 #pragma once
 
 #include <array>

@@ -2,16 +2,16 @@
 // clipped along a cut and closed with the cut surface.
 #pragma once
 
-#include "sim/compile.hpp"
 #include "sim/lattice/placement.hpp"
+#include "sinew/scene.hpp"
 
 #include <optional>
 
 namespace sinew::sim::surface {
 
 /// Triangles of `skin` as faces of cells of `grid`, placed in `box`. None unless the skin consists of each
-/// outer face of the grid as two triangles, split like its cells (shaders/glsl/kuhn.glsl), and nothing else.
-/// `firstTriangle` is the index of the skin's first triangle among all.
+/// outer face of the grid as two triangles, split like its cells (shaders/glsl/lattice/kuhn.glsl), and
+/// nothing else. `firstTriangle` is the index of the skin's first triangle among all.
 std::optional<std::vector<layout::SkinFace>>
 latticeFaces(const Skin& skin, const Grid& grid, const lattice::Box& box, std::uint32_t firstTriangle);
 

@@ -1,8 +1,8 @@
 // Points in double: distances between a particle and a skin are small relative to their coordinates.
 #pragma once
 
-#include "layout.h"
-#include "sim/scene.hpp"
+#include "common/layout.h"
+#include "sinew/scene.hpp"
 
 namespace sinew::sim::surface {
 

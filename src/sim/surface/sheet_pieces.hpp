@@ -9,8 +9,8 @@
 // skin_sheet (vertices, normals).
 #pragma once
 
-#include "layout.h"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/model/state.hpp"
 
 #include <memory>
 #include <optional>

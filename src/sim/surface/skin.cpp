@@ -2,8 +2,8 @@
 // it.
 #include "sim/surface/skin.hpp"
 
+#include "common/layout.h"
 #include "kernels.hpp"
-#include "layout.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,8 @@
 // scene is drawn.
 #pragma once
 
-#include "sim/compile.hpp"
+#include "sim/program/program.hpp"
+#include "sinew/scene.hpp"
 
 namespace sinew::sim::surface {
 

@@ -4,9 +4,9 @@
 // Made once, on the host.
 #pragma once
 
-#include "layout.h"
+#include "common/layout.h"
 #include "sim/lattice/placement.hpp"
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <optional>
 #include <span>

@@ -1,7 +1,7 @@
 // Distances to colliders in double, computed by formulas that differ from the kernel's.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

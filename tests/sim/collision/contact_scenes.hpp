@@ -1,7 +1,7 @@
 // Scenes of balls for tests of contacts.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 #include <Eigen/Core>
 #include <vector>

@@ -1,8 +1,8 @@
 // Scenes of cloth in contact with meshes, with other cloth and with itself; and a count of its intersections.
 #pragma once
 
-#include "sim/bodies.hpp"
-#include "sim/scene.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/scene.hpp"
 
 #include <Eigen/Core>
 #include <vector>

@@ -2,11 +2,11 @@
 // particles on a lattice and in random places. All particles move farther than the margin between updates, so
 // that each update makes new lists. LP_NUM_THREADS=0 makes a software device compute on one thread, with
 // steadier results.
-#include "layout.h"
+#include "common/layout.h"
 #include "sim/collision/contact_lists.hpp"
-#include "sim/gpu_executor.hpp"
-#include "vk/loader.hpp"
-#include "vk/queue.hpp"
+#include "sim/device/gpu_executor.hpp"
+#include "sinew/vk/loader.hpp"
+#include "sinew/vk/queue.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,9 +1,9 @@
 // Tests of body frames: contact lists stay valid while a body moves as a whole, and no pair is ever missed.
-#include "layout.h"
-#include "sim/bodies.hpp"
-#include "sim/program.hpp"
+#include "common/layout.h"
+#include "sim/program/program.hpp"
 #include "sim/runner.hpp"
-#include "sim/start.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/start.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Tests of colliders on paths: their poses, and how they push, carry and throw.
-#include "sim/collision/collider_paths.hpp"
 #include "sim/collision/collider_shapes.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/growing_run.hpp"
+#include "sim/rigid/collider_paths.hpp"
 #include "sim/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ TEST(ColliderPaths, LoopFromTheirFirstKey) {
 }
 
 TEST(ColliderPaths, GoOnWhereTheLastStepEnded) {
-    collision::ColliderPaths paths({box({1, 1, 1}, {at(0, {0, 0, 0}), at(1, {1, 0, 0}, 179)})});
+    rigid::ColliderPaths paths({box({1, 1, 1}, {at(0, {0, 0, 0}), at(1, {1, 0, 0}, 179)})});
     for (int step = 0; step < 90; ++step) {
         const layout::ColliderPose before = paths.ways()[1];
         paths.advance(1.0f / 60);

@@ -1,11 +1,11 @@
 // Tests of static spheres, capsules and boxes on the device: rest, restitution and friction (analytic cases
 // 16 to 18 on their surfaces), fast particles, and particles that start inside.
-#include "sim/bodies.hpp"
 #include "sim/collision/collider_shapes.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/reference/reference.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

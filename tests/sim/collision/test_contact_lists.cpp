@@ -1,8 +1,8 @@
 // Compares candidate lists on the device with brute force, on many kinds of point clouds. Both partners list
 // each pair once, sorted, for any order of invocations. Also tests lists whose capacity is too small.
-#include "layout.h"
+#include "common/layout.h"
 #include "sim/collision/contact_lists.hpp"
-#include "sim/gpu_executor.hpp"
+#include "sim/device/gpu_executor.hpp"
 #include "sim/scenes.hpp"
 #include "support/device.hpp"
 

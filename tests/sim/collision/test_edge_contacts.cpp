@@ -1,10 +1,10 @@
 // Tests of edge-edge contacts on the device.
-#include "layout.h"
+#include "common/layout.h"
 #include "sim/collision/face_scenes.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/growing_run.hpp"
 #include "sim/scenes.hpp"
-#include "sim/simulation.hpp"
+#include "sinew/simulation.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

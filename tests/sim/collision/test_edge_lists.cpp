@@ -1,10 +1,10 @@
 // Compares lists of edge pairs on the device with brute force, on many kinds of clouds. The owner lists each
 // pair once, sorted, for any order of invocations. Also tests lists whose capacity is too small, and the
 // edges of scenes.
-#include "layout.h"
-#include "sim/bodies.hpp"
+#include "common/layout.h"
 #include "sim/collision/edge_contacts.hpp"
-#include "sim/gpu_executor.hpp"
+#include "sim/device/gpu_executor.hpp"
+#include "sinew/bodies.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // Compares lists of particles and faces on the device with brute force, on many kinds of clouds. Each pair is
 // listed once, sorted, for any order of invocations. Also tests lists whose capacity is too small.
-#include "layout.h"
-#include "sim/bodies.hpp"
+#include "common/layout.h"
 #include "sim/collision/face_contacts.hpp"
-#include "sim/gpu_executor.hpp"
+#include "sim/device/gpu_executor.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Tests of fast meshes, and of fast bodies that hit meshes: no particle passes, at any speed and with any
 // mass ratio, and no particle gains excessive speed.
-#include "sim/bodies.hpp"
 #include "sim/runner.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,13 @@
 // Tests of bodies that interlock at load: their detection, the data about their lattices, and that the result
 // depends only on the scene. cases_hard/test_interlocked.cpp tests how they part.
-#include "layout.h"
-#include "sim/bodies.hpp"
+#include "common/layout.h"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/interlocks.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/lattice/depths.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

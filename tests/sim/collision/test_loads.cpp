@@ -2,11 +2,11 @@
 // smoothly.
 #include "sim/collision/loads.hpp"
 
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/stiffness/terms.hpp"
-#include "sim/substeps.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/substeps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Tests of meshes on paths (Scene::driven): they lift, carry and sweep particles, and wake sleeping bodies.
-#include "sim/bodies.hpp"
-#include "sim/colliders.hpp"
 #include "sim/collision/collider_shapes.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/colliders.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // with brute force.
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/overlaps.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 

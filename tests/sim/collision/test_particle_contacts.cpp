@@ -1,12 +1,12 @@
 // Tests of particle-particle contacts on the device: momentum, rest, friction, and equal bits for any layout
 // of the lists.
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/growing_run.hpp"
 #include "sim/scenes.hpp"
-#include "sim/simulation.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

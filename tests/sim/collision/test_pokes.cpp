@@ -1,14 +1,14 @@
 // Tests of pokes, kinematic colliders that the host moves: they push like colliders on paths, follow their
 // target with bounded speed, and do not act while they are not listed.
-#include "sim/bodies.hpp"
-#include "sim/colliders.hpp"
 #include "sim/collision/collider_shapes.hpp"
 #include "sim/collision/contact_scenes.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/substeps.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/colliders.hpp"
+#include "sinew/substeps.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

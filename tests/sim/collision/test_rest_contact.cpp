@@ -1,11 +1,11 @@
 // Tests of bodies that touch or overlap at load and keep that distance as their rest distance
 // (Particle::keepsRest): they do not move, do not creep under load, and after parting they act like any other
 // pair.
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/rest_checks.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Tests of rest distances between particles and faces, and between edges, for different radii and thicknesses
 // and on both sides of a solid surface. Distances are those that the contact measures.
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/face_scenes.hpp"
 #include "sim/collision/rest_checks.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

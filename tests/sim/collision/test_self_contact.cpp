@@ -1,14 +1,14 @@
 // Tests of voxel bodies with faces that touch themselves: folded, knotted, and at cut surfaces. The host
 // measures gaps against every triangle of the surface, which it derives from the live links alone.
-#include "layout.h"
-#include "sim/bodies.hpp"
+#include "common/layout.h"
 #include "sim/collision/face_contacts.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/cutting/cut_gaps.hpp"
 #include "sim/cutting/faced_bodies.hpp"
-#include "sim/holds.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/holds.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Tests of shots at rigid targets of each kind and at a ball, fixed and moving: speeds from 1 to 1,000 m/s, 4
 // to 64 substeps, angles up to half a radian. No shot may pass. Deformable bodies, rows and beds have their
 // own tests, because a shot may go around or through scattered particles.
-#include "sim/bodies.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 #include "support/full.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Tests of the one-sided surfaces of voxel bodies in contact with objects smaller than a voxel, whole and
 // where a blade has parted them.
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

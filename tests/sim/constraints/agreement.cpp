@@ -1,8 +1,8 @@
 // Steps the reference and the device side by side.
 #include "sim/constraints/agreement.hpp"
 
-#include "sim/coloring.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/model/coloring.hpp"
 #include "sim/scenes.hpp"
 
 #include <gtest/gtest.h>

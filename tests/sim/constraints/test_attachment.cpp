@@ -1,10 +1,10 @@
 // Tests of attachments to moving points, and of tethers.
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/constraints/agreement.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Tests of bends: stiffness in N m and N m^2, momentum, agreement with double.
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/constraints/agreement.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/substeps.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/substeps.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

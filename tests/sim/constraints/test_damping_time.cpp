@@ -1,9 +1,9 @@
 // Tests of internal damping: its time in seconds, momentum, and stability under the clamp.
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/constraints/agreement.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/substeps.hpp"
+#include "sinew/substeps.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

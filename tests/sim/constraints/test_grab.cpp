@@ -1,11 +1,11 @@
 // Tests of grabs: a grab holds its particles, pulls with bounded force and speed, and releases them without a
 // trace.
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of `split` on graphs in which few particles have most of the links: these use lists instead of slots.
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/constraints/agreement.hpp"
 #include "sim/scenes.hpp"
 

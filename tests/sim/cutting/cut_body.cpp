@@ -1,8 +1,8 @@
 // Computes directions and neighbours from grid coordinates.
 #include "sim/cutting/cut_body.hpp"
 
-#include "layout.h"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/compile/compile.hpp"
 #include "sim/lattice/link_masks.hpp"
 #include "sim/lattice/pieces.hpp"
 #include "sim/scenes.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sim/lattice/placement.hpp"
-#include "sim/program.hpp"
+#include "sim/program/program.hpp"
 #include "sim/runner.hpp"
 
 namespace sinew::test {

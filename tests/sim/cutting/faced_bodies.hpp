@@ -1,7 +1,7 @@
 // Voxel bodies for tests of their faces, and selections of their particles.
 #pragma once
 
-#include "sim/bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <functional>
 #include <vector>

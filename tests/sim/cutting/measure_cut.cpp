@@ -2,10 +2,10 @@
 // time of a blade, through the body and beside it; and the time for the cut surface. Also prints the device
 // time of the passes that open a cut step (positions, test of links, masks, rule K), which is the cost of
 // links. LP_NUM_THREADS=0 makes a software device compute on one thread, with steadier results.
-#include "sim/bodies.hpp"
-#include "sim/simulation.hpp"
-#include "vk/loader.hpp"
-#include "vk/queue.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/simulation.hpp"
+#include "sinew/vk/loader.hpp"
+#include "sinew/vk/queue.hpp"
 
 #include <algorithm>
 #include <cstdio>

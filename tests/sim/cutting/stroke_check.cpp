@@ -1,7 +1,7 @@
 // Computes all geometry in double from read-back data.
 #include "sim/cutting/stroke_check.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sim/lattice/placement.hpp"
 #include "sim/scenes.hpp"
 

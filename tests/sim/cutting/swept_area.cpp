@@ -1,7 +1,7 @@
 // Samples the swept area with lines and compares it with what the surface encloses.
 #include "sim/cutting/swept_area.hpp"
 
-#include "layout.h"
+#include "common/layout.h"
 #include "sim/scenes.hpp"
 
 #include <Eigen/Geometry>

@@ -1,12 +1,12 @@
 // Tests of fragments: pieces with too few particles are removed from contacts, drawing and counts, and an
 // undo restores them.
-#include "layout.h"
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/compile/compile.hpp"
 #include "sim/lattice/placement.hpp"
 #include "sim/scenes.hpp"
 #include "sim/surface/closed_surface.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Tests of cut links in a body at rest: a through cut leaves no link across it at any orientation to the
 // lattice, and a cut can be undone, repeats, and is counted correctly.
-#include "layout.h"
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/compile/compile.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/lattice/link_masks.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Tests of contacts and sleep after a cut: pieces touch each other across the cut, and a cut wakes bodies.
-#include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Tests of a cuttable voxel body that is cut while it is crumpled and touches itself: pairs that the cut lets
 // touch part at the recovery speed. Also tests the bound on the distance between points and faces without
 // links.
-#include "sim/bodies.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/cutting/faced_bodies.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

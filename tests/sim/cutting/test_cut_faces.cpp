@@ -1,13 +1,13 @@
 // Tests of the faces of voxel bodies that a cut or a tear opens: which faces exist, and that they do not
 // change uncut bodies.
-#include "layout.h"
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/compile/compile.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/cutting/cut_gaps.hpp"
 #include "sim/cutting/faced_bodies.hpp"
-#include "sim/holds.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/holds.hpp"
 
 #include <gtest/gtest.h>
 

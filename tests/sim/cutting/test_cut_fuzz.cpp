@@ -4,9 +4,9 @@
 // strokes; SINEW_BODY=6 takes only that body.
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
-#include "sim/bodies.hpp"
 #include "sim/cutting/stroke_check.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 #include "vk/allocator.hpp"
 
 #include <gtest/gtest.h>

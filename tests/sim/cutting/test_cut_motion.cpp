@@ -1,7 +1,7 @@
 // Tests of strokes over many steps through a moving body, and of the resulting pieces.
-#include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

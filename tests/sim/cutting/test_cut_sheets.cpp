@@ -1,11 +1,11 @@
 // Tests of blades through sheets whose links and bends are listed in `split`: sheets with bending stiffness,
 // folding and strain rates.
-#include "layout.h"
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/compile/compile.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/scenes.hpp"
-#include "sim/validate.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 // and gape meanwhile. They must separate a body as one fast step does.
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
-#include "sim/bodies.hpp"
 #include "sim/scenes.hpp"
 #include "sim/surface/closed_surface.hpp"
+#include "sinew/bodies.hpp"
 #include "support/full.hpp"
 
 #include <gtest/gtest.h>

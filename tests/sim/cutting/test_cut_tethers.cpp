@@ -1,6 +1,6 @@
 // Tests of tethers in cut sheets: those across a separating cut end, all others hold.
-#include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
+#include "sinew/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Tests of fragments of sheets: they are removed from counts, drawing and contacts of particles, faces and
 // edges, as those of voxel bodies.
-#include "layout.h"
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/compile/compile.hpp"
 #include "sim/cutting/cut_body.hpp"
+#include "sinew/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Tests of sheets that tear: only beyond the limit, at most a given number of cells a step, and across the
 // direction of the pull, for any orientation and resolution of the grid.
-#include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Tests of voxel bodies that tear like sheets: only beyond the limit, at most a given number of cells a step,
 // across the direction of the pull, and all the way through with a visible inside.
-#include "sim/bodies.hpp"
 #include "sim/scenes.hpp"
 #include "sim/surface/closed_surface.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

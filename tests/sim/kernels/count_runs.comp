@@ -1,7 +1,7 @@
 #version 460
 // Counts how often every item was run.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common/kernel.glsl"
 
 layout(std430, binding = 0) buffer Runs { uint runs[]; };
 layout(push_constant) uniform Push { CountPush push; };

@@ -1,7 +1,7 @@
 #version 460
 // Writes the item index of every invocation.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common/kernel.glsl"
 
 layout(std430, binding = 0) writeonly buffer Items { uint items[]; };
 layout(push_constant) uniform Push { CountPush push; };

@@ -1,7 +1,7 @@
 #version 460
 // Switches an indirect dispatch between no group and the groups for all items.
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common/kernel.glsl"
 
 layout(std430, binding = 0) buffer Arguments { DispatchArguments arguments[]; };
 layout(push_constant) uniform Push { CountPush push; };

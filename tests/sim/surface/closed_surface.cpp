@@ -1,7 +1,7 @@
 // Points have the names of layout::CutVertex: a number of their own, or a particle.
 #include "sim/surface/closed_surface.hpp"
 
-#include "layout.h"
+#include "common/layout.h"
 #include "sim/scenes.hpp"
 
 #include <Eigen/Geometry>

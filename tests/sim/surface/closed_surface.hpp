@@ -2,8 +2,8 @@
 // beside the cut and the inside, at rest and as drawn.
 #pragma once
 
+#include "sim/core/hash.hpp"
 #include "sim/cutting/cut_body.hpp"
-#include "sim/hash.hpp"
 
 #include <map>
 

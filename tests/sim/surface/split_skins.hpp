@@ -1,7 +1,7 @@
 // Bodies with split skins, and what is drawn of them read back.
 #pragma once
 
-#include "layout.h"
+#include "common/layout.h"
 #include "mesh/generate.hpp"
 #include "sim/cutting/cut_body.hpp"
 

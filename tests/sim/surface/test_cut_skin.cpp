@@ -1,5 +1,5 @@
 // Tests of mesh skins, which are clipped along a cut and closed with its inside.
-#include "layout.h"
+#include "common/layout.h"
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
 #include "mesh/voxelise.hpp"

@@ -1,9 +1,9 @@
 // Tests of cut surfaces: they are closed, two-sided and on the blade's path, and each side moves with its
 // piece.
-#include "layout.h"
-#include "sim/bodies.hpp"
+#include "common/layout.h"
 #include "sim/scenes.hpp"
 #include "sim/surface/closed_surface.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Tests of the rims of cuts, where the skin of a mesh meets the inside. They must move as smoothly as the
 // skin beside them, for slow strokes and bent bodies.
-#include "layout.h"
+#include "common/layout.h"
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
 #include "sim/scenes.hpp"

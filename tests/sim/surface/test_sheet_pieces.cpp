@@ -1,10 +1,10 @@
 // Tests of the skin of a sheet along a cut: no triangle is stretched over the cut or spans both sides, and
 // there is no gap where nothing was cut.
-#include "layout.h"
-#include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "common/layout.h"
+#include "sim/compile/compile.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

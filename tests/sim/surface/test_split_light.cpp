@@ -1,7 +1,7 @@
 // How split skins are lit once they are cut: as before the cut.
-#include "sim/bodies.hpp"
 #include "sim/surface/rest_normals.hpp"
 #include "sim/surface/split_skins.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 

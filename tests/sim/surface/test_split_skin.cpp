@@ -1,8 +1,8 @@
 // Split skins: which parts a whole triangle has, and the same bits of normals in every form and order.
-#include "layout.h"
+#include "common/layout.h"
 #include "mesh/generate.hpp"
+#include "sim/core/hash.hpp"
 #include "sim/cutting/cut_body.hpp"
-#include "sim/hash.hpp"
 #include "sim/scenes.hpp"
 #include "sim/surface/closed_surface.hpp"
 #include "sim/surface/split_skins.hpp"

@@ -2,7 +2,7 @@
 // All files of this folder except Bullet's are compiled for the building machine.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sinew/scene.hpp"
 
 namespace sinew::tools::clutter {
 

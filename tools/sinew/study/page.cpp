@@ -1,7 +1,7 @@
 // A table that answers the question at once, then a diagram per scene, then all figures.
 #include "sinew/study/page.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 #include "sinew/study/plot_axes.hpp"
 #include "sinew/study/rest_report.hpp"
 

@@ -3,10 +3,10 @@
 
 #include "scenes/recovery.hpp"
 #include "sim/collision/particle_contacts.hpp"
-#include "sim/compile.hpp"
-#include "sim/ranges.hpp"
-#include "sim/validate.hpp"
+#include "sim/compile/compile.hpp"
 #include "sinew/outputs.hpp"
+#include "sinew/ranges.hpp"
+#include "sinew/validate.hpp"
 
 #include <algorithm>
 #include <cmath>

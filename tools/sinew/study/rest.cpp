@@ -3,8 +3,8 @@
 
 #include "app/guard.hpp"
 #include "app/progress.hpp"
-#include "sim/compile.hpp"
-#include "sim/validate.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/validate.hpp"
 
 #include <fmt/format.h>
 

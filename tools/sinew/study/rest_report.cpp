@@ -1,7 +1,7 @@
 // A missing figure is null in JSON, nothing in CSV and a dash in text.
 #include "sinew/study/rest_report.hpp"
 
-#include "sim/compile.hpp"
+#include "sim/compile/compile.hpp"
 
 #include <fmt/format.h>
 

@@ -4,11 +4,11 @@
 
 #include "app/guard.hpp"
 #include "app/progress.hpp"
-#include "sim/compile.hpp"
-#include "sim/gpu_tune.hpp"
-#include "sim/substeps.hpp"
-#include "sim/validate.hpp"
+#include "sim/compile/compile.hpp"
+#include "sinew/gpu_tune.hpp"
 #include "sinew/study/analysis.hpp"
+#include "sinew/substeps.hpp"
+#include "sinew/validate.hpp"
 
 #include <fmt/format.h>
 

@@ -3,10 +3,10 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
-#include "sim/compile.hpp"
-#include "sim/hash.hpp"
-#include "sim/validate.hpp"
+#include "sim/compile/compile.hpp"
+#include "sim/core/hash.hpp"
 #include "sinew/json.hpp"
+#include "sinew/validate.hpp"
 
 #include <fmt/format.h>
 

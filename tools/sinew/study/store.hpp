@@ -2,7 +2,7 @@
 // its own runs.
 #pragma once
 
-#include "sim/program.hpp"
+#include "sim/program/program.hpp"
 #include "sinew/study/trial.hpp"
 
 #include <filesystem>

@@ -4,8 +4,8 @@
 #include "app/guard.hpp"
 #include "app/progress.hpp"
 #include "sim/reference/trajectory.hpp"
-#include "sim/validate.hpp"
 #include "sinew/study/analysis.hpp"
+#include "sinew/validate.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>

@@ -1,0 +1,98 @@
+// The input of a step: its length, gravity, grabs, host colliders and blade.
+#pragma once
+
+#include "sinew/scene.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace sinew::sim {
+
+/// A grab: holds the particles near one particle and linked to it, and pulls them towards a target. In the
+/// first step of a grab the held point is at the target, so that the grab starts without motion. Particles
+/// nearer to the first one are held more strongly. Gains are accelerations of all linked particles, so that
+/// light and heavy bodies feel alike. The pull is implicit and limited, hence stable for any target up to 1e9
+/// m; gains are taken as at most 1e8. Particles that never move are not held.
+struct Grab {
+    std::uint32_t particle = 0;
+    float radius = 0;            ///< [m] around the particle when the grab begins; 0 = this particle alone
+    Vec3 target{};               ///< of the held point at the end of the step [m]
+    float stiffness = 400;       ///< [1/s^2]; acceleration over distance
+    float damping = 40;          ///< [1/s]; acceleration over speed; critical at 2 sqrt(stiffness)
+    float maxAcceleration = 100; ///< [m/s^2]
+    float maxSpeed = 10;         ///< of the held point on its way to the target [m/s]
+};
+
+/// A kinematic collider that the host moves. Particles stay out of it as of a Collider, whatever else they
+/// touch: it pushes and carries them, and fast particles do not pass through. It moves and turns at constant
+/// speed during a step. In its first step it stands at `pose`. A particle that is inside then, or inside
+/// after a change of shape, leaves by the nearest side at 1 m/s and keeps no velocity from that. Planes take
+/// precedence: a particle pushed through a plane is put back. A particle between it and a Collider is put in
+/// front of the Collider.
+struct Poke {
+    ColliderShape shape = ColliderShape::sphere;
+    float radius = 0; ///< [m]; sizes as in Collider
+    float halfLength = 0;
+    Vec3 halfExtents{};
+    float friction = 0.3f;    ///< Coulomb coefficient while sliding, >= 0
+    float staticFriction = 0; ///< coefficient before sliding starts; below `friction` = `friction`
+    Pose pose{};              ///< at the end of the step; the rotation has unit length
+    float maxSpeed = 10;      ///< of any of its points on the way there [m/s]
+};
+
+/// The state of a poke after a step.
+struct PokeState {
+    Poke poke{}; ///< as last listed, with its pose at the end of that step
+    bool isThere = false;
+    std::uint32_t changes = 0; ///< how often it appeared, disappeared, or changed its shape
+};
+
+/// The surface that the edge of a blade sweeps in a step: quads between two poly-lines, each split into two
+/// triangles by the diagonal from a point of `from` to the next point of `to`. It cuts links of cuttable
+/// bodies (Grid::isCuttable) at their positions at the start of the step, and may end inside a body. Both
+/// poly-lines [m] have the same number of points, 2 to ranges::mostBladePoints; any other blade is ignored.
+struct Blade {
+    std::span<const Vec3> from{}, to{};
+    /// True if `from` continues from the last blade's `to`, moved with the material since then: a stroke over
+    /// several steps then leaves no link between its sweeps. False begins a stroke.
+    bool isCarried = false;
+};
+
+/// Cuts every link that is nearer than `radius` to a segment, such as a pointer's ray of limited depth: the
+/// simple cut, without a surface. [m]; radius 0 = none.
+struct RayCut {
+    Vec3 from{}, to{};
+    float radius = 0;
+};
+
+/// Input of one step.
+struct Step {
+    float dt =
+        1.0f / 60.0f; ///< length of the step [s], 1e-6 to 0.1; a value outside is taken as the nearer end
+    Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]
+    std::uint64_t frame = 0;    ///< increases by one with every step
+    /// Targets of the scene's attachments at the end of the step [m], in their order; the points move there
+    /// at constant speed, limited by Attachment::maxSpeed. Points that are left out stay. Read only during
+    /// record().
+    std::span<const Vec3> anchors{};
+    /// Grabs 0, 1, ... in this step, at most Settings::grabs; a grab that is not listed, or has a non-finite
+    /// number, releases its particles. An entry with another particle than before begins a new grab. Read
+    /// only during record().
+    std::span<const Grab> grabs{};
+    /// Pokes 0, 1, ..., at most Settings::pokes; a poke that is not listed, has a non-finite number or an
+    /// invalid size, is absent and touches nothing. Read only during record().
+    std::span<const Poke> pokes{};
+    /// Wakes all sleeping particles (Settings::sleeps). Not needed for changes that the step itself contains:
+    /// another gravity or dt wakes all; a moving anchor, collider or poke wakes what it holds or comes near.
+    bool wakes = false;
+    /// Declares that the host reads Status::lacksLists of every step. When all recorded steps have finished,
+    /// it must record the first step with lacksLists again, with the same frame and input, and all steps
+    /// after it. In return most steps have fewer passes. Results do not depend on it, to the bit if dt is the
+    /// same in all steps in flight. It may change from step to step; until the step with lacksLists is
+    /// recorded again, all other steps are undone, whatever their `repeats` says.
+    bool repeats = false;
+    Blade blade{}; ///< read only during record(); pass it again if the step was undone
+    RayCut ray{};
+};
+
+} // namespace sinew::sim

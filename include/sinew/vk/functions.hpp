@@ -1,0 +1,30 @@
+// The private function tables. Every Vulkan call of the core goes through them, so that the core links no
+// loader and does not interfere with the globals of a host's volk. The lists in functions.inc are the only
+// place that names functions.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+namespace sinew::vk {
+
+struct InstanceFunctions {
+#define SINEW_VK(name) PFN_##name name = nullptr;
+#define SINEW_VK_DEVICE(name)
+#define SINEW_VK_DRAWING(name)
+#include "sinew/vk/functions.inc"
+};
+
+struct DeviceFunctions {
+#define SINEW_VK(name)
+#define SINEW_VK_DEVICE(name) PFN_##name name = nullptr;
+#define SINEW_VK_DRAWING(name) PFN_##name name = nullptr;
+#include "sinew/vk/functions.inc"
+};
+
+/// Fills the table through the host's or the loader's `vkGetInstanceProcAddr`. A missing function of an
+/// extension, or one that only drawing uses (SINEW_VK_DRAWING), stays null; any other missing function throws
+/// Error(noDevice) with its name.
+InstanceFunctions loadInstanceFunctions(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance);
+DeviceFunctions loadDeviceFunctions(PFN_vkGetDeviceProcAddr getDeviceProcAddr, VkDevice device);
+
+} // namespace sinew::vk

@@ -1,0 +1,57 @@
+// Kernels shared by several users of a device, so that each is made once: simulations of one scene in
+// different forms, or one after another, differ in a few of about fifty kernels.
+#pragma once
+
+#include "sinew/vk/kernel.hpp"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace sinew::vk {
+
+/// The kernels of a Device (Device::kernels). Any thread.
+class KernelStore {
+public:
+    /// Returns the kernel for this code and these constants, in their order, if it is in use or kept, else
+    /// makes a new one. Code is identified by the address of its words: these must stay valid as long as the
+    /// store, like compiled-in code. Must not outlive `device`, the owner of this store. Throws as Kernel.
+    std::shared_ptr<const Kernel> get(const Device& device, const ShaderCode& code,
+                                      std::span<const SpecialisationConstant> constants);
+
+    /// Counts a pipeline made by the calling thread, and returns the count: a thread that must not wait for
+    /// compilers can verify that it makes none.
+    void countPipeline();
+    std::size_t pipelinesMade() const;
+
+private:
+    friend class KeptKernels;
+    void addKeeper();
+    void removeKeeper() noexcept;
+
+    using Key = std::pair<const std::uint32_t*, std::vector<std::pair<std::uint32_t, std::uint32_t>>>;
+    struct Entry {
+        std::weak_ptr<const Kernel> users;
+        std::shared_ptr<const Kernel> kept; // set while there are KeptKernels
+    };
+    mutable std::mutex mutex_; // guards all following members
+    std::map<std::thread::id, std::size_t> pipelinesOf_;
+    std::map<Key, Entry> entries_;
+    int keepers_ = 0;
+};
+
+/// While an instance exists, the store keeps all kernels that it returns, even unused: between a simulation
+/// and the next. Must not outlive the Device. Any thread.
+class KeptKernels {
+public:
+    explicit KeptKernels(const Device& device);
+    KeptKernels(const KeptKernels&) = delete;
+    KeptKernels& operator=(const KeptKernels&) = delete;
+    ~KeptKernels();
+
+private:
+    KernelStore& store_;
+};
+
+} // namespace sinew::vk

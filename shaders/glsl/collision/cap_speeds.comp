@@ -1,0 +1,25 @@
+#version 460
+// Slows all particles that are too fast for the hash grid, if they are too many to be searched one by one: this
+// bounds the time of a step. Slowed particles are counted, because capping removes momentum; shorter substeps make it
+// needless.
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+#include "collision/hash_grid.glsl"
+
+layout(std430, binding = 0) buffer Positions { vec4 positions[]; };   // predicted
+layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // velocities that led to those positions [m/s]
+layout(std430, binding = 2) readonly buffer Radii { float radii[]; };
+layout(std430, binding = 3) buffer Status { StatusWords status; };
+layout(std140, binding = 4) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { GridPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const vec3 v = velocities[i].xyz;
+    const float way = wayOf(step.h, v);
+    if (!isHurrying(radii[i], way, push.quiet, push.most)) return;
+    const vec3 change = (0.999 * max(push.most - radii[i], push.quiet) / way - 1.0) * v;
+    velocities[i].xyz = v + change;
+    positions[i].xyz += step.h * change;
+    atomicAdd(status.slowed, 1u);
+}

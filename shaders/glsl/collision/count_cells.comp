@@ -1,0 +1,39 @@
+#version 460
+// Counting sort, first pass: counts the particles of each slot of the table, and stores each particle's rank in its
+// slot. Also stores the positions and bodies of particles: lists stay complete until particles have moved from there
+// by more than the slack.
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+#include "collision/hash_grid.glsl"
+
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer positions;
+layout(binding = 1) uniform samplerBuffer radii;
+#define POSITION(i) texelFetch(positions, int(i))
+#define RADIUS(i) texelFetch(radii, int(i)).x
+#else
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Radii { float radii[]; };
+#define POSITION(i) positions[i]
+#define RADIUS(i) radii[i]
+#endif
+layout(std140, binding = 2) uniform Bounds { GridBounds bounds; };
+layout(std430, binding = 3) buffer Counts { uint counts[]; };
+layout(std430, binding = 4) writeonly buffer Places { uvec2 places[]; }; // slot and rank of each particle
+layout(std430, binding = 5) writeonly buffer Detected { vec4 detected[]; };
+layout(std430, binding = 6) readonly buffer Bodies { float bodies[]; }; // one per particle; below 0 = of a body without contacts
+layout(std430, binding = 7) readonly buffer Watched { float watched[]; }; // below 0 = neither it nor its faces and edges can touch anything
+layout(push_constant) uniform Push { GridPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const vec4 x = POSITION(i);
+    const Frame frame = frameOf(bounds, push.cells);
+    detected[i] = vec4(x.xyz, watched[i] < 0.0 ? FRAME_NONE : bodies[i]);
+    uvec2 place = uvec2(~0u);
+    if (isInGrid(RADIUS(i), push.most)) {
+        place.x = slotOf(cellOf(x.xyz, frame), frame);
+        place.y = atomicAdd(counts[place.x], 1u);
+    }
+    places[i] = place;
+}

@@ -1,0 +1,92 @@
+#version 460
+// Contacts, first pass: marks the particles that each one touches at its predicted position (hit_masks.glsl), and counts them:
+// the number that its mass is divided by. The count is exact in every substep: with counts of the substep before, shares would
+// add up to more than the particle, and bodies would explode. In a substep with fast particles, those met on the way count, too.
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+#include "common/contacts.glsl"
+
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer predicted;
+layout(binding = 1) uniform usamplerBuffer contacts;
+layout(binding = 3) uniform samplerBuffer velocities;
+#define PREDICTED(i) texelFetch(predicted, int(i))
+#define CONTACT(i) texelFetch(contacts, int(i)).xy
+#define VELOCITY(i) texelFetch(velocities, int(i))
+#else
+layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 1) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
+layout(std430, binding = 3) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+#define PREDICTED(i) predicted[i]
+#define CONTACT(i) contacts[i]
+#define VELOCITY(i) velocities[i]
+#endif
+layout(std430, binding = 2) readonly buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass
+layout(std140, binding = 5) uniform Step { StepParams step; };
+layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
+layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // time of each particle's first impact; only if isSwept
+#define HITS_BINDING 8
+#define HITS_ACCESS
+#include "common/hit_masks.glsl"
+#ifdef HAS_RECOVERY
+layout(std430, binding = 9) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m], below 0 = keeps its rest distance
+layout(constant_id = 5) const bool keepsRest = false;
+layout(constant_id = 6) const bool canOpen = false; // a cut can let pairs touch
+#define MARKS_BINDING 10
+#include "collision/linked_marks.glsl"
+#endif
+layout(push_constant) uniform Push { ContactPush push; };
+
+#include "collision/contact_reach.glsl"
+
+// Whether particle i, at x, touches the candidate in a slot at the end of the substep.
+bool touchesAtEnd(uint slot, vec3 x, vec3 velocity) {
+    const uvec2 candidate = CONTACT(slot);
+    const vec3 d = x - PREDICTED(candidate.x).xyz;
+    return touches(d, reachOf(slot, uintBitsToFloat(candidate.y))) || hasPassed(slot, d, velocity);
+}
+
+// The same in a substep with fast particles. `first`: when it first met another.
+bool touchesOnWay(uint slot, vec4 x, vec3 velocity, float first) {
+    const Pair pair = pairOf(slot, x, velocity);
+    const Contact contact = contactOf(pair.d, pair.way, pair.reach, first, pair.areFree);
+    return contact.exists || !contact.isMet && hasPassed(slot, pair.d, velocity);
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const uvec2 list = lists[i];
+    const uint end = list.x + list.y;
+    // Loops of which some are empty: on a software device, code under a condition costs its time even if it does not
+    // run.
+    const bool isSwept = bounds.isSwept != 0u;
+    const uint sweeping = isSwept ? end : list.x;
+    const vec4 start = PREDICTED(i);
+    vec3 x = start.xyz;
+    const vec4 velocity = VELOCITY(i);
+    float contactCount = 0.0, first = 1.0;
+#ifdef HAS_RECOVERY
+    for (uint slot = list.x; slot < end; ++slot) recover(i, slot, x);
+#endif
+    for (uint slot = list.x; slot < sweeping; ++slot) {
+        const Pair pair = pairOf(slot, start, velocity.xyz);
+        first = min(first, meetingOf(pair.d, pair.way, pair.reach, pair.areFree).time);
+    }
+    for (uint word = 0u; word < wordsOf(list); ++word) {
+        const uint from = list.x + 32u * word, to = min(from + 32u, end);
+        uint hit = 0u;
+        for (uint slot = from; slot < (isSwept ? from : to); ++slot)
+            hit |= uint(touchesAtEnd(slot, x, velocity.xyz)) << slot - from;
+        for (uint slot = from; slot < (isSwept ? to : from); ++slot)
+            hit |= uint(touchesOnWay(slot, start, velocity.xyz, first)) << slot - from;
+        contactCount += float(bitCount(hit));
+        const uint place = hitWord(push.count, i, list, word);
+        hits[place] = uvec2(hit, hits[place].x & ~hit);
+    }
+    if (sweeping > list.x) {
+        firsts[i] = first;
+        if (first < 1.0) x -= (1.0 - first) * step.h * velocity.xyz; // stays at the point of impact
+    }
+    touching[i] = vec4(x, contactCount * velocity.w);
+}

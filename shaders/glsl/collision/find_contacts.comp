@@ -1,0 +1,79 @@
+#version 460
+// Lists every pair of particles nearer than reach + margin, in any order: sort_lists sorts. SWEPT: in a substep with
+// possible impacts between particles; fast ones are then searched one by one, like large ones.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "common/kernel.glsl"
+#include "collision/hash_grid.glsl"
+
+#ifdef TEXELS
+layout(binding = 0) uniform usamplerBuffer sorted;
+layout(binding = 1) uniform usamplerBuffer starts;
+layout(binding = 2) uniform samplerBuffer positions;
+layout(binding = 3) uniform samplerBuffer radii;
+#define SORTED(i) texelFetch(sorted, int(i))
+#define START(i) texelFetch(starts, int(i)).x
+#define POSITION(i) texelFetch(positions, int(i))
+#define RADIUS(i) texelFetch(radii, int(i)).x
+#else
+layout(std430, binding = 0) readonly buffer Sorted { uvec4 sorted[]; };
+layout(std430, binding = 1) readonly buffer Starts { uint starts[]; };
+layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 3) readonly buffer Radii { float radii[]; };
+#define SORTED(i) sorted[i]
+#define START(i) starts[i]
+#define POSITION(i) positions[i]
+#define RADIUS(i) radii[i]
+#endif
+layout(std430, binding = 4) coherent volatile buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 5) buffer Chains { uint chains[]; };
+#define PAIRS_BINDING 6
+layout(std430, binding = 7) readonly buffer Large { uint large[]; };
+#ifdef HAS_EXCLUSIONS
+layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; }; // first of each particle, then the lists, sorted
+#endif
+#ifdef SWEPT
+#ifdef HAS_EXCLUSIONS
+#define SWEPT_BINDING 9
+#else
+#define SWEPT_BINDING 8
+#endif
+#include "common/contacts.glsl"
+layout(std430, binding = SWEPT_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // that led to these positions
+layout(std430, binding = SWEPT_BINDING + 1) readonly buffer Fast { uint fast[]; };
+layout(std140, binding = SWEPT_BINDING + 2) uniform Step { StepParams step; };
+#endif
+layout(push_constant) uniform Push { FindPush push; };
+#define FINDS_PAIRS
+#define ENTRIES_OF_PAIR 2u
+#include "collision/listed_pairs.glsl"
+layout(constant_id = 1) const bool hasOneRadius = false;
+
+#ifdef HAS_EXCLUSIONS
+#define EXCLUDED(k) excluded[k]
+#include "collision/excluded.glsl"
+#else
+bool isExcluded(uint i, uint j) { return false; }
+#endif
+#include "collision/sweep.glsl"
+#include "collision/near_cells.glsl"
+
+// A pair with a particle that is searched one by one: listed by the small particle, or, of two that are not small, by
+// the first.
+void searchOne(uint i, vec3 x, float radius, bool isSmall, uint j) {
+    if ((isSmall || i < j) && isNear(i, j, radius, x - POSITION(j).xyz)) list(i, j);
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const vec3 x = POSITION(i).xyz;
+    const float radius = RADIUS(i);
+    const bool isSmall = isInGrid(radius, push.most) && !isFast(i);
+    if (isSmall) searchCells(i, x, radius, frameOf(bounds, push.cells));
+    if (radius < 0.0) return;
+    for (uint l = 0u; l < push.large; ++l)
+        if (RADIUS(large[l]) >= 0.0) searchOne(i, x, radius, isSmall, large[l]);
+#ifdef SWEPT
+    for (uint f = 0u; f < bounds.fast; ++f) searchOne(i, x, radius, isSmall, fast[f]);
+#endif
+}

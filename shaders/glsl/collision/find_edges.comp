@@ -1,0 +1,132 @@
+#version 460
+// Every edge searches for others near it, in the cells around it and among the edges outside of the grid, and lists
+// each pair once, in any order: sort_lists and link_rows sort. A pair is listed if its distance, and that of the
+// balls around both edges, is below the reach, plus a margin, plus the motion of both in this substep.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "common/kernel.glsl"
+#include "common/segments.glsl"
+#include "collision/hash_grid.glsl"
+
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer positions;
+layout(binding = 1) uniform usamplerBuffer edges;
+layout(binding = 2) uniform samplerBuffer speeds;
+layout(binding = 3) uniform samplerBuffer thickness;
+layout(binding = 4) uniform usamplerBuffer sorted;
+layout(binding = 5) uniform usamplerBuffer starts;
+layout(binding = 6) uniform usamplerBuffer excluded;
+#define POSITION(i) texelFetch(positions, int(i))
+#define SPEED(e) texelFetch(speeds, int(e))
+#define THICKNESS(e) texelFetch(thickness, int(e)).x
+#define SORTED(k) texelFetch(sorted, int(k))
+#define START(slot) texelFetch(starts, int(slot)).x
+#define EXCLUDED(k) texelFetch(excluded, int(k)).x
+ContactEdge edgeAt(uint e) {
+    const uvec4 words = texelFetch(edges, int(e));
+    return ContactEdge(words.x, words.y, words.z, uintBitsToFloat(words.w));
+}
+#else
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Edges { ContactEdge edges[]; };
+layout(std430, binding = 2) readonly buffer Speeds { vec4 speeds[]; };
+layout(std430, binding = 3) readonly buffer Thickness { float thickness[]; };
+layout(std430, binding = 4) readonly buffer Sorted { uvec4 sorted[]; };
+layout(std430, binding = 5) readonly buffer Starts { uint starts[]; };
+layout(std430, binding = 6) readonly buffer Excluded { uint excluded[]; }; // first of each edge, then partners, sorted
+#define POSITION(i) positions[i]
+#define SPEED(e) speeds[e]
+#define THICKNESS(e) thickness[e]
+#define SORTED(k) sorted[k]
+#define START(slot) starts[slot]
+#define EXCLUDED(k) excluded[k]
+ContactEdge edgeAt(uint e) { return edges[e]; }
+#endif
+layout(std430, binding = 7) coherent volatile buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 8) readonly buffer Points { FacePoints points; };
+layout(std430, binding = 9) readonly buffer Apart { uint apart[]; };
+layout(std430, binding = 10) readonly buffer Middles { vec4 middles[]; };
+layout(std430, binding = 11) buffer Chains { uint chains[]; }; // chains of owners
+#define PAIRS_BINDING 12
+layout(std430, binding = 13) buffer Status { StatusWords status; };
+layout(std430, binding = 14) buffer LinkChains { uint linkChains[]; };
+layout(std140, binding = 15) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { FaceFindPush push; };
+#define FINDS_PAIRS
+#define ENTRIES_OF_PAIR 1u
+#include "collision/listed_pairs.glsl"
+
+#include "collision/near_edges.glsl"
+#include "collision/grid_rows.glsl"
+#include "collision/cell_points.glsl"
+
+// The visits, of up to 32 from `from` on, in a ball around the edge that it must test: bit v for visit from + v.
+uint around(Searched one, float range, Rows rows, uint from, uint total) {
+    const uint last = min(from + 32u, rows.all);
+    uint visits = 0u;
+    for (uint visit = from; visit < last; ++visit) {
+        const uvec4 other = SORTED(placeOf(rows, visit, total));
+        const vec3 d = one.middle - uintBitsToFloat(other.xyz);
+        visits |= uint(dot(d, d) < range * range && looksFor(one.index, other.w)) << visit - from;
+    }
+    return visits;
+}
+
+// The near ones of these visits.
+uint nearOf(Searched one, uint visits, Rows rows, uint from, Frame frame, uint total) {
+    uint near = 0u;
+    for (; visits != 0u; visits &= visits - 1u) {
+        const int bit = findLSB(visits);
+        const uint visit = from + uint(bit);
+        const uvec4 other = SORTED(placeOf(rows, visit, total));
+        const vec3 middle = uintBitsToFloat(other.xyz);
+        const ContactEdge edge = edgeAt(other.w);
+        const float way = wayOf(other.w);
+        if (isIn(rows, visit, cellOf(middle, frame)) && !isApart(edge, way) && isNear(one, other.w, edge, way, middle))
+            near |= 1u << bit;
+    }
+    return near;
+}
+
+// Branches are what costs: a batch is measured first, and only the remaining edges are processed then.
+void searchRows(Searched one, float range, Rows rows, Frame frame, uint total) {
+    for (uint from = 0u; from < rows.all && !isFull(); from += 32u) {
+        uint near = nearOf(one, around(one, range, rows, from, total), rows, from, frame, total);
+        for (; near != 0u; near &= near - 1u) {
+            const uint f = SORTED(placeOf(rows, from + uint(findLSB(near)), total)).w;
+            if (!isExcluded(one.index, f)) list(one, f);
+        }
+    }
+}
+
+void searchGrid(Searched one, uint total) {
+    const Frame frame = frameOf(bounds, push.cells);
+    const vec3 top = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)), size = abs(one.middle);
+    // slightly larger because of rounding
+    const float range = 1.01 * (one.edge.radius + one.way + uintBitsToFloat(points.widest) + push.margin) +
+                        1e-6 * max(size.x, max(size.y, size.z));
+    const vec3 low = max(one.middle - range, frame.low), high = min(one.middle + range, top);
+    if (any(lessThan(high, low))) return;
+    const ivec3 first = cellOf(low, frame), last = cellOf(high, frame);
+    if (pointsIn(first, last, frame) > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // reported as overflow
+    for (int z = first.z; z <= last.z; ++z)
+        for (int y = first.y; y <= last.y; y += 3)
+            for (int x = first.x; x <= last.x; x += 3)
+                searchRows(one, range, rowsFrom(ivec3(x, y, z), last, frame), frame, total);
+}
+
+void main() {
+    const uint e = itemIndex(push.points);
+    const Searched one = searchedOf(e);
+    if (one.edge.radius < 0.0) return;
+    const uint total = START(push.cells);
+    const bool standsApart = isApart(one.edge, one.way);
+    if (total > 0u && !standsApart) searchGrid(one, total);
+    if (points.apart > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);
+    for (uint k = 0u; k < min(points.apart, FACE_MOST_POINTS) && !isFull(); ++k) {
+        const uint f = apart[k];
+        // of two edges outside of the grid the first lists the pair
+        if ((standsApart && f < e) || !isNear(one, f, edgeAt(f), wayOf(f), middles[f].xyz) || isExcluded(e, f)) continue;
+        list(one, f);
+    }
+}

@@ -1,0 +1,72 @@
+#version 460
+// Links every moving face, EDGES: every edge, to its rows in the lists of others, sorted by owner, so that its
+// corners find the impulses of those contacts. Lists the groups of particles with contacts, and writes the number of
+// groups of elements.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "common/kernel.glsl"
+
+layout(push_constant) uniform Push { FaceFindPush push; };
+#define PAIRS_BINDING 0
+#define ENTRIES_OF_PAIR 1u
+#include "collision/listed_pairs.glsl"
+layout(std430, binding = 1) buffer Chains { uint chains[]; }; // chains of links
+layout(std430, binding = 2) readonly buffer Contacts { ContactCandidate contacts[]; };
+layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 4) writeonly buffer Links { uint links[]; }; // elements of contacts
+layout(std430, binding = 5) writeonly buffer LinkLists { uvec2 linkLists[]; };
+layout(std430, binding = 6) writeonly buffer Points { FacePoints points; };
+layout(std430, binding = 7) buffer Bounds { GridBounds bounds; };
+#ifdef EDGES
+layout(std430, binding = 8) readonly buffer Edges { ContactEdge edges[]; };
+#else
+layout(std430, binding = 8) readonly buffer Faces { ContactFace faces[]; };
+#endif
+layout(std430, binding = 9) buffer Status { StatusWords status; };
+#define GROUPS_BINDING 10
+#define LISTS_PARTICLES
+#include "collision/listed_groups.glsl"
+
+// A point lists its own group in sort_lists.
+void listGroups(uint shape, bool isLinked) {
+#ifdef EDGES
+    if (lists[shape].y == 0u && !isLinked) return;
+    listParticle(edges[shape].a);
+    listParticle(edges[shape].b);
+#else
+    if (!isLinked) return;
+    listParticle(faces[shape].a);
+    listParticle(faces[shape].b);
+    listParticle(faces[shape].c);
+#endif
+}
+
+uint shape;
+void put(uint element, uint owner) {
+    uint low = lists[owner].x, high = low + lists[owner].y;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        if (contacts[middle].other < shape) low = middle + 1u;
+        else high = middle;
+    }
+    links[element] = min(low, push.room - 1u); // missing only if the step will be undone
+}
+#include "collision/sort_pairs.glsl"
+
+void main() {
+    const uint f = itemIndex(push.moving);
+    if (f == 0u) {
+        points = FacePoints(0u, 0u, 0u, 0u); // for the next build
+        arguments[2] = DispatchArguments(min((bounds.entries + GROUP_SIZE - 1u) / GROUP_SIZE, uint(ROWS_MOST_GROUPS)), 1u, 1u, 0u);
+    }
+    if (f >= push.moving) return;
+    const uint chain = chains[f], all = lengthOf(chain), n = min(all, LIST_MOST);
+    if (all > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // reported as overflow
+    uvec2 list = uvec2(0u, n);
+    if (n > 0u) list.x = atomicAdd(bounds.links, n);
+    listGroups(f, n > 0u);
+    shape = f;
+    sortChain(chain, list.x, n);
+    linkLists[f] = list;
+    chains[f] = 0u;
+}

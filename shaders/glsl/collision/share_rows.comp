@@ -1,0 +1,19 @@
+#version 460
+// Contacts with faces and between edges, second pass: sums the contact weights of a particle. Each row gets the share
+// |beta| / S of the particle's mass, S = the sum of |beta| over all of its rows: shares sum to 1. Written here: S w.
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+#include "collision/rows_of.glsl"
+layout(std430, binding = 7) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+layout(std430, binding = 8) writeonly buffer Shares { float shares[]; };       // S w [1/kg]
+
+float sum = 0.0;
+void visit(uint element, uint place) {
+    if (directions[element].w > 0.0) sum += abs(betaOf(element, place));
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    visitRows(i);
+    shares[i] = sum * velocities[i].w;
+}

@@ -1,0 +1,148 @@
+#version 460
+// Makes the contact list of every particle or, FACES, of every point with faces or, EDGES, of every edge with the
+// edges in rows that it owns, from the pairs that were found: sorted by index, with the contact distance and,
+// HAS_MEMORY, the contact memory. LISTS_OWNERS: lists the groups with a candidate; for edges link_rows does so.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "common/kernel.glsl"
+
+#ifdef FACES
+#define LISTS_PARTICLES
+#endif
+#if defined FACES || defined EDGES
+#define ENTRIES_OF_PAIR 1u
+layout(push_constant) uniform Push { FaceFindPush push; };
+#define OWNERS push.points
+#else
+#define ENTRIES_OF_PAIR 2u
+layout(push_constant) uniform Push { FindPush push; };
+#define OWNERS push.count
+#endif
+#define PAIRS_BINDING 0
+#include "collision/listed_pairs.glsl"
+layout(std430, binding = 1) buffer Chains { uint chains[]; };
+layout(std430, binding = 2) readonly buffer Radii { float radii[]; }; // EDGES: their thickness
+layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };
+layout(std430, binding = 4) buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 5) buffer Status { StatusWords status; };
+layout(std430, binding = 6) buffer Bounds { GridBounds bounds; };
+#ifdef HAS_MEMORY
+layout(std430, binding = 7) writeonly buffer Memory { vec4 memory[]; };
+layout(std430, binding = 8) readonly buffer Kept { vec4 kept[]; };
+layout(std430, binding = 9) readonly buffer KeptOthers { uint keptOthers[]; };
+layout(std430, binding = 10) readonly buffer KeptLists { uvec2 keptLists[]; };
+#if defined FACES || defined EDGES
+#define GROUPS_BINDING 11
+#else
+#define HITS_BINDING 11
+#define HITS_ACCESS
+#include "common/hit_masks.glsl"
+#define GROUPS_BINDING 12
+#endif
+#else
+#define GROUPS_BINDING 7
+#endif
+#if defined LISTS_OWNERS || defined LISTS_PARTICLES
+#include "collision/listed_groups.glsl"
+#endif
+#ifdef FACES
+layout(std430, binding = PARTICLES_BINDING + 2) readonly buffer Faces { ContactFace faces[]; };
+#include "collision/linked_reach.h"
+// Entries are 2 x face, + 1 if a link joins the two. The result carries the sign bit of the thickness, which may be
+// that of a 0.
+uint otherOf(uint entry) { return entry / 2u; }
+float reachOf(float own, uint entry) {
+    const float thickness = faces[otherOf(entry)].thickness, reach = own + abs(thickness);
+    const float linked = (entry & 1u) != 0u ? LINKED_REACH * reach : reach;
+    return uintBitsToFloat(floatBitsToUint(linked) | floatBitsToUint(thickness) & 0x80000000u);
+}
+#else
+uint otherOf(uint entry) { return entry; }
+float reachOf(float own, uint other) { return own + radii[other]; }
+#endif
+#ifdef FACES
+#define OWNERS_BINDING (PARTICLES_BINDING + 3)
+#elif defined EDGES
+#define OWNERS_BINDING GROUPS_BINDING
+#endif
+#ifdef OWNERS_BINDING
+layout(std430, binding = OWNERS_BINDING) writeonly buffer Owners { uint owners[]; }; // one per element
+#endif
+
+void listGroups(uint i) {
+#ifdef LISTS_OWNERS
+    listOwner(i);
+#endif
+#ifdef LISTS_PARTICLES
+    listParticle(i);
+#endif
+}
+
+uint owner;
+float own; // radius, or thickness [m]
+void put(uint element, uint entry) {
+    contacts[element] = ContactCandidate(otherOf(entry), reachOf(own, entry));
+#ifdef HAS_MEMORY
+    memory[element] = vec4(0.0);
+#endif
+#ifdef OWNERS_BINDING
+    owners[element] = owner;
+#endif
+}
+#include "collision/sort_pairs.glsl"
+
+#ifdef HITS_BINDING
+// Until contacts are counted, what is remembered of a candidate says whether it has touched.
+void clearHits(uvec2 list, uint i) {
+    for (uint word = 0u; word < wordsOf(list); ++word) hits[hitWord(OWNERS, i, list, word)] = uvec2(0u);
+}
+void setHit(uvec2 list, uint i, uint element) {
+    const uint place = element - list.x;
+    hits[hitWord(OWNERS, i, list, place / 32u)].x |= 1u << place % 32u;
+}
+#endif
+
+// Gives back what is kept of candidates that are listed again; put() has cleared all. Both lists are sorted.
+void returnMemory(uvec2 list, uint i) {
+#ifdef HITS_BINDING
+    clearHits(list, i);
+#endif
+#ifdef HAS_MEMORY
+    const uint end = list.x + list.y;
+    uint element = list.x;
+    for (uint place = keptLists[i].x; place < keptLists[i].x + keptLists[i].y; ++place) {
+        const uint other = keptOthers[place];
+        while (element < end && contacts[element].other < other) ++element;
+        if (element == end) break;
+        if (contacts[element].other != other) continue;
+        memory[element] = kept[place];
+#ifdef HITS_BINDING
+        setHit(list, i, element);
+#endif
+    }
+#endif
+}
+
+// Reports the mean number of entries per owner that would be needed, if that exceeds the capacity, or a list that is
+// too long. Returns the length of the list. Only the first lists of a step that lack capacity report it: after pairs
+// were lost later results depend on which, and counting stops somewhere beyond 4 times the capacity.
+uint checked(uint i, uint n) {
+    const uint room = push.room / ENTRIES_OF_PAIR, found = min(bounds.pairs, 4u * room + 1u);
+    if (found <= room && n > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);
+    if (i == 0u && found > room && status.candidates == 0u) status.candidates = (ENTRIES_OF_PAIR * found - 1u) / OWNERS + 1u;
+    return min(n, LIST_MOST);
+}
+
+void main() {
+    const uint i = itemIndex(OWNERS);
+    const uint chain = chains[i], n = checked(i, lengthOf(chain));
+    uvec2 list = uvec2(0u, n);
+    if (n > 0u) list.x = atomicAdd(bounds.entries, n);
+    owner = i;
+    own = radii[i];
+    sortChain(chain, list.x, n);
+    returnMemory(list, i);
+    lists[i] = list;
+    if (n > 0u) listGroups(i);
+    chains[i] = 0u;
+}

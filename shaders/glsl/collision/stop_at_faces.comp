@@ -1,0 +1,140 @@
+#version 460
+// Keeps particles in front of static and driven faces, one after another in the invocation of the particle, after all
+// contacts: contacts divide the mass of a particle, and where bodies are pressed together in one substep a share is
+// too small to keep a side. This pass keeps the side on which a substep begins. A particle whose path crosses a face,
+// or ends far too near, is put back in front of it. This adds no more velocity than cancels its approach to the face
+// in this substep. All other particles stay unchanged to the bit.
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+#include "common/many_items.glsl"
+#include "common/remainder.glsl"
+#include "common/triangle.glsl"
+
+layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 1) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; }; // that led to those positions [m/s]
+layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
+layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 5) readonly buffer Radii { float radii[]; };       // below 0 = touches no face
+layout(std430, binding = 6) readonly buffer Excluded { uint excluded[]; };  // first of each face, then points, sorted
+layout(std430, binding = 7) buffer Positions { vec4 positions[]; };         // x + thetaH v (remainder.glsl)
+layout(std430, binding = 8) buffer Velocities { vec4 velocities[]; };       // w = inverse mass [1/kg]
+layout(std140, binding = 9) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { StopPush push; };
+layout(std430, binding = 10) readonly buffer Memory { vec4 memory[]; };     // w: side and overlap (contact_memory.glsl)
+#ifdef FORCES
+#define FORCES_BINDING 11
+#define STOPS
+#include "forces/forces.glsl"
+uint stoppedBy; // the face of the last stop
+#endif
+#define EXCLUDED(k) excluded[k]
+#include "collision/excluded.glsl"
+#include "collision/face_stop.glsl"
+
+// Lists hold all that is near the predicted path, so they hold all faces met by a path that ends within the radius of
+// the predicted position. For a path that ends farther away all faces are tested.
+struct Search {
+    bool isListed;
+    uint first, end; // elements of the list, or faces
+};
+
+bool isNearPredicted(uint i, vec3 x) {
+    const vec3 off = x - predicted[i].xyz;
+    return dot(off, off) <= radii[i] * radii[i];
+}
+
+Search searchFor(uint i, uint firstListed, uint endListed, vec3 x) {
+    if (isNearPredicted(i, x)) return Search(true, firstListed, endListed);
+    return Search(false, push.moving, push.faces);
+}
+
+// The remaining part of an overlap in recovery.
+float leftOf(uint element) { return max(0.0, abs(memory[element].w) - 1.0); }
+
+// The most urgent stop on the path from x0 to x1.
+Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
+    Stop first = noStop;
+    for (uint s = search.first; s < search.end; ++s) {
+        const uint f = search.isListed ? contacts[s].other : s;
+        const ContactFace face = faces[f];
+        const float touching = radii[i] + abs(face.thickness), left = search.isListed ? min(leftOf(s), touching) : 0.0; // a rest distance is rounded
+        const vec3 seen = search.isListed ? predicted[i].xyz : x1; // a face farther away may be in no list
+        const Stop stop = stopAt(face, touching - left, x0, x1, seen);
+        if (!(stop.urgency > first.urgency) || isExcluded(f, i)) continue;
+        first = stop;
+#ifdef FORCES
+        stoppedBy = f;
+#endif
+    }
+    return first;
+}
+
+// In a corner of faces a particle put in front of one may be behind the next. A particle without a place moves with
+// the last face.
+const uint mostStops = 4u;
+
+#ifdef FORCES
+// The impulse of one stop, stored until it is certain that the particle receives it.
+struct Given {
+    uint face;
+    vec3 change, x; // change of the velocity [m/s]; position [m]
+};
+#endif
+
+vec3 placeOf(uint i, vec4 velocity) { return positions[i].xyz - step.thetaH * velocity.xyz; }
+
+// Whether something may stop a particle: a face of its list that never gives way, which are the last ones, or one that is in no list.
+bool hasWork(uint i) {
+    const uvec2 list = lists[i];
+    const bool isListed = list.y > 0u && contacts[list.x + list.y - 1u].other >= push.moving;
+    return velocities[i].w != 0.0 && radii[i] >= 0.0 && (isListed || !isNearPredicted(i, placeOf(i, velocities[i])));
+}
+
+void workOn(uint i) {
+    const uint begin = lists[i].x, listEnd = begin + lists[i].y;
+    uint first = listEnd;
+    for (; first > begin && contacts[first - 1u].other >= push.moving; --first) {}
+    const vec4 velocity = velocities[i];
+    const vec3 x = placeOf(i, velocity), x0 = predicted[i].xyz - step.h * predictedVelocities[i].xyz;
+    if (velocity.w == 0.0 || radii[i] < 0.0 || first == listEnd && isNearPredicted(i, x)) return;
+    vec3 end = x, v = velocity.xyz;
+#ifdef FORCES
+    Given given[mostStops + 1u];
+    uint givenCount = 0u;
+#endif
+    for (uint stops = 0u; stops <= mostStops; ++stops) {
+        const Stop stop = stopOf(i, searchFor(i, first, listEnd, end), x0, end);
+        const bool isLast = stops == mostStops;
+        if (stop.urgency <= (isLast ? 1.0 : 0.0)) break;
+        const vec3 n = stop.n, stopped = isLast ? stop.carried : end + stop.rise * n;
+        const vec3 meanwhile = (stopped - x0) / step.h; // the velocity that leads there
+#ifdef FORCES
+        const vec3 slower = v;
+#endif
+        v = isLast ? meanwhile : v + max(0.0, dot(n, meanwhile - v)) * n;
+#ifdef FORCES
+        given[givenCount++] = Given(stoppedBy, v - slower, stopped);
+#endif
+        end = isLast ? stopped : stopped + stop.lift * n;
+    }
+    if (end == x) return;
+#ifdef FORCES
+    for (uint s = 0u; s < givenCount; ++s) {
+        addContactForce(i, given[s].change / velocity.w);
+        addStopForce(given[s].face, i, given[s].change / velocity.w, given[s].x);
+    }
+#endif
+    velocities[i].xyz = v;
+    const vec3 change = end - x + step.thetaH * (v - velocity.xyz);
+    if (hasRemainders) {
+        const uint r = remainderOf(positions.length(), i);
+        const Sum sum = exactSum(positions[i].xyz, change + positions[r].xyz);
+        positions[i].xyz = sum.rounded;
+        positions[r].xyz = sum.remainder;
+    } else {
+        positions[i].xyz = end + step.thetaH * v;
+    }
+}
+
+void main() { forEachItem(push.count); }

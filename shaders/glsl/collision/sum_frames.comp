@@ -1,0 +1,54 @@
+#version 460
+// Frames of bodies, first pass: sums over a chunk of a body's particles (FRAME_SUMS in layout.h).
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 2) readonly buffer Detected { vec4 detected[]; }; // positions when lists were made
+layout(std430, binding = 3) readonly buffer Chunks { FrameChunk chunks[]; };
+layout(std430, binding = 4) readonly buffer Members { uint members[]; };
+layout(std430, binding = 5) readonly buffer Radii { float radii[]; }; // below 0 = removed from contacts
+layout(std430, binding = 6) writeonly buffer Partial { vec4 partial[]; };
+layout(push_constant) uniform Push { FramePush push; };
+
+// Position when lists were made; without valid lists, the present position.
+vec3 referenceOf(uint i) {
+    const vec3 r = detected[i].xyz;
+    return abs(r.x) < 1e17 ? r : positions[i].xyz;
+}
+
+void main() {
+    const uint c = itemIndex(push.chunks);
+    if (c >= push.chunks) return;
+    const FrameChunk chunk = chunks[c];
+    const vec3 x0 = positions[chunk.origin].xyz, r0 = referenceOf(chunk.origin);
+    vec3 sumR = vec3(0.0), sumX = vec3(0.0), sumV = vec3(0.0), low = vec3(1e30), high = vec3(-1e30);
+    float count = 0.0;
+    mat3 rr = mat3(0.0), dr = mat3(0.0), vr = mat3(0.0);
+    for (uint k = chunk.first; k < chunk.first + chunk.count; ++k) {
+        const uint i = members[k];
+        if (radii[i] < 0.0) continue;
+        const vec3 at = positions[i].xyz, x = at - x0, r = referenceOf(i) - r0, v = velocities[i].xyz;
+        count += 1.0;
+        sumR += r;
+        sumX += x;
+        sumV += v;
+        rr += outerProduct(r, r);
+        dr += outerProduct(x - r, r);
+        vr += outerProduct(v, r);
+        low = min(low, at);
+        high = max(high, at);
+    }
+    const uint first = c * FRAME_SUMS;
+    partial[first + FRAME_SUM_R] = vec4(sumR, count);
+    partial[first + FRAME_SUM_X] = vec4(sumX, 0.0);
+    partial[first + FRAME_SUM_V] = vec4(sumV, 0.0);
+    for (uint k = 0u; k < 3u; ++k) {
+        partial[first + FRAME_SUM_RR + k] = vec4(rr[k], 0.0);
+        partial[first + FRAME_SUM_DR + k] = vec4(dr[k], 0.0);
+        partial[first + FRAME_SUM_VR + k] = vec4(vr[k], 0.0);
+    }
+    partial[first + FRAME_SUM_LOW] = vec4(low, 0.0);
+    partial[first + FRAME_SUM_HIGH] = vec4(high, 0.0);
+}

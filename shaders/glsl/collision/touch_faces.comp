@@ -1,0 +1,64 @@
+#version 460
+// Contacts with faces, first pass: narrow phase of each point with each face near it, over the whole path of the
+// substep, from x - h v to x. A face has two sides. A point is on the side that it came from: while the two touch the
+// side is remembered, so that a point that has sunk through is pushed back out of the side on which it entered. A
+// pair that does not touch has no memory, and a point that is through and beyond reach is released: results do not
+// depend on when lists are made.
+//
+// Impulses of a contact on its particles are weighted by beta, 1 for the point and b for the corners; directions n
+// are unit:
+//   C = n . (x - sum_k b_k x_k) - reach,   dC/dx = beta n.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "common/kernel.glsl"
+#include "common/triangle.glsl"
+
+layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
+layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };       // w: side and overlap, 0 = no contact so far
+layout(std430, binding = 6) buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch; below 0 = see hide
+layout(std430, binding = 7) buffer Weights { vec4 weights[]; };       // b; w: side and overlap
+layout(std140, binding = 8) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { FacePush push; };
+#define MARKS_BINDING 9
+layout(constant_id = 3) const uint firstInner = ~0u; // faces from there to before push.moving can be opened by a cut; ~0 = there are none
+#include "collision/keeps_rest.glsl"
+#include "collision/recovery.glsl"
+#include "collision/hidden_faces.glsl"
+#include "collision/face_touch.glsl"
+#include "collision/held_behind.glsl"
+
+void write(uint element, Touch touch) {
+    directions[element] = vec4(touch.n, touch.depth);
+    weights[element] = vec4(touch.b, touch.remembered);
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const uvec2 list = lists[i];
+    const uint end = list.x + list.y;
+    uint passed = ~0u;
+    Touch passing;
+    vec3 through = vec3(0.0);
+    if (keepsRest) findHolders(i, list);
+    // The second time, below a surface: the sides of the faces around are those of the face that was passed. What slides below another face
+    // must not be pushed out there. One copy of touchOf() serves both times: the kernel is half as large.
+    [[dont_unroll]] for (uint time = 0u; time < 2u; ++time) {
+        for (uint element = list.x; element < end; ++element) {
+            if (time == 1u && (element == passed || !areNeighbours(faces[contacts[element].x], passing.face))) continue;
+            Touch touch = touchOf(i, list, element, through);
+            if (keepsRest && time == 0u) touch = heldTouch(i, element, touch);
+            if (touch.isThrough && passed == ~0u) {
+                passed = element;
+                passing = touch;
+            }
+            write(element, touch);
+        }
+        if (passed == ~0u) break;
+        through = passing.n;
+    }
+    if (passed == ~0u) hide(i, list.x, end);
+}

@@ -1,0 +1,24 @@
+#version 460
+// Checks list validity for faces and edges: whether a particle is, or was at the start of the substep, farther from
+// its expected position than the slack; these contacts cover the whole path of a substep. plan_grid decides what
+// follows.
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+#include "common/math.glsl"
+
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 2) readonly buffer Detected { vec4 detected[]; };
+layout(std430, binding = 3) buffer Bounds { GridBounds bounds; };
+layout(std140, binding = 4) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { GridPush push; };
+#define DETECTED(i) detected[i]
+#define FRAMES_BINDING 5
+#include "collision/strays.glsl"
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i == ~0u) return;
+    float farthest;
+    if (hasStrayed(i, positions[i].xyz, velocities[i].xyz, farthest)) atomicMax(bounds.moved, floatBitsToUint(clamp(farthest, 1e-30, 1e30)));
+}

@@ -1,0 +1,35 @@
+#version 460
+// Closes a step with a blade: counts the links that were cut, or restores them if the step is undone.
+#extension GL_GOOGLE_include_directive : require
+#include "common/cut.glsl"
+#include "lattice/link_masks.glsl"
+
+#ifdef TEXELS
+layout(binding = 0) uniform usamplerBuffer savedLinks;
+layout(binding = 1) uniform samplerBuffer places;
+#define SAVED(i) texelFetch(savedLinks, int(i)).x
+#define PLACE(i) texelFetch(places, int(i))
+#else
+layout(std430, binding = 0) readonly buffer SavedLinks { uint savedLinks[]; };
+layout(std430, binding = 1) readonly buffer Places { vec4 places[]; };
+#define SAVED(i) savedLinks[i]
+#define PLACE(i) places[i]
+#endif
+layout(std430, binding = 2) buffer Links { uint links[]; };
+layout(std430, binding = 3) writeonly buffer PlacesBefore { vec4 before[]; };
+layout(std430, binding = 4) readonly buffer Status { StatusWords status; };
+layout(std430, binding = 5) buffer Work { CutWork work; };
+layout(std430, binding = 6) readonly buffer Blade { BladeHead blade; };
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint i = push.first + item;
+    if (!isFinished(status)) {
+        links[i] = SAVED(i);
+        return;
+    }
+    if (blade.quads > 0u) before[i] = PLACE(i); // strokes continue over steps without a blade; a ray has no path
+    const uint cut = SAVED(i) & ~links[i] & OWNED_MASK & push.stiffLinks;
+    if (cut != 0u) atomicAdd(work.cut, uint(bitCount(cut)));
+}

@@ -1,0 +1,133 @@
+#version 460
+// Keeps every particle out of the colliders at the end of a substep, one collider after another in the invocation of
+// the particle: the last pass of a substep, and exact, because no mass is divided among contacts. Serves every
+// solver: thetaH is 0 except for `split`; the substep of `gauss_seidel` is still open (solve_attachments.comp).
+// HAS_REBOUND: the scene has restitution, so that the displacement since the start of the substep is no longer h v,
+// and impacts need the velocity from before. HAS_CONTACTS: particles touch each other; one that was stopped on its
+// way has a velocity that differs from its displacement / h.
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+#include "rigid/colliders.glsl"
+#include "common/many_items.glsl"
+#ifndef OPEN
+#include "common/remainder.glsl"
+#endif
+
+layout(std430, binding = 0) readonly buffer Colliders { Collider colliders[]; };
+layout(std430, binding = 1) readonly buffer Poses { ColliderPose poses[]; };
+layout(std430, binding = 2) readonly buffer ContactOffsets { float contactOffsets[]; };
+#ifdef OPEN
+layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; }; // predicted; w = inverse mass [1/kg]
+#else
+layout(std430, binding = 3) buffer Positions { vec4 positions[]; }; // x + thetaH v (remainder.glsl)
+#endif
+layout(std430, binding = 4) buffer Velocities { vec4 velocities[]; }; // open: v + h g; w = inverse mass [1/kg]
+layout(std140, binding = 5) uniform Step { StepParams step; };
+#ifdef OPEN
+layout(std430, binding = 6) buffer Corrections { vec4 corrections[]; }; // ParticleCorrection
+#elif defined HAS_REBOUND
+layout(std430, binding = 6) readonly buffer Before { vec4 before[]; }; // x, v of each particle (open_colliders)
+#elif defined HAS_CONTACTS
+layout(std430, binding = 6) readonly buffer Predicted { vec4 predicted[]; }; // before contacts
+layout(std430, binding = 7) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; };
+#endif
+layout(push_constant) uniform Push { ColliderPush push; };
+#include "forces/forces.glsl"
+
+// A particle before colliders act on it.
+struct Start {
+    vec4 velocity;       // w = inverse mass
+    vec3 velocityBefore; // of the substep; only where something may rebound
+    Movement movement;
+};
+
+// Part of v that has not moved x.
+vec3 lateOf(float h) { return push.lateKick * h * step.gravity.xyz; }
+
+Start startOf(uint i) {
+    const vec4 velocity = velocities[i];
+    const float h = step.h;
+    const vec3 late = lateOf(h);
+#ifdef OPEN
+    const vec3 correction = corrections[i].xyz;
+    return Start(velocity, velocity.xyz - h * step.gravity.xyz,
+                 Movement(positions[i].xyz + correction, velocity.xyz + correction / h,
+                          h * (velocity.xyz - late) + correction, vec3(0.0)));
+#else
+    const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz;
+    Start start = Start(velocity, vec3(0.0), Movement(x, velocity.xyz, h * (velocity.xyz - late), vec3(0.0)));
+#ifdef HAS_REBOUND
+    start.movement.way = x - before[2u * i].xyz;
+    start.velocityBefore = before[2u * i + 1u].xyz;
+#elif defined HAS_CONTACTS
+    const vec3 way = x - (predicted[i].xyz - h * predictedVelocities[i].xyz);
+    if (largest(way - start.movement.way) > 1e-4 * largest(way) + 1e-5 * largest(x)) { // else h v is more exact
+        start.movement.pushed = way - start.movement.way;
+        start.movement.way = way;
+    }
+#endif
+    return start;
+#endif
+}
+
+bool isAbsent(uint c) { return c < pokeCount && colliders[c].isAbsent != 0u; }
+
+// Whether a particle can have come near a collider in the substep.
+bool hasWork(uint i) {
+    const Start start = startOf(i);
+    bool can = false;
+    for (uint c = 0u; c < colliderCount; ++c) {
+        const Approach approach = approachOf(colliders[c], contactOffsets[i], poses[push.before + c], poses[push.after + c], start.movement);
+        can = can || !isAbsent(c) && canTouch(approach, largest(start.movement.x));
+    }
+    return can && start.velocity.w != 0.0;
+}
+
+void workOn(uint i) {
+    const Start start = startOf(i);
+    const vec4 velocity = start.velocity;
+    const float h = step.h;
+    Movement movement = start.movement;
+    if (velocity.w == 0.0) return;
+    const vec3 wayBefore = movement.way;
+    vec3 rebound = vec3(0.0);
+    bool isTouching = false;
+    for (uint c = 0u; c < colliderCount; ++c) {
+        vec3 n, surfaceVelocity;
+        const Collider collider = colliders[c];
+        if (isAbsent(c)) continue;
+        const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // equal where nothing moves
+#ifdef FORCES
+        const vec3 unforced = movement.v + rebound;
+#endif
+        if (!projectOut(collider, contactOffsets[i], from, to, h, movement, n, surfaceVelocity)) continue;
+        isTouching = true;
+#if defined OPEN || defined HAS_REBOUND
+        rebound += reboundFrom(collider, step.restSpeed, n, surfaceVelocity, start.velocityBefore, movement.v + rebound);
+#endif
+#ifdef FORCES
+        addRowForce(c, i, (movement.v + rebound - unforced) / velocity.w, movement.x - to.position.xyz);
+#endif
+    }
+    if (!isTouching) return;
+#ifdef OPEN
+    // Closing the substep adds the corrections / h to v: the part that must not add velocity is subtracted from v
+    // beforehand.
+    corrections[i].xyz = movement.way - h * (velocity.xyz - lateOf(h));
+    velocities[i].xyz = velocity.xyz + rebound - movement.pushed / h;
+#else
+    const vec3 v = movement.v + rebound;
+    velocities[i].xyz = v;
+    if (hasRemainders) {
+        const uint r = remainderOf(positions.length(), i);
+        const vec3 change = movement.way - wayBefore + step.thetaH * (v - velocity.xyz);
+        const Sum sum = exactSum(positions[i].xyz, change + positions[r].xyz);
+        positions[i].xyz = sum.rounded;
+        positions[r].xyz = sum.remainder;
+    } else {
+        positions[i].xyz = movement.x + step.thetaH * v;
+    }
+#endif
+}
+
+void main() { forEachItem(push.count); }

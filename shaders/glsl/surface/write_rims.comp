@@ -1,0 +1,63 @@
+#version 460
+// The surface of a cut, fourth pass for skins of meshes: the points on the edges of a skin and at the centres of its
+// triangles, with the anchors that each is bound to, as write_points does for slots.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "common/kernel.glsl"
+#include "lattice/link_masks.glsl"
+
+layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // the count, and then the items
+layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
+layout(std430, binding = 2) readonly buffer Links { uint links[]; };
+layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
+#define HUNG_BINDING 4
+#include "surface/hung_vertex.glsl"
+layout(std430, binding = 5) readonly buffer SkinHits { uint skinHits[]; };
+layout(std430, binding = 6) writeonly buffer Vertices { CutVertex vertices[]; };
+#define MOVED_BINDING 7
+#include "surface/moved_vertex.glsl"
+layout(push_constant) uniform Push { PrismPush push; };
+
+#include "surface/skin_prisms.glsl"
+#include "surface/skin_points.glsl"
+#include "surface/skin_rest.glsl"
+
+// Position of the cut along edge n. If the blade has not met the edge, it passed between an end of the edge and the
+// anchor of that end: that end is on the blade.
+float shareOf(SkinPrism prism, uint self, uint n) {
+    const SkinEdge edge = edgeOf(prism, self, n);
+    const uint value = bitfieldExtract(skinHits[edge.prism], int(8u * edge.edge), 8);
+    if (value > 0u) return edge.isReversed ? 1.0 - float(value) / 255.0 : float(value) / 255.0;
+    const bool isStart = moved[prism.vertices[n]].w == VERTEX_MOVED, isEnd = moved[prism.vertices[(n + 1u) % 3u]].w == VERTEX_MOVED;
+    return isStart == isEnd ? 0.5 : isStart ? 0.02 : 0.98;
+}
+
+vec4 edgePlace(SkinPrism prism, uint self, uint n) {
+    const vec4 from = restOf(prism.vertices[n]), to = restOf(prism.vertices[(n + 1u) % 3u]);
+    return vec4(mix(from.xyz, to.xyz, shareOf(prism, self, n)), from.w);
+}
+
+void write(uint at, vec4 place, SkinPrism prism, uint a, uint b, float share) {
+    const uint corners[4] = uint[4](prism.anchors[a], prism.anchors[b], prism.vertices[a], prism.vertices[b]);
+    vertices[at] = CutVertex(place, vec4(1.0 - share, share, 0.0, 0.0), corners, int[3](0, 0, 0), SURFACE_RIM | at);
+}
+
+void main() {
+    const uint item = itemIndex(listed[0]);
+    if (item >= listed[0] || listed[1u + item] < push.first) return;
+    const uint self = listed[1u + item] - push.first;
+    const SkinPrism prism = prisms[self];
+    const uint points = owned[push.first + self].x;
+    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
+        if ((points >> 2u * n & 1u) == 0u) continue;
+        const vec4 place = edgePlace(prism, self, n);
+        const uint next = (n + 1u) % 3u;
+        const bool isOne = (points >> 6u + n & 1u) != 0u;
+        write(skinPoint(prism, self, n, true), place, prism, n, next, isOne ? shareOf(prism, self, n) : 0.0);
+        if (!isOne) write(skinPoint(prism, self, n, false), place, prism, next, n, 0.0);
+    }
+    if ((points >> firstCenter & 1u) == 0u) return;
+    const vec4 center = (edgePlace(prism, self, 0u) + edgePlace(prism, self, 1u) + edgePlace(prism, self, 2u)) / 3.0;
+    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n)
+        write(skinCenter(self, n), vec4(center.xyz, hung[prism.vertices[n]].rest.w), prism, n, n, 0.0);
+}

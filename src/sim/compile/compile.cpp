@@ -1,0 +1,163 @@
+// The list of features of a step, from top to bottom in the order in which the device runs them.
+#include "sim/compile/compile.hpp"
+
+#include "common/layout.h"
+#include "kernels.hpp"
+#include "sim/collision/face_contacts.hpp"
+#include "sim/collision/particle_contacts.hpp"
+#include "sim/compile/publish.hpp"
+#include "sim/core/hash.hpp"
+#include "sim/cutting/cut.hpp"
+#include "sim/forces/forces.hpp"
+#include "sim/grabs/grab.hpp"
+#include "sim/lattice/cells.hpp"
+#include "sim/model/rounding.hpp"
+#include "sim/sleep/sleep.hpp"
+#include "sim/solvers/gauss_seidel.hpp"
+#include "sim/solvers/jacobi.hpp"
+#include "sim/solvers/solver_plan.hpp"
+#include "sim/solvers/split.hpp"
+#include "sim/surface/skin.hpp"
+#include "sinew/substeps.hpp"
+#include "sinew/validate.hpp"
+
+namespace sinew::sim {
+
+namespace {
+
+using MakePlan = solvers::SolverPlan (*)(const Scene&, const Settings&,
+                                         const std::vector<float>& inverseMass);
+
+MakePlan makerFor(Solver solver) {
+    switch (solver) {
+    case Solver::split:
+        return solvers::split::plan;
+    case Solver::gaussSeidel:
+        return solvers::gaussSeidel::plan;
+    case Solver::jacobi:
+        break;
+    }
+    return solvers::jacobi::plan;
+}
+
+std::vector<layout::vec4> positionsOf(const std::vector<Vec3>& positions, const std::vector<float>& w) {
+    std::vector<layout::vec4> result;
+    result.reserve(w.size());
+    for (std::size_t i = 0; i < w.size(); ++i)
+        result.push_back({positions[i].x, positions[i].y, positions[i].z, w[i]});
+    return result;
+}
+
+std::vector<layout::vec4> velocitiesOf(const Scene& scene, const std::vector<float>& w) {
+    std::vector<layout::vec4> result;
+    result.reserve(w.size());
+    for (std::size_t i = 0; i < w.size(); ++i) {
+        const Vec3 v = w[i] > 0 ? scene.particles[i].velocity : Vec3{}; // static particles have no velocity
+        result.push_back({v.x, v.y, v.z, w[i]});
+    }
+    return result;
+}
+
+std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const StateLayout& layout,
+                                 std::size_t count) {
+    std::vector<layout::vec4> result(count);
+    for (std::size_t i = 0; i < values.size(); ++i) result[layout.slot[i]] = values[i];
+    return result;
+}
+
+// Settling resets the w of positions, which a solver may derive from the material, to the initial values: in
+// the state and in its saved copy.
+void addWeights(ProgramBuilder& program, const ParticleBuffers& particles) {
+    const auto count = static_cast<std::uint32_t>(particles.layout.count);
+    const BufferId initial = program.initialOf("state.initial", particles.positions);
+    std::vector<BufferId> targets{particles.positions};
+    for (const Carried& carried : program.program().carried)
+        if (carried.to == particles.positions && carried.from != particles.positions)
+            targets.push_back(carried.from);
+    program.beginSettling();
+    for (const BufferId target : targets)
+        program.dispatch(kernels::setWeights, count, {target, initial}, layout::CountPush{count});
+    program.endSettling();
+}
+
+void skipContacts(ProgramBuilder& program, const Scene& scene) {
+    const bool ofParticles = collision::particle_contacts::areIn(scene);
+    const bool withFaces = collision::face_contacts::areIn(scene);
+    if (!ofParticles) program.skip(withFaces ? "contacts between particles" : "contacts");
+    if (!withFaces && ofParticles) program.skip("contacts with faces");
+}
+
+// The plan refers to `scene` and `settings`.
+solvers::SolverPlan planOf(const Scene& scene, const Settings& settings,
+                           const std::vector<float>& inverseMass) {
+    solvers::SolverPlan plan = makerFor(settings.solver)(scene, settings, inverseMass);
+    plan.layout.hasRemainders = keepsRemainders(scene, settings.substeps);
+    return plan;
+}
+
+} // namespace
+
+StateLayout stateLayout(const Scene& scene, const Settings& settings) {
+    const Settings chosen = withSubsteps(scene, settings);
+    return planOf(scene, chosen, inverseMasses(scene)).layout;
+}
+
+StepProgram compile(const Scene& scene, const Settings& asked) {
+    requireNone(validate(asked));
+    Settings settings = withSubsteps(scene, asked);
+    settings.forms = completed(settings.forms, DeviceKind::software);
+    if (asked.substeps == 0) requireNone(validate(settings)); // the chosen number has a limit too
+    ProgramBuilder program(settings.isReversed);
+    StepProgram& built = program.program();
+    built.particleCount = static_cast<std::uint32_t>(scene.particles.size());
+    built.constraintCount = static_cast<std::uint32_t>(scene.distances.size() + scene.bends.size() +
+                                                       scene.attachments.size() + scene.tethers.size());
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    const std::vector<Vec3> start = lattice::startingPositions(scene, inverseMass);
+    built.positions = program.upload("positions", positionsOf(start, inverseMass));
+    if (settings.publishesVelocities)
+        built.velocities = program.upload("velocities", velocitiesOf(scene, inverseMass));
+    built.status = program.scratch<layout::StatusWords>("status", 1);
+    built.parameters = program.scratch<layout::StepParams>("step", 1);
+    if (scene.particles.empty()) return program.finish();
+
+    const solvers::SolverPlan solver = planOf(scene, settings, inverseMass);
+    built.order = fnv1a(std::as_bytes(std::span(solver.layout.slot)));
+    ParticleBuffers particles{
+        .count = built.particleCount,
+        .step = built.parameters,
+        .positions = program.upload("state.positions", spread(positionsOf(start, solver.positionW),
+                                                              solver.layout, positionCount(solver.layout))),
+        .velocities = program.upload(
+            "state.velocities", spread(velocitiesOf(scene, inverseMass), solver.layout, solver.layout.count)),
+        .layout = solver.layout,
+        .sleep = nullptr,
+        .grabs = nullptr,
+        .forces = nullptr};
+    if (settings.sleeps) particles.sleep = sleep::add(program, scene, settings, particles);
+    program.beginPhase("begin");
+    program.updateParameters(particles.step);
+    program.fill(built.status, 0);
+    particles.grabs = grabs::add(program, scene, settings, solver.layout);
+    if (settings.keepsForces) particles.forces = forces::add(program, scene, settings, solver.layout);
+    cutting::add(program, scene, settings, particles);
+    program.beginPhase("solve");
+    solver.addPasses(program, particles);
+    program.beginPhase("publish");
+    addPublishing(program, particles);
+    if (particles.forces) forces::addSums(program, scene, particles);
+    if (solver.positionW != inverseMass) addWeights(program, particles);
+    sleep::finish(program, particles);
+    surface::addSkins(program, scene.skins, settings.forms.usesTexels);
+
+    if (scene.distances.empty()) program.skip("distance constraints");
+    if (scene.damping == 0) program.skip("damping");
+    if (scene.planes.empty()) program.skip("boundary planes");
+    skipContacts(program, scene);
+    if (!settings.sleeps) program.skip("sleep");
+    if (scene.fixed.empty()) program.skip("fixed constraints");
+    if (scene.skins.empty()) program.skip("skins");
+    return program.finish();
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,278 @@
+// The loop from a pass list to Vulkan commands. Dispatches with equal kernel and buffers share one descriptor
+// set.
+#include "sim/device/gpu_executor.hpp"
+
+#include "sinew/vk/check.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim {
+
+namespace {
+
+// By buffer: whether it holds the arguments of an indirect dispatch.
+std::vector<bool> holdArguments(const StepProgram& program) {
+    std::vector<bool> result(program.buffers.size());
+    for (const std::vector<Pass>* list : {&program.step, &program.skin})
+        for (const Pass& pass : *list)
+            if (pass.isIndirect) result[pass.uses.back().buffer.index] = true;
+    return result;
+}
+
+std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram& program) {
+    const std::vector<bool> holdsArguments = holdArguments(program);
+    std::vector<vk::Buffer> buffers;
+    buffers.reserve(program.buffers.size());
+    for (std::uint32_t b = 0; b < program.buffers.size(); ++b) {
+        const BufferSpec& spec = program.buffers[b];
+        VkBufferUsageFlags usage = 0;
+        const CutSurfaceBuffers& cut = program.cutSurface;
+        const BufferId id{b};
+        if (id == program.skinVertices || id == program.positions || id == program.velocities ||
+            id == program.cutting.pieces || id == cut.vertices || id == cut.rest)
+            usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+        if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws)
+            usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+        if (id == program.skinIndices || id == program.wholeIndices || id == cut.indices)
+            usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+        buffers.emplace_back(device, vk::BufferRequest{.name = spec.label,
+                                                       .count = spec.initialOf ? 1 : spec.count,
+                                                       .stride = spec.stride,
+                                                       .kind = vk::MemoryKind::device,
+                                                       .usage = usage});
+    }
+    return buffers;
+}
+
+std::vector<std::pair<std::uint32_t, vk::Buffer>> makeStaging(const vk::Device& device,
+                                                              const StepProgram& program) {
+    std::vector<std::pair<std::uint32_t, vk::Buffer>> staging;
+    for (std::uint32_t b = 0; b < program.buffers.size(); ++b) {
+        const BufferSpec& spec = program.buffers[b];
+        if (spec.initial.empty()) continue;
+        vk::Buffer buffer(device, {.name = spec.label + ".initial",
+                                   .count = spec.count,
+                                   .stride = spec.stride,
+                                   .kind = vk::MemoryKind::upload});
+        std::copy(spec.initial.begin(), spec.initial.end(), buffer.mapped());
+        buffer.flush();
+        staging.emplace_back(b, std::move(buffer));
+    }
+    return staging;
+}
+
+std::vector<std::shared_ptr<const vk::Kernel>> makeKernels(const vk::Device& device,
+                                                           const StepProgram& program) {
+    std::vector<std::shared_ptr<const vk::Kernel>> kernels;
+    kernels.reserve(program.kernels.size());
+    for (const KernelUse& use : program.kernels) {
+        std::vector<vk::SpecialisationConstant> constants;
+        for (const auto& [id, value] : use.constants) constants.push_back({id, value});
+        kernels.push_back(device.kernels().get(device, *use.code, constants));
+    }
+    return kernels;
+}
+
+bool isSameDispatch(const Pass& a, const Pass& b) {
+    const auto isSameBuffer = [](const BufferUse& x, const BufferUse& y) { return x.buffer == y.buffer; };
+    return a.kernel == b.kernel && std::ranges::equal(boundUses(a), boundUses(b), isSameBuffer);
+}
+
+// Distinct (kernel, buffers) pairs of all lists, and the pair of each dispatch.
+struct SetPlan {
+    std::vector<const Pass*> distinct;
+    std::vector<std::size_t> setOfPass;
+};
+
+SetPlan planSets(const StepProgram& program) {
+    SetPlan plan;
+    for (const std::vector<Pass>* list :
+         {&program.step, &program.skin, &program.wholeSkin, &program.settle, &program.adopt}) {
+        for (const Pass& pass : *list) {
+            if (pass.kind != PassKind::dispatch) continue;
+            const auto isSame = [&](const Pass* other) { return isSameDispatch(*other, pass); };
+            const auto found = std::find_if(plan.distinct.begin(), plan.distinct.end(), isSame);
+            plan.setOfPass.push_back(static_cast<std::size_t>(found - plan.distinct.begin()));
+            if (found == plan.distinct.end()) plan.distinct.push_back(&pass);
+        }
+    }
+    return plan;
+}
+
+} // namespace
+
+GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
+    : buffers_(makeBuffers(device, program)), staging_(makeStaging(device, program)),
+      kernels_(makeKernels(device, program)) {
+    for (std::uint32_t b = 0; b < program.buffers.size(); ++b)
+        if (program.buffers[b].initialOf) initialOf_.emplace(b, *program.buffers[b].initialOf);
+    const SetPlan plan = planSets(program);
+    std::vector<vk::BindingRequest> requests;
+    for (const Pass* pass : plan.distinct) {
+        vk::BindingRequest& request = requests.emplace_back();
+        request.kernel = kernels_[pass->kernel].get();
+        for (const BufferUse& use : boundUses(*pass)) request.buffers.push_back(view(use.buffer));
+    }
+    if (!requests.empty()) sets_.emplace_back(device, requests);
+    setOfPass_ = plan.setOfPass;
+    std::size_t nextSet = 0;
+    step_ = resolve(program.step, nextSet);
+    skin_ = resolve(program.skin, nextSet);
+    wholeSkin_ = resolve(program.wholeSkin, nextSet);
+    settle_ = resolve(program.settle, nextSet);
+    adopt_ = resolve(program.adopt, nextSet);
+    checkGroups(step_, device.limits().maxGroupCount);
+    checkGroups(skin_, device.limits().maxGroupCount);
+    checkGroups(wholeSkin_, device.limits().maxGroupCount);
+    checkGroups(settle_, device.limits().maxGroupCount);
+    checkGroups(adopt_, device.limits().maxGroupCount);
+    for (const Recorded& pass : step_) {
+        if (timedPhases_.empty() || timedPhases_.back() != pass.phase) timedPhases_.push_back(pass.phase);
+    }
+}
+
+void GpuExecutor::checkGroups(const std::vector<Recorded>& passes, std::uint32_t most) {
+    for (const Recorded& pass : passes) {
+        if (pass.groups <= most) continue;
+        throw vk::Error(vk::Failure::outOfMemory, "dispatch of " + pass.kernel->name() + ": " +
+                                                      std::to_string(pass.groups) +
+                                                      " groups, the device allows " + std::to_string(most));
+    }
+}
+
+std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>& passes,
+                                                        std::size_t& nextSet) const {
+    std::vector<Recorded> result;
+    result.reserve(passes.size());
+    for (const Pass& pass : passes) {
+        Recorded recorded{.kind = pass.kind,
+                          .isIn = {},
+                          .hasBarrier = {},
+                          .isOfSurface = pass.isOfSurface,
+                          .isIndirect = pass.isIndirect,
+                          .phase = pass.phase,
+                          .groups = 0,
+                          .value = pass.value,
+                          .kernel = nullptr,
+                          .set = VK_NULL_HANDLE,
+                          .push = &pass.push,
+                          .first = view(pass.isIndirect ? pass.uses.back().buffer : pass.uses[0].buffer),
+                          .second = pass.uses.size() > 1 ? view(pass.uses[1].buffer) : vk::BufferView{}};
+        for (const Recording recording : allRecordings) {
+            recorded.isIn[recording.index()] = isIn(recording, pass);
+            recorded.hasBarrier[recording.index()] = sim::hasBarrier(recording, pass);
+        }
+        if (pass.kind == PassKind::dispatch) {
+            recorded.kernel = kernels_[pass.kernel].get();
+            recorded.set = sets_[0][setOfPass_[nextSet++]];
+            const std::uint32_t groupSize = recorded.kernel->interface().groupSize[0];
+            recorded.groups = (pass.items - 1) / groupSize + 1;
+        }
+        result.push_back(recorded);
+    }
+    return result;
+}
+
+void GpuExecutor::upload(vk::Commands& commands) noexcept {
+    commands.beginStep();
+    std::vector<bool> hasContents(buffers_.size());
+    for (const auto& [index, initial] : staging_) {
+        commands.copy(initial.view(), buffers_[index].view());
+        hasContents[index] = true;
+    }
+    for (std::size_t b = 0; b < buffers_.size(); ++b) {
+        if (!hasContents[b]) commands.fill(buffers_[b].view(), 0);
+    }
+    commands.endStep();
+}
+
+void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
+                       Recording recording) noexcept {
+    record(commands, step_, host, timestamps, recording);
+}
+
+void GpuExecutor::skin(vk::Commands& commands) noexcept {
+    record(commands, skin_, {}, nullptr);
+}
+
+void GpuExecutor::wholeSkin(vk::Commands& commands) noexcept {
+    record(commands, wholeSkin_, {}, nullptr);
+}
+
+void GpuExecutor::settle(vk::Commands& commands) noexcept {
+    record(commands, settle_, {}, nullptr);
+}
+
+void GpuExecutor::adopt(vk::Commands& commands) noexcept {
+    record(commands, adopt_, {}, nullptr);
+}
+
+const vk::Buffer* GpuExecutor::stagingOf(BufferId buffer) const noexcept {
+    const auto found = std::ranges::find(staging_, buffer.index, &decltype(staging_)::value_type::first);
+    return found == staging_.end() ? nullptr : &found->second;
+}
+
+void GpuExecutor::restore(vk::Commands& commands, BufferId buffer) noexcept {
+    if (const vk::Buffer* initial = stagingOf(buffer)) commands.copy(initial->view(), view(buffer));
+}
+
+// The device writes the source of later resets; a reset already in flight still copies the old contents.
+void GpuExecutor::replace(vk::Commands& commands, BufferId buffer, const vk::BufferView& contents,
+                          bool isOfState) noexcept {
+    if (const vk::Buffer* initial = stagingOf(buffer)) commands.copy(contents, initial->view());
+    if (!isOfState) commands.copy(contents, view(buffer));
+}
+
+void GpuExecutor::surface(vk::Commands& commands) noexcept {
+    for (const Recorded& pass : step_) {
+        if (!pass.isOfSurface) continue;
+        commands.barrier(); // it is rare, and no barriers are planned for these passes alone
+        recordPass(commands, pass, {});
+    }
+}
+
+void GpuExecutor::record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
+                         vk::Timestamps* timestamps, Recording recording) noexcept {
+    const std::size_t way = recording.index();
+    std::uint32_t span = 0;
+    for (std::size_t p = 0; p < passes.size(); ++p) {
+        const bool opensPhase = p == 0 || passes[p - 1].phase != passes[p].phase;
+        const bool closesPhase = p + 1 == passes.size() || passes[p + 1].phase != passes[p].phase;
+        if (timestamps && opensPhase) timestamps->begin(commands, span);
+        if (passes[p].isIn[way]) {
+            if (passes[p].hasBarrier[way]) commands.barrier();
+            recordPass(commands, passes[p], host);
+        }
+        if (timestamps && closesPhase) timestamps->end(commands, span++);
+    }
+}
+
+void GpuExecutor::recordPass(vk::Commands& commands, const Recorded& pass, const HostBytes& host) noexcept {
+    switch (pass.kind) {
+    case PassKind::dispatch:
+        commands.bind(*pass.kernel, pass.set);
+        commands.push(*pass.kernel, pass.push->data(), static_cast<std::uint32_t>(pass.push->size()));
+        if (pass.isIndirect)
+            commands.dispatchIndirect(pass.first, pass.value);
+        else
+            commands.dispatch(pass.groups);
+        break;
+    case PassKind::fill:
+        commands.fill(pass.first, pass.value);
+        break;
+    case PassKind::copy:
+        commands.copy(pass.first, pass.second);
+        break;
+    case PassKind::update:
+        commands.update(pass.first, host[pass.value].data(), host[pass.value].size());
+        break;
+    }
+}
+
+vk::BufferView GpuExecutor::view(BufferId buffer) const noexcept {
+    if (buffer == BufferId{}) return {};
+    const auto found = initialOf_.find(buffer.index);
+    return found == initialOf_.end() ? buffers_[buffer.index].view() : stagingOf({found->second})->view();
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,76 @@
+// Executor of a StepProgram: creates buffers, pipelines and descriptor sets once, then records any number of
+// times.
+#pragma once
+
+#include "sim/program/program.hpp"
+#include "sinew/vk/commands.hpp"
+#include "sinew/vk/kernel_store.hpp"
+#include "sinew/vk/timestamps.hpp"
+
+#include <map>
+
+namespace sinew::sim {
+
+/// Owns every device object of one program. Must not outlive the Device or the program.
+class GpuExecutor {
+public:
+    /// Creates everything; throws vk::Error naming the buffer or kernel. Submits nothing: upload() fills the
+    /// buffers.
+    GpuExecutor(const vk::Device& device, const StepProgram& program);
+
+    /// Records the copies that put every buffer into its initial state (also a reset). Ends with a barrier.
+    void upload(vk::Commands& commands) noexcept;
+    /// Host data of update passes, by HostData (<= 64 KiB each).
+    using HostBytes = std::array<std::span<const std::byte>, hostDataCount>;
+    /// Records the passes of a step with the planned barriers. `timestamps` receives one span per phase.
+    void step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
+              Recording recording = {}) noexcept;
+    void skin(vk::Commands& commands) noexcept;
+    void wholeSkin(vk::Commands& commands) noexcept;
+    /// Records the passes that recompute what follows from the scene alone (StepProgram::settle).
+    void settle(vk::Commands& commands) noexcept;
+    /// Records the passes that initialise this program's state from the public state (StepProgram::adopt).
+    void adopt(vk::Commands& commands) noexcept;
+    /// Copies a buffer's initial contents into it, if it has some.
+    void restore(vk::Commands& commands, BufferId buffer) noexcept;
+    /// Replaces a buffer's initial contents by `contents`, of equal size; the buffer itself changes too
+    /// unless it `isOfState`.
+    void replace(vk::Commands& commands, BufferId buffer, const vk::BufferView& contents,
+                 bool isOfState) noexcept;
+    /// Records only those passes of a step that write the surface of cuts.
+    void surface(vk::Commands& commands) noexcept;
+
+    vk::BufferView view(BufferId buffer) const noexcept; ///< empty for an invalid id
+    /// Phases of the step list that contain a pass, in order: the spans of `timestamps`.
+    const std::vector<std::uint32_t>& timedPhases() const noexcept { return timedPhases_; }
+
+private:
+    // A pass with all lookups done, so that recording is a plain loop.
+    struct Recorded {
+        PassKind kind;
+        std::array<bool, recordingCount> isIn, hasBarrier; // by Recording
+        bool isOfSurface, isIndirect;
+        std::uint32_t phase, groups, value;
+        const vk::Kernel* kernel;
+        VkDescriptorSet set;
+        const std::vector<std::byte>* push;
+        vk::BufferView first, second; // the first of an indirect dispatch is its arguments
+    };
+    std::vector<Recorded> resolve(const std::vector<Pass>& passes, std::size_t& nextSet) const;
+    static void checkGroups(const std::vector<Recorded>& passes, std::uint32_t most);
+    void record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
+                vk::Timestamps* timestamps, Recording recording = {}) noexcept;
+    void recordPass(vk::Commands& commands, const Recorded& pass, const HostBytes& host) noexcept;
+    const vk::Buffer* stagingOf(BufferId buffer) const noexcept;
+
+    std::vector<vk::Buffer> buffers_;
+    std::vector<std::pair<std::uint32_t, vk::Buffer>> staging_; // buffer index, its initial contents
+    std::map<std::uint32_t, std::uint32_t> initialOf_;          // BufferSpec::initialOf, by buffer
+    std::vector<std::shared_ptr<const vk::Kernel>> kernels_;
+    std::vector<vk::BindingSets> sets_;
+    std::vector<std::size_t> setOfPass_;
+    std::vector<Recorded> step_, skin_, wholeSkin_, settle_, adopt_;
+    std::vector<std::uint32_t> timedPhases_;
+};
+
+} // namespace sinew::sim

@@ -1,0 +1,291 @@
+// The sections of the buffer of impulses, and the elements that each sum consists of.
+#include "sim/forces/forces.hpp"
+
+#include "kernels.hpp"
+#include "sim/model/inverse_masses.hpp"
+#include "sim/model/solver_names.hpp"
+#include "sim/model/tether_order.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace sinew::sim::forces {
+
+namespace {
+
+namespace k = kernels;
+
+constexpr std::uint32_t forceSlotsId = 20, firstForceId = 21,
+                        keepsPullsId = 22; // constant_ids in forces.glsl, split.glsl
+
+// Limit of vec4 elements in a buffer with a 32-bit size, such as
+// VkPhysicalDeviceLimits::maxStorageBufferRange.
+constexpr std::uint64_t mostElements = ((std::uint64_t{1} << 32) - 1) / sizeof(layout::vec4);
+static_assert(mostElements < FORCE_SUBTRACTED);
+
+// Chunks of elements, consecutive for each sum, and the ranges of chunks that form the sums.
+struct Sums {
+    std::vector<layout::ForceChunk> chunks;
+    std::vector<layout::ForceRange> ranges;
+
+    // Appends a sum of the elements from `first` on; see layout::ForceChunk and layout::ForceRange.
+    void add(std::uint32_t first, std::uint32_t count, std::uint32_t origin, std::uint32_t moment,
+             float sign) {
+        const auto firstPart = static_cast<std::uint32_t>(chunks.size());
+        for (std::uint32_t done = 0; done < count; done += FORCE_CHUNK)
+            chunks.push_back(
+                {first + done, std::min<std::uint32_t>(FORCE_CHUNK, count - done), origin, moment});
+        ranges.push_back(
+            {firstPart, static_cast<std::uint32_t>(chunks.size()) - firstPart, origin, sign, 0, 0, 0, 0});
+    }
+};
+
+// A buffer with at least one element, since a kernel must not bind an empty buffer.
+template <typename T> BufferId uploadAny(ProgramBuilder& program, const char* label, std::vector<T> items) {
+    if (items.empty()) items.push_back(T{});
+    return program.upload(label, items);
+}
+
+// Whether the particle can touch faces and be pushed by them.
+bool isMovingPoint(const Particle& particle, float inverseMass) {
+    return particle.radius > 0 && inverseMass > 0;
+}
+
+// Sets the rows of static faces of each body; these follow all rows of the other kinds.
+void setStops(std::vector<layout::ForceRange>& bodies, const Forces& forces) {
+    for (std::uint32_t r = 0; r < forces.stops.rows.size(); ++r) {
+        const Stops::Row& row = forces.stops.rows[r];
+        if (row.body == Stops::noBody) continue;
+        layout::ForceRange& range = bodies[row.body];
+        if (range.stops++ == 0) range.firstStop = forces.firstStop() + r;
+        range.stopOrigin = row.origin;
+    }
+}
+
+// The elements that sum to the impulse of hold `h`: links at its particles, tethers to them, and the opposite
+// of contacts with them and their faces.
+std::vector<std::uint32_t> elementsOf(std::uint32_t h, const Scene& scene, const Forces& forces,
+                                      const std::vector<std::uint32_t>& slots,
+                                      std::span<const Tether> tethers) {
+    std::vector<bool> isHeld(scene.particles.size());
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    std::vector<std::uint32_t> elements;
+    for (const std::uint32_t particle : scene.holds[h].particles) {
+        if (isHeld[particle]) continue;
+        isHeld[particle] = true;
+        if (inverseMass[particle] == 0) {
+            elements.push_back(forces.slots + slots[particle]);
+            elements.push_back(slots[particle] | FORCE_SUBTRACTED);
+        }
+    }
+    for (std::uint32_t t = 0; t < tethers.size(); ++t)
+        if (isHeld[tethers[t].anchor]) elements.push_back(forces.firstEntry() + t);
+    for (std::uint32_t r = 0; r < forces.stops.rows.size(); ++r) {
+        if (!std::ranges::binary_search(forces.stops.rows[r].holds, h)) continue;
+        for (std::size_t i = 0; i < scene.particles.size(); ++i) // the row has the elements of the points
+            if (isMovingPoint(scene.particles[i], inverseMass[i]))
+                elements.push_back(forces.elementOf(forces.firstStop() + r) + slots[i]);
+    }
+    return elements;
+}
+
+void addRows(ProgramBuilder& program, const Scene& scene, const Forces& forces,
+             const std::vector<std::uint32_t>& slots, const layout::ForcePush& push) {
+    Sums sums;
+    for (std::uint32_t row = 0; row < forces.rows(); ++row)
+        sums.add(forces.elementOf(row), forces.slots, 0, forces.slots, row < forces.grabs ? 1.0f : -1.0f);
+    std::vector<std::uint32_t> elements;
+    const auto addListed = [&](const std::vector<std::uint32_t>& listed) {
+        sums.add(static_cast<std::uint32_t>(elements.size()), static_cast<std::uint32_t>(listed.size()), 0, 0,
+                 1);
+        elements.insert(elements.end(), listed.begin(), listed.end());
+    };
+    for (std::uint32_t a = 0; a < forces.attachments; ++a)
+        addListed({forces.firstEntry() + forces.tethers + a});
+    const std::vector<Tether> tethers = tethersInOrder(scene);
+    for (std::uint32_t h = 0; h < scene.holds.size(); ++h)
+        addListed(elementsOf(h, scene, forces, slots, tethers));
+    if (sums.ranges.empty()) return;
+    ForceBuffers& built = program.program().forces;
+    const auto chunks = static_cast<std::uint32_t>(sums.chunks.size());
+    const auto count = static_cast<std::uint32_t>(sums.ranges.size());
+    built.rowParts = program.scratch<layout::ForceSum>("forces.row_parts", std::max(chunks, 1u));
+    layout::ForcePush pushed = push;
+    pushed.count = chunks;
+    if (chunks > 0)
+        program.dispatch(k::sumForceRows, chunks,
+                         {forces.terms, uploadAny(program, "forces.elements", elements),
+                          program.upload("forces.row_chunks", sums.chunks), built.rowParts},
+                         pushed);
+    pushed.count = count;
+    program.dispatch(
+        k::addForceRows, count,
+        {built.rowParts, program.upload("forces.rows", sums.ranges), program.program().status, built.sums},
+        pushed);
+}
+
+void addBodies(ProgramBuilder& program, const Scene& scene, const Forces& forces,
+               const std::vector<std::uint32_t>& slots, const layout::ForcePush& push) {
+    if (scene.bodies.empty()) return;
+    Sums sums;
+    for (const Body& body : scene.bodies)
+        sums.add(body.firstParticle, body.particleCount, body.firstParticle, 0, 1);
+    setStops(sums.ranges, forces);
+    ForceBuffers& built = program.program().forces;
+    const BufferId positions = program.program().positions;
+    const auto chunks = static_cast<std::uint32_t>(sums.chunks.size());
+    built.parts = program.scratch<layout::BodyForcePart>("forces.parts", chunks);
+    layout::ForcePush pushed = push;
+    pushed.count = chunks;
+    program.dispatch(k::sumBodyForces, chunks,
+                     {forces.terms, positions, program.upload("forces.slots", slots),
+                      program.upload("forces.chunks", sums.chunks), built.parts},
+                     pushed, ProgramBuilder::Constants{{forceSlotsId, forces.slots}});
+    pushed.count = static_cast<std::uint32_t>(sums.ranges.size());
+    program.dispatch(k::addBodyForces, pushed.count,
+                     {built.parts, program.upload("forces.bodies", sums.ranges), positions,
+                      program.program().status, built.sums},
+                     pushed);
+}
+
+// Whether a link or a bend pulls at a static particle.
+bool areLinksHeld(const Scene& scene) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    const auto isHeld = [&](std::uint32_t i) { return inverseMass[i] == 0; };
+    return std::ranges::any_of(
+               scene.distances,
+               [&](const DistanceConstraint& link) { return isHeld(link.a) || isHeld(link.b); }) ||
+           std::ranges::any_of(scene.bends, [&](const BendConstraint& bend) {
+               return isHeld(bend.a) || isHeld(bend.b) || isHeld(bend.c);
+           });
+}
+
+// All members except the buffer.
+Forces placesOf(const Scene& scene, const Settings& settings, const StateLayout& layout) {
+    return {.slots = static_cast<std::uint32_t>(layout.count),
+            .grabs = settings.grabs,
+            .planes = static_cast<std::uint32_t>(scene.planes.size()),
+            .colliders = settings.pokes + static_cast<std::uint32_t>(scene.colliders.size()),
+            .tethers = static_cast<std::uint32_t>(tethersInOrder(scene).size()),
+            .attachments = static_cast<std::uint32_t>(scene.attachments.size()),
+            .stops = stopsOf(scene, settings)};
+}
+
+} // namespace
+
+void check(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    for (std::size_t h = 0; h < scene.holds.size(); ++h)
+        for (const std::uint32_t particle : scene.holds[h].particles)
+            complaints.checkIndex(particle, scene.particles.size(), "particles",
+                                  [h] { return element("hold", h) + ".particles"; });
+    if (!settings.keepsForces) return;
+    if (settings.sleeps)
+        complaints.add("settings.keepsForces",
+                       "is set, but bodies that sleep have no forces: leave out one of the two");
+    if (settings.solver == Solver::jacobi && !(scene.distances.empty() && scene.bends.empty()))
+        complaints.add(
+            "settings.keepsForces",
+            "is set, but solver jacobi averages the effects of links on a particle, so that the forces on a "
+            "body do not equal those that it exerts: use split");
+    else if (settings.solver != Solver::split && areLinksHeld(scene))
+        complaints.add("settings.keepsForces",
+                       std::string("is set, but solver ") + solverName(settings.solver) +
+                           " does not compute the holding forces of the links: use split");
+}
+
+void checkRoom(const Scene& scene, const Settings& settings, const StateLayout& layout,
+               Complaints& complaints) {
+    const std::uint64_t elements = placesOf(scene, settings, layout).elements();
+    if (elements <= mostElements) return;
+    complaints.add(
+        "settings.keepsForces",
+        "is set, but " + number(elements) + " impulses of particles do not fit in one buffer, at most " +
+            number(mostElements) +
+            " do: leave out planes, colliders, bodies with static or driven faces, grabs or pokes, or take "
+            "fewer particles");
+}
+
+Stops stopsOf(const Scene& scene, const Settings& settings) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    Stops stops{.ofParticle = std::vector<std::uint32_t>(scene.particles.size(), 0)};
+    bool hasPoint = false;
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        hasPoint = hasPoint || isMovingPoint(scene.particles[i], inverseMass[i]);
+    if (!hasPoint || settings.solver != Solver::split) return stops;
+    std::vector<std::uint32_t> bodyOf(scene.particles.size(), Stops::noBody);
+    for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+        const Body& body = scene.bodies[b];
+        std::fill_n(bodyOf.begin() + body.firstParticle, body.particleCount, b);
+    }
+    std::vector<std::vector<std::uint32_t>> holdsOf(scene.particles.size());
+    for (std::uint32_t h = 0; h < scene.holds.size(); ++h)
+        for (const std::uint32_t i : scene.holds[h].particles)
+            if (holdsOf[i].empty() || holdsOf[i].back() != h) holdsOf[i].push_back(h);
+    using Key = std::pair<std::uint32_t, std::vector<std::uint32_t>>; // body and holds
+    std::map<Key, std::vector<std::uint32_t>> corners;
+    for (const Face& face : scene.faces)
+        if (std::ranges::all_of(face.particles, [&](std::uint32_t i) { return inverseMass[i] == 0; })) {
+            const std::uint32_t first = face.particles[0];
+            corners[{bodyOf[first], holdsOf[first]}].push_back(first);
+        }
+    for (const auto& [key, firsts] : corners) {
+        const bool isSameBody = !stops.rows.empty() && stops.rows.back().body == key.first;
+        for (const std::uint32_t i : firsts)
+            stops.ofParticle[i] = static_cast<std::uint32_t>(stops.rows.size());
+        stops.rows.push_back({key.first, key.second, isSameBody ? stops.rows.back().origin : firsts.front()});
+    }
+    return stops;
+}
+
+ProgramBuilder::Constants Forces::constants(std::uint32_t first) const {
+    return {{forceSlotsId, slots}, {firstForceId, first}};
+}
+
+ProgramBuilder::Constants pullConstants() {
+    return {{keepsPullsId, 1}};
+}
+
+std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                                  const StateLayout& layout) {
+    auto forces = std::make_shared<Forces>(placesOf(scene, settings, layout));
+    forces->terms = program.scratch<layout::vec4>("forces.terms", forces->elements());
+    program.fill(forces->terms, 0);
+    program.program().forces.terms = forces->terms;
+    return forces;
+}
+
+const vk::ShaderCode& formFor(const ParticleBuffers& particles, const Forms& forms,
+                              ProgramBuilder::Constants (Forces::*of)() const, std::vector<BufferId>& buffers,
+                              ProgramBuilder::Constants& constants) {
+    if (!particles.forces) return *forms[0];
+    buffers.push_back(particles.forces->terms);
+    constants.merge(((*particles.forces).*of)());
+    return *forms[1];
+}
+
+void addPulls(ProgramBuilder& program, const ParticleBuffers& particles) {
+    const Forces& forces = *particles.forces;
+    program.dispatch(k::takePulls, forces.slots, {particles.velocities, forces.terms},
+                     layout::CountPush{forces.slots}, forces.ofContacts());
+}
+
+void addSums(ProgramBuilder& program, const Scene& scene, const ParticleBuffers& particles) {
+    const Forces& forces = *particles.forces;
+    ForceBuffers& built = program.program().forces;
+    built.bodies = static_cast<std::uint32_t>(scene.bodies.size());
+    built.grabs = forces.grabs;
+    built.planes = forces.planes;
+    built.colliders = static_cast<std::uint32_t>(scene.colliders.size());
+    built.pokes = forces.colliders - built.colliders;
+    built.stops = static_cast<std::uint32_t>(forces.stops.rows.size());
+    built.attachments = forces.attachments;
+    built.holds = static_cast<std::uint32_t>(scene.holds.size());
+    const std::uint32_t firstRow = FORCE_KINDS * built.bodies;
+    const std::uint32_t count = firstRow + forces.rows() + built.attachments + built.holds;
+    built.sums = program.scratch<layout::ForceSum>("forces.sums", std::max(count, 1u));
+    const layout::ForcePush push{0, forces.grabs, forces.planes, forces.colliders, firstRow};
+    addRows(program, scene, forces, particles.layout.slot, push);
+    addBodies(program, scene, forces, particles.layout.slot, push);
+}
+
+} // namespace sinew::sim::forces

@@ -1,0 +1,149 @@
+// The buffers of grabs, and the motion of the held points.
+#include "sim/grabs/grab.hpp"
+
+#include "kernels.hpp"
+#include "sim/constraints/moving_point.hpp"
+#include "sim/forces/forces.hpp"
+#include "sim/model/components.hpp"
+#include "sim/model/inverse_masses.hpp"
+#include "sinew/ranges.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::sim::grabs {
+
+namespace {
+
+static_assert(GRAB_HANDS == ranges::mostGrabs);
+
+constexpr float mostGain = 1e8f; // the largest useful value in float32
+
+// The linked component of each particle, and the mass of the component.
+std::vector<layout::GrabBody> bodiesOf(const Scene& scene, const StateLayout& layout) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
+    std::vector<double> masses(components.size());
+    for (std::size_t i = 0; i < components.size(); ++i)
+        if (inverseMass[i] > 0) masses[components[i]] += 1 / double{inverseMass[i]};
+    std::vector<layout::GrabBody> bodies;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        const double mass = masses[components[i]];
+        const double part = inverseMass[i] > 0 ? 1 / double{inverseMass[i]} / mass : 0;
+        bodies.push_back({components[i], static_cast<float>(part), static_cast<float>(mass), layout.slot[i]});
+    }
+    return bodies;
+}
+
+layout::GrabPush pushOf(const Grabs& grabs, std::uint32_t substep, std::uint32_t substeps, Kick kick) {
+    layout::GrabPush push = grabs.push;
+    push.fraction = static_cast<float>(substep + 1) / static_cast<float>(substeps);
+    push.lateKick = kick == Kick::half ? 0.5f : 0;
+    return push;
+}
+
+IndirectItems itemsOf(const Grabs& grabs) {
+    return {grabs.pulling, 0, grabs.push.count};
+}
+
+// Whether squares of differences of such positions fit into float32.
+bool isPlace(const Vec3& v) {
+    constexpr float farthest = 1e9f; // [m]
+    return std::abs(v.x) <= farthest && std::abs(v.y) <= farthest && std::abs(v.z) <= farthest;
+}
+
+bool isNumber(const Grab& grab) {
+    return isPlace(grab.target) && std::isfinite(grab.radius) && std::isfinite(grab.stiffness) &&
+           std::isfinite(grab.damping) && std::isfinite(grab.maxAcceleration) && !std::isnan(grab.maxSpeed);
+}
+
+} // namespace
+
+std::shared_ptr<Grabs> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                           const StateLayout& layout) {
+    if (settings.grabs == 0) return nullptr;
+    const auto count = static_cast<std::uint32_t>(scene.particles.size());
+    const layout::GrabPush push{count, (count - 1) / GROUP_ITEMS + 1, settings.grabs, 0, 0};
+    const std::vector<layout::DispatchArguments> none{{0, 1, 1, 0}};
+    auto grabs = std::make_shared<Grabs>(
+        Grabs{.push = push,
+              .hands = program.scratch<layout::GrabHand>("grab.hands", settings.grabs),
+              .states = program.scratch<layout::GrabState>("grab.states", settings.grabs),
+              .bodies = program.upload("grab.bodies", bodiesOf(scene, layout)),
+              .grips = program.scratch<layout::Grip>("grab.grips", count),
+              .held = program.scratch<std::uint32_t>("grab.held", count),
+              .holding = program.upload("grab.holding", none),
+              .pulling = program.upload("grab.pulling", none)});
+    for (const BufferId buffer : {grabs->states, grabs->grips, grabs->held, grabs->pulling})
+        program.carry(buffer, buffer);
+    program.updateGrabs(grabs->hands);
+    program.dispatch(kernels::openGrabs, settings.grabs,
+                     {grabs->hands, grabs->states, grabs->holding, grabs->pulling}, push);
+    program.dispatchIndirect(kernels::holdParticles, {grabs->holding, 0, count},
+                             {grabs->hands, grabs->states, grabs->bodies, program.program().positions,
+                              grabs->grips, grabs->held, grabs->pulling},
+                             push);
+    return grabs;
+}
+
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uint32_t substep,
+             std::uint32_t substeps, Kick kick) {
+    if (!particles.grabs) return;
+    const Grabs& grabs = *particles.grabs;
+    std::vector<BufferId> buffers{grabs.hands,         grabs.states,         grabs.bodies,
+                                  grabs.grips,         grabs.held,           grabs.pulling,
+                                  particles.positions, particles.velocities, particles.step};
+    const layout::GrabPush push = pushOf(grabs, substep, substeps, kick);
+    ProgramBuilder::Constants constants;
+    const vk::ShaderCode& code = forces::formFor(particles, {&kernels::pullHeld, &kernels::pullHeldForces},
+                                                 &forces::Forces::ofGrabs, buffers, constants);
+    program.dispatchIndirect(code, itemsOf(grabs), buffers, push, constants);
+}
+
+void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+                 std::uint32_t substep, std::uint32_t substeps) {
+    if (!particles.grabs) return;
+    const Grabs& grabs = *particles.grabs;
+    std::vector<BufferId> buffers{grabs.hands,    grabs.states,  grabs.bodies,        grabs.grips,
+                                  grabs.held,     grabs.pulling, particles.positions, particles.velocities,
+                                  particles.step, corrections};
+    const layout::GrabPush push = pushOf(grabs, substep, substeps, Kick::half);
+    ProgramBuilder::Constants constants;
+    const vk::ShaderCode& code =
+        forces::formFor(particles, {&kernels::pullHeldOpen, &kernels::pullHeldOpenForces},
+                        &forces::Forces::ofGrabs, buffers, constants);
+    program.dispatchIndirect(code, itemsOf(grabs), buffers, push, constants);
+}
+
+bool Hands::areFree() const noexcept {
+    return std::ranges::all_of(values(), [](const layout::GrabHand& hand) { return hand.serial == 0; });
+}
+
+void Hands::advance(std::span<const Grab> grabs, float dt) noexcept {
+    for (std::size_t k = 0; k < count_; ++k) {
+        layout::GrabHand& hand = hands_[k];
+        if (k >= grabs.size() || !isNumber(grabs[k]) || grabs[k].particle >= particles_) {
+            hand = {};
+            continue;
+        }
+        const Grab& grab = grabs[k];
+        const bool isHeld = hand.serial > 0 && hand.particle == grab.particle;
+        const Vec3& target = grab.target;
+        const layout::vec4 from = isHeld ? hand.to : layout::vec4{target.x, target.y, target.z, 0};
+        const layout::vec4 to =
+            constraints::movedTowards(from, target, double{std::max(grab.maxSpeed, 0.0f)} * double{dt});
+        hand = {.from = from,
+                .to = to,
+                .velocity = {(to.x - from.x) / dt, (to.y - from.y) / dt, (to.z - from.z) / dt, 0},
+                .serial = isHeld ? hand.serial : ++serial_,
+                .particle = grab.particle,
+                .radius = std::max(grab.radius, 0.0f),
+                .stiffness = std::clamp(grab.stiffness, 0.0f, mostGain),
+                .damping = std::clamp(grab.damping, 0.0f, mostGain),
+                .maxAcceleration = std::clamp(grab.maxAcceleration, 0.0f, mostGain),
+                .unused0 = 0,
+                .unused1 = 0};
+    }
+}
+
+} // namespace sinew::sim::grabs

@@ -1,0 +1,53 @@
+// Grabs on the device: temporary constraints that the host requests in each step. A step in which a grab
+// begins or ends determines the held particles (open_grabs, hold_particles, the second with no groups
+// otherwise). A pass after the links of a substep pulls the held particles (pull_held, with groups for these
+// alone), the same for every solver. A program without grabs (Settings::grabs) has none of these passes.
+#pragma once
+
+#include "common/layout.h"
+#include "sim/model/state.hpp"
+#include "sinew/step.hpp"
+
+#include <array>
+
+namespace sinew::sim::grabs {
+
+struct Grabs {
+    layout::GrabPush push{};
+    BufferId hands, states, bodies, grips, held, holding, pulling;
+};
+
+/// Appends the passes at the start of a step: call it before the substeps. Null without Settings::grabs.
+std::shared_ptr<Grabs> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                           const StateLayout& layout);
+
+/// Appends the pull at the end of a substep, counted from 0. Nothing if particles.grabs is null.
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uint32_t substep,
+             std::uint32_t substeps, Kick kick);
+/// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
+void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+                 std::uint32_t substep, std::uint32_t substeps);
+
+/// The grabs on the host: contents of the hands buffer of a step.
+class Hands {
+public:
+    /// For at most `count` grabs in a scene of `particles` particles.
+    Hands(std::uint32_t count, std::size_t particles) : count_(count), particles_(particles) {}
+
+    /// Restores earlier grabs. A grab that begins later still has a serial number of its own.
+    void restore(const Hands& before) noexcept { hands_ = before.hands_; }
+    /// Ends all grabs.
+    void reset() noexcept { hands_ = {}; }
+    /// Advances by a step of `dt` [s].
+    void advance(std::span<const Grab> grabs, float dt) noexcept;
+    bool areFree() const noexcept; ///< no grab holds anything
+    std::span<const layout::GrabHand> values() const noexcept { return std::span(hands_).first(count_); }
+
+private:
+    std::uint32_t count_;
+    std::size_t particles_;
+    std::uint32_t serial_ = 0; // of the newest grab
+    std::array<layout::GrabHand, GRAB_HANDS> hands_{};
+};
+
+} // namespace sinew::sim::grabs

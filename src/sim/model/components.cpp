@@ -1,0 +1,31 @@
+// Union-find with path halving.
+#include "sim/model/components.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace sinew::sim {
+
+std::vector<std::uint32_t> linkedComponents(const Scene& scene, std::span<const float> inverseMass) {
+    std::vector<std::uint32_t> parent(scene.particles.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&parent](std::uint32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        if (inverseMass[a] == 0 || inverseMass[b] == 0) return;
+        const std::uint32_t first = root(a), second = root(b);
+        parent[std::max(first, second)] = std::min(first, second);
+    };
+    for (const DistanceConstraint& d : scene.distances) join(d.a, d.b);
+    for (const BendConstraint& b : scene.bends) {
+        join(b.a, b.b);
+        join(b.b, b.c);
+        join(b.a, b.c);
+    }
+    for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
+    return parent;
+}
+
+} // namespace sinew::sim

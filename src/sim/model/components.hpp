@@ -1,0 +1,14 @@
+// Connected components by links, as the scene has them: sleep and grabs find the rest of a body with them.
+#pragma once
+
+#include "sinew/scene.hpp"
+
+#include <span>
+
+namespace sinew::sim {
+
+/// For each particle the smallest index in its component, connected by distance and bend constraints. Static
+/// particles (inverse mass 0) do not connect others.
+std::vector<std::uint32_t> linkedComponents(const Scene& scene, std::span<const float> inverseMass);
+
+} // namespace sinew::sim

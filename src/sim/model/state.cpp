@@ -1,0 +1,36 @@
+// Counts are padded to whole work groups.
+#include "sim/model/state.hpp"
+
+#include "common/layout.h"
+
+#include <algorithm>
+
+namespace sinew::sim {
+
+std::size_t paddedCount(std::size_t particles) {
+    return (particles + GROUP_ITEMS - 1) / GROUP_ITEMS * GROUP_ITEMS;
+}
+
+StateLayout orderedLayout(std::size_t particles) {
+    StateLayout layout{.count = paddedCount(particles)};
+    for (std::uint32_t i = 0; i < particles; ++i) layout.slot.push_back(i);
+    return layout;
+}
+
+std::vector<std::uint32_t> slotsInOrder(const StateLayout& layout) {
+    std::vector<std::uint32_t> slots = layout.slot;
+    std::ranges::sort(slots);
+    return slots;
+}
+
+std::size_t positionCount(const StateLayout& layout) {
+    return layout.hasRemainders ? 2 * layout.count : layout.count;
+}
+
+ProgramBuilder::Constants remainderConstants(const StateLayout& layout) {
+    constexpr std::uint32_t hasRemaindersId = 10; // constant_id in remainder.glsl
+    if (!layout.hasRemainders) return {};
+    return {{hasRemaindersId, 1}};
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,193 @@
+// Collects passes, checks them against their SPIR-V, and plans the barriers between them.
+#include "sim/program/program.hpp"
+
+#include "common/layout.h"
+
+#include <stdexcept>
+
+namespace sinew::sim {
+
+namespace {
+
+constexpr std::uint32_t reversedId = 0; // constant_id of isReversed in kernel.glsl
+
+bool touches(vk::Access access, vk::Access part) {
+    return (static_cast<unsigned>(access) & static_cast<unsigned>(part)) != 0;
+}
+
+[[noreturn]] void refuse(const vk::ShaderCode& code, const std::string& why) {
+    throw std::logic_error(std::string("kernel ") + code.name + ": " + why);
+}
+
+// A compiler may assume that bindings are different buffers, unless both are decorated Aliased.
+void checkAliases(const vk::ShaderCode& code, const vk::KernelInterface& interface, const Pass& pass,
+                  const std::vector<BufferSpec>& buffers) {
+    const auto& uses = pass.uses;
+    for (std::size_t a = 0; a < uses.size(); ++a)
+        for (std::size_t b = a + 1; b < uses.size(); ++b) {
+            const vk::KernelBinding &first = interface.bindings[a], &second = interface.bindings[b];
+            const bool isWritten =
+                touches(uses[a].access, vk::Access::write) || touches(uses[b].access, vk::Access::write);
+            if (uses[a].buffer == uses[b].buffer && isWritten && !(first.isAliased && second.isAliased))
+                refuse(code, "buffer " + buffers[uses[a].buffer.index].label + " is bound as " + first.name +
+                                 " and as " + second.name +
+                                 ", and one of both writes it: decorate both Aliased");
+        }
+}
+
+} // namespace
+
+void planBarriers(std::span<Pass> passes, std::size_t bufferCount, Recording recording) {
+    std::vector<bool> isRead(bufferCount), isWritten(bufferCount);
+    for (Pass& pass : passes) {
+        bool& hasBarrier = pass.barriers[recording.index()];
+        hasBarrier = false;
+        if (!isIn(recording, pass)) continue;
+        for (const BufferUse& use : pass.uses) {
+            const bool writes = touches(use.access, vk::Access::write);
+            hasBarrier |= isWritten[use.buffer.index] || (writes && isRead[use.buffer.index]);
+        }
+        if (hasBarrier) {
+            isRead.assign(bufferCount, false);
+            isWritten.assign(bufferCount, false);
+        }
+        for (const BufferUse& use : pass.uses) {
+            if (touches(use.access, vk::Access::read)) isRead[use.buffer.index] = true;
+            if (touches(use.access, vk::Access::write)) isWritten[use.buffer.index] = true;
+        }
+    }
+}
+
+BufferId ProgramBuilder::add(BufferSpec spec) {
+    program_.buffers.push_back(std::move(spec));
+    return {static_cast<std::uint32_t>(program_.buffers.size() - 1)};
+}
+
+void ProgramBuilder::beginPhase(std::string name) {
+    program_.phases.push_back(std::move(name));
+}
+
+std::uint32_t ProgramBuilder::kernelIndex(const vk::ShaderCode& code, const Constants& constants) {
+    Constants all = constants;
+    all[reversedId] = isReversed_;
+    for (std::uint32_t k = 0; k < program_.kernels.size(); ++k) {
+        if (program_.kernels[k].code == &code && program_.kernels[k].constants == all) return k;
+    }
+    program_.kernels.push_back({&code, vk::readInterface(code), std::move(all)});
+    return static_cast<std::uint32_t>(program_.kernels.size() - 1);
+}
+
+void ProgramBuilder::append(Pass pass) {
+    if (program_.phases.empty()) throw std::logic_error("pass " + pass.label + " belongs to no phase");
+    pass.phase = static_cast<std::uint32_t>(program_.phases.size() - 1);
+    pass.substep = substep_;
+    pass.isOfCut = isCut_;
+    pass.isOfSurface = isSurface_;
+    list().push_back(std::move(pass));
+}
+
+void ProgramBuilder::dispatchDirect(const vk::ShaderCode& code, std::uint32_t items,
+                                    std::span<const BufferId> buffers, std::span<const std::byte> push,
+                                    const Constants& constants) {
+    if (!gate_ || skinList_ || isCut_ || isSettling_ || isAdopting_)
+        return dispatchBytes(code, items, buffers, push, constants);
+    const GatedDispatch gated = gate_(code, items);
+    std::vector<BufferId> all(buffers.begin(), buffers.end());
+    if (gated.last != BufferId{}) all.push_back(gated.last);
+    dispatchBytes(*gated.code, gated.items.most, all, push, constants);
+    makeLastIndirect(gated.items);
+}
+
+void ProgramBuilder::dispatchBytes(const vk::ShaderCode& code, std::uint32_t items,
+                                   std::span<const BufferId> buffers, std::span<const std::byte> push,
+                                   const Constants& constants) {
+    Pass pass{.kind = PassKind::dispatch,
+              .label = code.name,
+              .kernel = kernelIndex(code, constants),
+              .items = items};
+    const vk::KernelInterface& interface = program_.kernels[pass.kernel].interface;
+    if (items == 0) refuse(code, "nothing to do: leave the pass out");
+    if (interface.bindings.size() != buffers.size()) {
+        refuse(code, "takes " + std::to_string(interface.bindings.size()) + " buffers, got " +
+                         std::to_string(buffers.size()));
+    }
+    if (interface.pushConstantSize != push.size()) {
+        refuse(code, "takes " + std::to_string(interface.pushConstantSize) +
+                         " bytes of push constants, got " + std::to_string(push.size()));
+    }
+    for (std::size_t b = 0; b < buffers.size(); ++b) {
+        if (buffers[b].index >= program_.buffers.size()) {
+            refuse(code, "binding " + interface.bindings[b].name + " got a buffer that does not exist");
+        }
+        const BufferSpec& spec = program_.buffers[buffers[b].index];
+        if (!interface.bindings[b].takes(spec.stride)) {
+            refuse(code, "binding " + interface.bindings[b].name + " has stride " +
+                             std::to_string(interface.bindings[b].stride) + ", buffer " + spec.label +
+                             " has " + std::to_string(spec.stride)); // 0: texels of 4, 8 or 16 n bytes
+        }
+        pass.uses.push_back({buffers[b], interface.bindings[b].access});
+    }
+    checkAliases(code, interface, pass, program_.buffers);
+    pass.push.assign(push.begin(), push.end());
+    append(std::move(pass));
+}
+
+void ProgramBuilder::makeLastIndirect(const IndirectItems& items) {
+    Pass& pass = last();
+    const vk::ShaderCode& code = *program_.kernels[pass.kernel].code;
+    const bool exists = items.arguments.index < program_.buffers.size();
+    if (!exists) refuse(code, "its arguments are in a buffer that does not exist");
+    BufferSpec& spec = program_.buffers[items.arguments.index];
+    if (spec.stride != sizeof(layout::DispatchArguments))
+        refuse(code, "its arguments are in buffer " + spec.label + " with stride " +
+                         std::to_string(spec.stride) + ", must be " +
+                         std::to_string(sizeof(layout::DispatchArguments)));
+    if (items.element >= spec.count)
+        refuse(code, "argument " + std::to_string(items.element) + " of buffer " + spec.label +
+                         ", which has " + std::to_string(spec.count));
+    for (const BufferUse& use : pass.uses)
+        if (use.buffer == items.arguments && use.access != vk::Access::read)
+            refuse(code, "writes its own arguments " + spec.label);
+    pass.isIndirect = true;
+    pass.isOfLists = items.isOfLists && isAfterFirstSubstep();
+    pass.value = items.element;
+    pass.uses.push_back({items.arguments, vk::Access::read});
+}
+
+void ProgramBuilder::numberLast(std::uint32_t index) {
+    last().label.append("[").append(std::to_string(index)).append("]");
+}
+
+void ProgramBuilder::fill(BufferId buffer, std::uint32_t value) {
+    append({.kind = PassKind::fill, .label = "fill", .uses = {{buffer, vk::Access::write}}, .value = value});
+}
+
+void ProgramBuilder::copy(BufferId from, BufferId to) {
+    const BufferSpec &source = program_.buffers.at(from.index), &target = program_.buffers.at(to.index);
+    if (source.bytes() != target.bytes()) {
+        throw std::logic_error("copy: " + source.label + " has " + std::to_string(source.bytes()) +
+                               " bytes, " + target.label + " has " + std::to_string(target.bytes()));
+    }
+    append({.kind = PassKind::copy,
+            .label = "copy",
+            .uses = {{from, vk::Access::read}, {to, vk::Access::write}}});
+}
+
+void ProgramBuilder::update(BufferId buffer, HostData data) {
+    append({.kind = PassKind::update,
+            .label = "update",
+            .uses = {{buffer, vk::Access::write}},
+            .value = static_cast<std::uint32_t>(data)});
+}
+
+StepProgram ProgramBuilder::finish() {
+    for (const Recording recording : allRecordings)
+        planBarriers(program_.step, program_.buffers.size(), recording);
+    planBarriers(program_.skin, program_.buffers.size());
+    planBarriers(program_.wholeSkin, program_.buffers.size());
+    planBarriers(program_.settle, program_.buffers.size());
+    planBarriers(program_.adopt, program_.buffers.size());
+    return std::move(program_);
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,454 @@
+// The step program that a scene compiles to: buffers and a plain list of passes, without Vulkan handles. Pure
+// data: its makers (constraints, solvers) never touch a GPU; its users (executor, profiler, describe) walk
+// the list.
+#pragma once
+
+#include "sinew/vk/spirv.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#pragma push_macro("interface") // windows.h defines it
+#undef interface
+
+namespace sinew::sim {
+
+struct BufferId {
+    std::uint32_t index = 0xffffffffu;
+    bool operator==(const BufferId&) const = default;
+};
+
+struct BufferSpec {
+    std::string label;
+    std::uint64_t count = 0;        ///< elements
+    std::uint32_t stride = 0;       ///< [B]
+    std::vector<std::byte> initial; ///< count x stride bytes, or empty = zeros
+    /// Index of another buffer: this one has no memory of its own but reads that one's initial contents, as
+    /// resets copy them.
+    std::optional<std::uint32_t> initialOf = {};
+    std::uint64_t bytes() const { return initialOf ? 0 : count * stride; }
+};
+
+struct BufferUse {
+    BufferId buffer;
+    vk::Access access = vk::Access::readWrite;
+};
+
+/// A kernel with the specialisation constants that make it a pipeline.
+struct KernelUse {
+    const vk::ShaderCode* code = nullptr;
+    vk::KernelInterface interface;
+    std::map<std::uint32_t, std::uint32_t> constants; ///< specialisation id -> 32 bits
+};
+
+enum class PassKind : std::uint8_t {
+    dispatch,
+    fill,   ///< sets every word of uses[0] to `value`
+    copy,   ///< uses[0] to uses[1], whole buffers of equal size
+    update, ///< writes the host's data of this step into uses[0]; `value` says which of HostData
+};
+
+/// Host data that update passes can write.
+enum class HostData : std::uint32_t {
+    parameters,
+    anchors,
+    colliders,
+    pokes,
+    pokeArguments,
+    grabs,
+    blade,
+    bladePoints
+};
+constexpr std::size_t hostDataCount = 8;
+
+/// One of the ways to record a step, each with its own barriers.
+struct Recording {
+    bool hasBlade = true; ///< with the passes of cuts
+    bool isCalm = false;  ///< without passes that rebuild contact lists after the first substep
+    constexpr std::size_t index() const { return std::size_t{!hasBlade} + 2 * std::size_t{isCalm}; }
+};
+constexpr std::size_t recordingCount = 4;
+constexpr std::array<Recording, recordingCount> allRecordings{
+    {{true, false}, {false, false}, {true, true}, {false, true}}};
+/// Steps without a blade: one that may rebuild contact lists in any substep, and a calm one.
+constexpr Recording plainStep{.hasBlade = false, .isCalm = false},
+    calmStep{.hasBlade = false, .isCalm = true};
+
+/// An entry of a pass list.
+struct Pass {
+    PassKind kind = PassKind::dispatch;
+    std::string label;
+    std::uint32_t kernel = 0;    ///< index into StepProgram::kernels (dispatch)
+    std::uint32_t items = 0;     ///< invocations wanted (dispatch); the maximum if indirect
+    std::vector<BufferUse> uses; ///< in binding order; then the arguments of an indirect dispatch
+    std::vector<std::byte> push;
+    std::uint32_t value = 0;
+    bool isIndirect = false;   ///< groups come from the device: element `value` of the last use
+    std::uint32_t phase = 0;   ///< index into StepProgram::phases
+    std::uint32_t substep = 0; ///< 1-based; 0 = outside the substeps
+    bool isOfCut = false;      ///< recorded only in a step with a blade
+    bool isOfSurface = false;  ///< in these steps: rewrites the surface of cuts from the state of cells
+    bool isOfLists = false;    ///< rebuilds contact lists after the first substep: not in a calm step
+    /// By Recording, set by planBarriers: whether a barrier precedes the pass.
+    std::array<bool, recordingCount> barriers{};
+};
+
+/// Whether `pass` is part of a recording, and whether it is and a barrier precedes it.
+inline bool isIn(Recording recording, const Pass& pass) {
+    return (recording.hasBlade || !pass.isOfCut) && (!recording.isCalm || !pass.isOfLists);
+}
+inline bool hasBarrier(Recording recording, const Pass& pass) {
+    return isIn(recording, pass) && pass.barriers[recording.index()];
+}
+
+/// The uses that a dispatch binds to its kernel: all except the arguments.
+inline std::span<const BufferUse> boundUses(const Pass& pass) {
+    return std::span(pass.uses).first(pass.uses.size() - (pass.isIndirect ? 1 : 0));
+}
+
+/// Location of the group count that a kernel writes for a later dispatch: an element of a buffer of
+/// layout::DispatchArguments. With 0 groups the device skips the pass at almost no cost.
+struct IndirectItems {
+    BufferId arguments;
+    std::uint32_t element = 0;
+    std::uint32_t most = 0; ///< largest number of invocations that the arguments can ask for
+    bool isOfLists = false; ///< 0 groups unless contact lists are rebuilt
+};
+
+/// Replacement of a direct dispatch by an indirect one: the form of the kernel, its groups, and the buffer
+/// that this form binds in addition.
+struct GatedDispatch {
+    const vk::ShaderCode* code = nullptr;
+    IndirectItems items;
+    BufferId last; ///< bound last; invalid = none
+};
+
+/// A buffer of the state between steps: a take-over copies `from` of the other program, which is valid also
+/// after an undone step, into `to`.
+struct Carried {
+    BufferId to, from;
+};
+
+/// A contiguous range of slots of cuttable bodies with equal strides: one dispatch.
+struct CutRun {
+    std::uint32_t first = 0, count = 0;           ///< slots
+    std::uint32_t rowStride = 0, sliceStride = 0; ///< as layout::CutPush has them
+};
+
+/// The radii of a hash grid of contacts, by slot (below 0 = neither in the grid nor touching what is in it),
+/// and the bounds of the grid.
+struct ContactGrid {
+    BufferId radii, bounds;
+};
+
+/// Buffers of cuttable bodies (cutting/cut.hpp); invalid if a scene has none.
+struct CuttingBuffers {
+    BufferId links; ///< by slot: bits of the live links (lattice/link_masks.hpp)
+    BufferId
+        wholeCells; ///< by slot: fillAround without cells that lost an edge; only where cells have volumes
+    BufferId hits;  ///< by slot: layout::LinkHits of the links that the node owns
+    BufferId savedLinks; ///< by slot: links before the step
+    BufferId dirty;      ///< a bit for each slot: whether the last blade cut within reach of the node
+    /// Slots with a dirty corner in one of their cells, by run, each run from its first slot on; their
+    /// number, and the group counts of the passes over them, by run.
+    BufferId listed, listedCounts, listedArguments;
+    bool tears = false;       ///< whether a step without a blade may cut something
+    std::vector<CutRun> runs; ///< ranges of the dispatches over cuttable slots
+    BufferId places;          ///< by slot: position at the start of the step [m]
+    BufferId counts;          ///< one layout::CutCounts
+    BufferId labels;          ///< by slot: the lowest slot of its piece
+    BufferId particles;       ///< by slot: the particle in it, or layout's NO_PARTICLE
+    /// By particle: the particle that names its piece; layout's NO_PARTICLE in bodies that are not cuttable,
+    /// its REMOVED_PIECE in a fragment.
+    BufferId pieces;
+    BufferId pieceSizes;            ///< by particle: size of the piece that the particle names, or 0
+    std::vector<BufferId> topology; ///< buffers that form a copy of the cuts
+    /// Lists of links and bends whose stiffness a cut removes; reset to their initial contents before
+    /// settling.
+    std::vector<BufferId> lists;
+    /// Positions at the last rebuild of contact lists that depend on cuts.
+    std::vector<BufferId> contactsSeen;
+    std::uint32_t crumbs = 0;              ///< Scene::crumbs, if a cut can make some; 0 = none are removed
+    double crumbUnit = 0;                  ///< unit of layout::CutCounts::crumbMass [kg]
+    std::vector<ContactGrid> contactGrids; ///< grids that fragments are removed from
+};
+
+/// Buffers of the surface of cuts (surface/cut_surface.hpp); invalid if no skin is clipped.
+struct CutSurfaceBuffers {
+    BufferId state;     ///< one layout::SurfaceState
+    BufferId vertices;  ///< layout::SkinVertex, updated by the list of skins
+    BufferId rest;      ///< layout::CutVertex of each vertex
+    BufferId indices;   ///< triangles of the inside, then of the outside
+    BufferId draws;     ///< layout::DrawArguments of the inside and of the outside
+    BufferId particles; ///< by slot: the particle that CutVertex::corners refer to
+    BufferId hung;      ///< layout::HungVertex of clipped skins of meshes; invalid without such skins
+    BufferId moved;     ///< of each of these: position at rest, if w is VERTEX_MOVED
+};
+
+/// Contact candidates: lists by slot of layout::ContactCandidate (collision/contact_lists.hpp,
+/// face_lists.hpp, edge_lists.hpp), and the range of each slot in them, layout::ListRange. Invalid, or 0, if
+/// a scene has none.
+struct ContactBuffers {
+    BufferId pairs, pairLists;     ///< particles near a particle
+    BufferId faces;                ///< layout::ContactFace, between slots
+    BufferId facePairs, faceLists; ///< faces near a particle
+    BufferId edges;                ///< layout::ContactEdge, between slots
+    BufferId edgePairs, edgeLists; ///< edges near an edge
+    std::uint32_t edgeCount = 0;
+};
+
+/// The hash grid of a contact search, for inspection between steps: as last built.
+struct GridBuffers {
+    std::string name;        ///< "grid" of particles, "faces.grid" of points, "edges.grid" of edges
+    BufferId bounds;         ///< first entry in `sorted` by slot of the table; then the entry count
+    BufferId starts;         ///< bits of a position, and an index, ordered by slot
+    BufferId sorted;         ///< capacity of `sorted`
+    std::uint32_t count = 0; ///< elements that `sorted` may have
+    std::uint32_t cells = 0; ///< slots of the table
+};
+
+/// The vertices of a sheet's skin along cuts, and what they depend on (surface/sheet_pieces.hpp).
+struct PieceVertices {
+    BufferId vertices;       ///< layout::SheetVertex
+    std::uint32_t first = 0; ///< index in skinVertices
+};
+
+/// Group counts of passes that run only while a poke is present.
+struct PokeGroups {
+    std::uint32_t placed = 0, touching = 0; ///< once a step, once a substep
+};
+
+/// Buffers of sleeping bodies (sleep.hpp); invalid if no body can sleep.
+struct SleepBuffers {
+    BufferId arguments; ///< of dispatches that run only while a particle is awake
+    BufferId listed;    ///< awake work groups: the last binding of kernels that run only for these
+};
+
+/// Buffers of the impulses of a step (forces.hpp); invalid if none are kept.
+struct ForceBuffers {
+    BufferId terms; ///< impulses by particle, section by section
+    BufferId parts, rowParts;
+    BufferId sums; ///< layout::ForceSum: FORCE_KINDS for each body, then the rows
+    std::uint32_t bodies = 0, grabs = 0, planes = 0, pokes = 0, colliders = 0, stops = 0, attachments = 0,
+                  holds = 0; ///< number of each
+};
+
+/// A compiled scene; immutable once built.
+struct StepProgram {
+    std::vector<BufferSpec> buffers;
+    std::vector<KernelUse> kernels;
+    std::vector<std::string> phases; ///< what is timed, in order
+    std::vector<Pass> step;          ///< recorded for every step
+    std::vector<Pass> skin;          ///< recorded to draw the skins; may be empty
+    /// Instead of `skin` while nothing is cut, for wholeIndices; empty if no skin has whole triangles.
+    std::vector<Pass> wholeSkin;
+    /// Recorded after a state of another material, or of other substeps, was put into the buffers: recomputes
+    /// the values that follow from the scene alone. May be empty.
+    std::vector<Pass> settle;
+    /// Recorded after another solver's public state was put into the public buffers: initialises this
+    /// solver's state from it. Empty without public velocities.
+    std::vector<Pass> adopt;
+    std::uint64_t order = 0; ///< hash of the order of particles: programs with equal order exchange states
+    std::vector<std::string> skipped; ///< features that this scene does not need, for reports
+    std::vector<Carried> carried;     ///< buffers copied when a simulation takes over another's state
+    BufferId parameters, status, positions, velocities; ///< public buffers; velocities may be invalid
+    BufferId skinVertices, skinIndices;                 ///< invalid without skins
+    BufferId wholeIndices;                              ///< of all skins: wholeTriangles, else triangles
+    ContactBuffers contacts;
+    std::vector<GridBuffers> grids; ///< one for each contact search that uses a grid
+    SleepBuffers sleep;
+    PokeGroups pokes;
+    ForceBuffers forces;
+    CuttingBuffers cutting;
+    CutSurfaceBuffers cutSurface;
+    std::vector<PieceVertices> pieceSkins; ///< one for each cuttable sheet with a skin
+    std::vector<BufferId> sheetStates;     ///< one layout::SheetState for each skin that a cut divides
+    BufferId pieceDraws; ///< by skin: layout::DrawArguments of the parts of sheets; invalid without them
+    std::uint32_t pieceVertices = 0; ///< vertices reserved for those parts, after those of all skins
+    std::uint32_t particleCount = 0, constraintCount = 0;
+    std::uint64_t sweeps = 0; ///< number of times that every constraint is read in one step
+};
+
+/// Walks the passes of a recording, which run front to back on one queue, and sets which need a barrier
+/// before them. Keeps the buffers read and written since the last barrier: a pass that touches a written one,
+/// or writes a read one, gets a barrier and both sets are cleared. This is correct because every barrier
+/// covers all earlier work with the same masks.
+void planBarriers(std::span<Pass> passes, std::size_t bufferCount, Recording recording = {});
+
+/// The program as text: `label xitems buffer:access ...`, barriers in between, equal substeps folded, then
+/// totals.
+std::string describe(const StepProgram& program);
+
+/// Size of a recording of a step.
+struct PassCounts {
+    std::size_t passes = 0, dispatches = 0, barriers = 0;
+};
+PassCounts countPasses(const StepProgram& program, Recording recording);
+
+/// Key of a program: a hash of names, sizes and initial contents of buffers and of the passes of a step.
+std::uint64_t keyOf(const StepProgram& program) noexcept;
+
+/// Bytes that the kernels of one step are declared to access: each used buffer once a pass, twice if read and
+/// written.
+std::uint64_t declaredBytes(const StepProgram& program);
+
+/// Collects buffers and passes. Throws std::logic_error naming kernel and buffer if a dispatch does not fit
+/// the SPIR-V.
+class ProgramBuilder {
+public:
+    explicit ProgramBuilder(bool isReversed) : isReversed_(isReversed) {}
+
+    template <typename T>
+    requires std::is_trivially_copyable_v<T> BufferId upload(std::string label, std::span<const T> elements) {
+        const auto bytes = std::as_bytes(elements);
+        return add({std::move(label), elements.size(), sizeof(T), {bytes.begin(), bytes.end()}});
+    }
+    template <typename T> BufferId upload(std::string label, const std::vector<T>& elements) {
+        return upload(std::move(label), std::span<const T>(elements));
+    }
+    /// A buffer that is initially zero.
+    template <typename T> BufferId scratch(std::string label, std::uint64_t count) {
+        return add({std::move(label), count, sizeof(T), {}});
+    }
+
+    /// The initial contents of an uploaded buffer, as a buffer that passes can read.
+    BufferId initialOf(std::string label, BufferId buffer) {
+        const BufferSpec& spec = program().buffers[buffer.index];
+        return add({std::move(label), spec.count, spec.stride, {}, buffer.index});
+    }
+
+    void beginPhase(std::string name);
+    void beginSubstep() { ++substep_; }
+    void endSubsteps() { substep_ = 0; }
+    bool isAfterFirstSubstep() const { return substep_ > 1; }
+
+    using Constants = std::map<std::uint32_t, std::uint32_t>;
+    /// Appends a dispatch of `items` > 0 invocations; `buffers` in binding order; `push` is the kernel's push
+    /// constant struct.
+    template <typename Push>
+    void dispatch(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
+                  const Push& push, const Constants& constants = {}) {
+        dispatchDirect(code, items, buffers, std::as_bytes(std::span(&push, 1)), constants);
+    }
+    template <typename Push>
+    void dispatch(const vk::ShaderCode& code, std::uint32_t items, std::initializer_list<BufferId> buffers,
+                  const Push& push, const Constants& constants = {}) {
+        dispatch(code, items, std::span(buffers.begin(), buffers.size()), push, constants);
+    }
+    /// Appends a dispatch with as many groups as the arguments hold when the device reads them.
+    template <typename Push>
+    void dispatchIndirect(const vk::ShaderCode& code, const IndirectItems& items,
+                          std::span<const BufferId> buffers, const Push& push,
+                          const Constants& constants = {}) {
+        dispatchBytes(code, items.most, buffers, std::as_bytes(std::span(&push, 1)), constants);
+        makeLastIndirect(items);
+    }
+    template <typename Push>
+    void dispatchIndirect(const vk::ShaderCode& code, const IndirectItems& items,
+                          std::initializer_list<BufferId> buffers, const Push& push,
+                          const Constants& constants = {}) {
+        dispatchIndirect(code, items, std::span(buffers.begin(), buffers.size()), push, constants);
+    }
+    /// A function that replaces the direct dispatches that follow, by kernel and number of items; none = they
+    /// stay direct.
+    using Gate = std::function<GatedDispatch(const vk::ShaderCode& code, std::uint32_t items)>;
+    void setGate(Gate gate) { gate_ = std::move(gate); }
+    /// Adds [index] to the label of the last pass, for passes that differ only in their range.
+    void numberLast(std::uint32_t index);
+    /// Registers a buffer of vec4 that a solver carries from step to step: restored when a step with a
+    /// non-finite state is undone.
+    void remember(BufferId buffer) { remembered_.push_back(buffer); }
+    /// Registers a part of the state that another program for the same scene can take over; it may be longer
+    /// there.
+    void carry(BufferId to, BufferId from) { program_.carried.push_back({to, from}); }
+    /// Registers a buffer of vec4 of which a copy from the last finite step is kept, so that a step can be
+    /// repeated with the same bits: the state that publishing restores after an undone step is rounded.
+    void keep(BufferId buffer) { kept_.push_back(buffer); }
+    const std::vector<BufferId>& kept() const { return kept_; }
+    /// Registers passes between the check of a step's state and the publishing that depends on it.
+    void afterCheck(std::function<void()> addPasses) { checked_.push_back(std::move(addPasses)); }
+    const std::vector<std::function<void()>>& checked() const { return checked_; }
+    /// Registers passes at the end of the step, after the check of its state.
+    void atEnd(std::function<void()> addPasses) { endings_.push_back(std::move(addPasses)); }
+    const std::vector<std::function<void()>>& endings() const { return endings_; }
+    const std::vector<BufferId>& remembered() const { return remembered_; }
+    /// Registers passes of the list of skins between positions and normals of vertices.
+    void beforeNormals(std::function<void()> addPasses) { skinMiddles_.push_back(std::move(addPasses)); }
+    const std::vector<std::function<void()>>& skinMiddles() const { return skinMiddles_; }
+    /// Registers passes at the end of the list of skins.
+    void atSkin(std::function<void()> addPasses) { skinEndings_.push_back(std::move(addPasses)); }
+    const std::vector<std::function<void()>>& skinEndings() const { return skinEndings_; }
+    void fill(BufferId buffer, std::uint32_t value);
+    void copy(BufferId from, BufferId to);
+    void updateParameters(BufferId parameters) { update(parameters, HostData::parameters); }
+    void updateAnchors(BufferId anchors) { update(anchors, HostData::anchors); }
+    void updateColliders(BufferId ways) { update(ways, HostData::colliders); }
+    /// The `shapes` of pokes precede those of colliders.
+    void updatePokes(BufferId shapes, BufferId arguments) {
+        update(shapes, HostData::pokes);
+        update(arguments, HostData::pokeArguments);
+    }
+    void updateGrabs(BufferId hands) { update(hands, HostData::grabs); }
+    void updateBlade(BufferId blade, BufferId points) {
+        update(blade, HostData::blade);
+        update(points, HostData::bladePoints);
+    }
+    /// Passes from here to endCut() are recorded only in steps with a blade; gates do not change them.
+    void beginCut() { isCut_ = true; }
+    void endCut() { isCut_ = false; }
+    /// Passes of a cut that rewrite the surface of cuts from the state of cells.
+    void beginSurface() { isSurface_ = true; }
+    void endSurface() { isSurface_ = false; }
+    /// All passes that follow belong to StepProgram::skin, or to another list of skins; gates do not change
+    /// them.
+    void beginSkin() { skinList_ = &StepProgram::skin; }
+    void beginWholeSkin() { skinList_ = &StepProgram::wholeSkin; }
+    /// Passes from here to endSettling() belong to StepProgram::settle; gates do not change them.
+    void beginSettling() { isSettling_ = true; }
+    void endSettling() { isSettling_ = false; }
+    /// Passes from here to endAdopting() belong to StepProgram::adopt; gates do not change them.
+    void beginAdopting() { isAdopting_ = true; }
+    void endAdopting() { isAdopting_ = false; }
+    void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
+
+    StepProgram& program() { return program_; }
+    StepProgram finish();
+
+private:
+    BufferId add(BufferSpec spec);
+    void update(BufferId buffer, HostData data);
+    void append(Pass pass);
+    std::vector<Pass>& list() {
+        if (isSettling_) return program_.settle;
+        if (isAdopting_) return program_.adopt;
+        return skinList_ ? program_.*skinList_ : program_.step;
+    }
+    Pass& last() { return list().back(); }
+    void makeLastIndirect(const IndirectItems& items);
+    std::uint32_t kernelIndex(const vk::ShaderCode& code, const Constants& constants);
+    void dispatchDirect(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
+                        std::span<const std::byte> push, const Constants& constants);
+    void dispatchBytes(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
+                       std::span<const std::byte> push, const Constants& constants);
+
+    StepProgram program_;
+    std::vector<BufferId> remembered_, kept_;
+    std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
+    Gate gate_;
+    std::vector<Pass> StepProgram::*skinList_ = nullptr; // null: passes belong to the step
+    bool isReversed_ = false, isSettling_ = false, isAdopting_ = false, isCut_ = false, isSurface_ = false;
+    std::uint32_t substep_ = 0;
+};
+
+} // namespace sinew::sim
+
+#pragma pop_macro("interface")

@@ -1,0 +1,115 @@
+// Comparison of two programs, list by list.
+#include "sim/program/program_values.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sinew::sim {
+
+namespace {
+
+bool isSameKernel(const KernelUse& a, const KernelUse& b) {
+    return a.code == b.code && a.constants == b.constants;
+}
+
+bool isSameBuffer(const BufferSpec& a, const BufferSpec& b) {
+    return a.label == b.label && a.count == b.count && a.stride == b.stride &&
+           a.initial.empty() == b.initial.empty();
+}
+
+// Whether two passes are equal except for their push constants.
+bool isSamePass(const Pass& a, const Pass& b) {
+    const auto isSameUse = [](const BufferUse& x, const BufferUse& y) {
+        return x.buffer == y.buffer && x.access == y.access;
+    };
+    return a.kind == b.kind && a.kernel == b.kernel && a.items == b.items && a.value == b.value &&
+           a.isIndirect == b.isIndirect && a.isOfCut == b.isOfCut && a.isOfLists == b.isOfLists &&
+           a.isOfSurface == b.isOfSurface && a.phase == b.phase && a.push.size() == b.push.size() &&
+           std::ranges::equal(a.uses, b.uses, isSameUse);
+}
+
+bool haveOneShape(const StepProgram& a, const StepProgram& b) {
+    return a.particleCount == b.particleCount && a.phases == b.phases &&
+           std::ranges::equal(a.kernels, b.kernels, isSameKernel) &&
+           std::ranges::equal(a.buffers, b.buffers, isSameBuffer) &&
+           std::ranges::equal(a.step, b.step, isSamePass) && std::ranges::equal(a.skin, b.skin, isSamePass) &&
+           std::ranges::equal(a.wholeSkin, b.wholeSkin, isSamePass) &&
+           std::ranges::equal(a.settle, b.settle, isSamePass);
+}
+
+std::vector<ProgramValues::Push> pushesOf(const std::vector<Pass>& from, const std::vector<Pass>& to) {
+    std::vector<ProgramValues::Push> pushes;
+    for (std::size_t p = 0; p < from.size(); ++p)
+        if (from[p].push != to[p].push) pushes.push_back({p, to[p].push});
+    return pushes;
+}
+
+void markWritten(const std::vector<Pass>& passes, std::vector<bool>& isWritten) {
+    for (const Pass& pass : passes)
+        for (const BufferUse& use : pass.uses)
+            if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
+}
+
+} // namespace
+
+std::vector<bool> areWritten(const StepProgram& program) {
+    std::vector<bool> isWritten(program.buffers.size());
+    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin, &program.settle})
+        markWritten(*list, isWritten);
+    return isWritten;
+}
+
+std::optional<ProgramValues> valuesOf(const StepProgram& from, const StepProgram& to) {
+    if (!haveOneShape(from, to)) return std::nullopt;
+    const std::vector<bool> isWritten = areWritten(from);
+    std::vector<bool> isSettled(from.buffers.size());
+    markWritten(from.settle, isSettled);
+    ProgramValues values{.buffers = {},
+                         .step = pushesOf(from.step, to.step),
+                         .skin = pushesOf(from.skin, to.skin),
+                         .wholeSkin = pushesOf(from.wholeSkin, to.wholeSkin),
+                         .settle = pushesOf(from.settle, to.settle)};
+    for (std::uint32_t b = 0; b < from.buffers.size(); ++b) {
+        if (from.buffers[b].initial == to.buffers[b].initial) continue;
+        if (isWritten[b] && !isSettled[b]) return std::nullopt;
+        values.buffers.push_back({{b}, to.buffers[b].initial, isWritten[b]});
+    }
+    return values;
+}
+
+void take(StepProgram& program, ProgramValues values) noexcept {
+    for (ProgramValues::Contents& contents : values.buffers)
+        program.buffers[contents.buffer.index].initial = std::move(contents.initial);
+    const auto setPushes = [](std::vector<Pass>& passes, std::vector<ProgramValues::Push>& pushes) {
+        for (ProgramValues::Push& push : pushes) passes[push.pass].push = std::move(push.bytes);
+    };
+    setPushes(program.step, values.step);
+    setPushes(program.skin, values.skin);
+    setPushes(program.wholeSkin, values.wholeSkin);
+    setPushes(program.settle, values.settle);
+}
+
+void requireSameParticles(const StepProgram& from, const StepProgram& to) {
+    const auto isSame = [&](BufferId a, BufferId b) {
+        return a == b && (a == BufferId{} || from.buffers[a.index].initial == to.buffers[b.index].initial);
+    };
+    if (!isSame(from.positions, to.positions) || !isSame(from.velocities, to.velocities))
+        throw std::invalid_argument("particles: a change of material must have those of the simulation, "
+                                    "with the same positions and masses");
+}
+
+std::vector<BufferId> writtenByStep(const StepProgram& program) {
+    std::vector<bool> isWritten(program.buffers.size());
+    for (const Pass& pass : program.step)
+        for (const BufferUse& use : pass.uses)
+            if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
+    std::vector<BufferId> buffers;
+    const ForceBuffers& forces = program.forces; // of one step: not part of the state between steps
+    for (const BufferId buffer : {forces.terms, forces.parts, forces.rowParts, forces.sums})
+        if (buffer != BufferId{}) isWritten[buffer.index] = false;
+    for (std::uint32_t b = 0; b < isWritten.size(); ++b)
+        if (isWritten[b]) buffers.push_back({b});
+    return buffers;
+}
+
+} // namespace sinew::sim

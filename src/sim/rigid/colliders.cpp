@@ -1,0 +1,207 @@
+// The tables of the collider pass.
+#include "sim/rigid/colliders.hpp"
+
+#include "kernels.hpp"
+#include "sim/forces/forces.hpp"
+#include "sim/model/many_items.hpp"
+#include "sim/rigid/collider_paths.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace sinew::sim::rigid::colliders {
+
+namespace {
+
+constexpr std::uint32_t colliderCountId = 2, isMovingId = 3, pokeCountId = 4; // constant_id in colliders.glsl
+
+std::uint32_t groupsOf(std::uint32_t items) {
+    return (items - 1) / GROUP_ITEMS + 1;
+}
+
+// Appends a pass that runs only with pokes, unless something else `needsIt`: `element` is the group count
+// that the host sets.
+template <typename Push>
+void dispatch(ProgramBuilder& program, const Colliders& colliders, bool needsIt, IndirectItems items,
+              const vk::ShaderCode& code, std::span<const BufferId> buffers, const Push& push,
+              const ProgramBuilder::Constants& constants = {}) {
+    items.arguments = colliders.pokeArguments;
+    if (needsIt)
+        program.dispatch(code, items.most, buffers, push, constants);
+    else
+        program.dispatchIndirect(code, items, buffers, push, constants);
+}
+
+// Poses at the start of the step and after every substep; a single set if nothing moves.
+void addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t substeps, Colliders& colliders) {
+    if (!colliders.areMoving) {
+        std::vector<layout::ColliderPose> poses;
+        const ColliderPaths paths(scene.colliders, scene.driven);
+        for (const Pose& pose : paths.allPoses()) poses.push_back(onDevice(pose, 1));
+        colliders.poses = program.upload("colliders.poses", poses);
+        return;
+    }
+    const std::uint32_t count = colliders.placed, items = count * (substeps + 1);
+    colliders.ways = program.scratch<layout::ColliderPose>("colliders.ways", 2 * count);
+    colliders.poses =
+        program.scratch<layout::ColliderPose>("colliders.poses", std::uint64_t{count} * (substeps + 1));
+    program.updateColliders(colliders.ways);
+    const std::array buffers{colliders.ways, colliders.poses};
+    dispatch(program, colliders, count > colliders.pokes, {{}, POKES_PLACED, items}, kernels::placeColliders,
+             buffers, layout::PlacePush{items, count, substeps});
+    program.program().pokes.placed = groupsOf(items);
+}
+
+constexpr float mostStretch = 2; // of a link from a driven particle to one that rests on it
+
+// A sphere around everything of a driven body that a particle may touch or be linked to, for tests of
+// proximity (sleep).
+layout::Collider ballAround(const DrivenBody& body, const Scene& scene) {
+    float widest = 0, thickest = 0;
+    double farthest = 0;
+    for (const Particle& particle : scene.particles) widest = std::max(widest, particle.radius);
+    for (const Face& face : scene.faces) thickest = std::max(thickest, face.thickness);
+    const Pose pose = poseAt(body, 0);
+    std::vector<float> reach(scene.particles.size(), -1); // of links from a driven particle
+    for (const std::uint32_t particle : particlesOf(body)) reach[particle] = 0;
+    for (const DistanceConstraint& link : scene.distances)
+        for (const auto& [held, other] : {std::pair{link.a, link.b}, std::pair{link.b, link.a}})
+            if (reach[held] >= 0 && reach[other] < 0)
+                reach[held] = std::max(reach[held], mostStretch * link.restLength);
+    for (const std::uint32_t particle : particlesOf(body)) {
+        const Vec3 local = toLocal(pose, scene.particles[particle].position);
+        farthest = std::max(farthest, std::hypot(double{local.x}, double{local.y}, double{local.z}) +
+                                          double{reach[particle]});
+    }
+    layout::Collider ball{};
+    ball.core.w = static_cast<float>(farthest) + 2 * widest + thickest;
+    return ball;
+}
+
+void addShapes(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, Colliders& colliders) {
+    std::vector<layout::Collider> shapes(colliders.pokes);
+    for (const Collider& collider : scene.colliders) shapes.push_back(shapeOf(collider));
+    for (const DrivenBody& body : scene.driven) shapes.push_back(ballAround(body, scene));
+    colliders.shapes = program.upload("colliders", shapes);
+    if (colliders.pokes > 0) {
+        colliders.pokeArguments =
+            program.scratch<layout::DispatchArguments>("pokes.arguments", POKE_ARGUMENTS);
+        program.updatePokes(colliders.shapes, colliders.pokeArguments);
+        program.program().pokes.touching = groupsOf(colliders.particles);
+    }
+    if (colliders.count == 0) return;
+    std::vector<float> offsets(layout.count, 0);
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        offsets[layout.slot[i]] = scene.particles[i].contactOffset;
+    colliders.contactOffsets = program.upload("colliders.contact_offsets", offsets);
+}
+
+// Over all particles, `each` of them an invocation.
+template <typename Push>
+void dispatchTouching(ProgramBuilder& program, const Colliders& colliders, std::uint32_t each,
+                      const vk::ShaderCode& code, std::span<const BufferId> buffers, const Push& push,
+                      const ProgramBuilder::Constants& constants = {}) {
+    const std::uint32_t invocations = many_items::invocationsFor(colliders.particles, each);
+    dispatch(program, colliders, colliders.count > colliders.pokes, {{}, POKES_TOUCHING, invocations}, code,
+             buffers, push, constants);
+}
+
+layout::ColliderPush pushOf(const Colliders& colliders, std::uint32_t substep, Kick kick) {
+    const std::uint32_t row = colliders.areMoving ? colliders.placed : 0;
+    return {colliders.particles, substep * row, (substep + 1) * row, kick == Kick::half ? 0.5f : 0};
+}
+
+ProgramBuilder::Constants constantsOf(const Colliders& colliders) {
+    ProgramBuilder::Constants constants = many_items::constantsFor(colliders.itemsEach);
+    constants.insert({{colliderCountId, colliders.count},
+                      {isMovingId, colliders.areMoving},
+                      {pokeCountId, colliders.pokes}});
+    return constants;
+}
+
+// One where passes run for groups in which somebody is awake, and where all passes of pokes have one number
+// of groups.
+std::uint32_t itemsEachOf(const Colliders& colliders, const Settings& settings) {
+    if (settings.sleeps || colliders.count == colliders.pokes) return 1;
+    constexpr std::uint32_t turnsOfOne =
+        12; // loops of a particle and a collider: those of `entered`, and more
+    return many_items::fitting(settings.forms.items, turnsOfOne * (colliders.count + 1));
+}
+
+} // namespace
+
+Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+              const StateLayout& layout) {
+    const auto count = static_cast<std::uint32_t>(scene.colliders.size()) + settings.pokes;
+    if (count == 0 && scene.driven.empty()) return {};
+    const auto moves = [](const auto& item) { return isMoving(item); };
+    const auto rebounds = [](const auto& item) { return item.restitution > 0; };
+    Colliders colliders{.count = count,
+                        .pokes = settings.pokes,
+                        .particles = static_cast<std::uint32_t>(layout.count),
+                        .placed = count + static_cast<std::uint32_t>(scene.driven.size()),
+                        .areMoving = settings.pokes > 0 || std::ranges::any_of(scene.colliders, moves) ||
+                                     std::ranges::any_of(scene.driven, moves)};
+    colliders.hasRebound =
+        colliders.count > 0 &&
+        (std::ranges::any_of(scene.colliders, rebounds) || std::ranges::any_of(scene.planes, rebounds) ||
+         rebounds(scene.contacts) ||
+         std::ranges::any_of(scene.contacts.surfaces, rebounds)); // the way is then not h v
+    colliders.itemsEach = itemsEachOf(colliders, settings);
+    addShapes(program, scene, layout, colliders);
+    addPoses(program, scene, settings.substeps, colliders);
+    return colliders;
+}
+
+void addMemory(ProgramBuilder& program, Colliders& colliders) {
+    if (colliders.hasRebound)
+        colliders.before =
+            program.scratch<layout::vec4>("colliders.before", 2 * std::uint64_t{colliders.particles});
+}
+
+void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
+                bool isFirst) {
+    if (!colliders.hasRebound) return;
+    const std::array buffers{particles.positions, particles.velocities, colliders.before, particles.step};
+    dispatchTouching(program, colliders, 1, kernels::openColliders, buffers,
+                     layout::SubstepPush{colliders.particles, isFirst});
+}
+
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
+             std::uint32_t substep, Kick kick, const ParticleBuffers* predicted) {
+    if (colliders.count == 0) return;
+    std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
+                                  particles.positions, particles.velocities, particles.step};
+    forces::Forms forms{&kernels::solveColliders, &kernels::solveCollidersForces};
+    if (colliders.hasRebound) {
+        buffers.push_back(colliders.before);
+        forms = {&kernels::solveCollidersRebound, &kernels::solveCollidersReboundForces};
+    } else if (predicted) {
+        buffers.insert(buffers.end(), {predicted->positions, predicted->velocities});
+        forms = {&kernels::solveCollidersContacts, &kernels::solveCollidersContactsForces};
+    }
+    ProgramBuilder::Constants constants = constantsOf(colliders);
+    constants.merge(remainderConstants(particles.layout));
+    const vk::ShaderCode& code =
+        forces::formFor(particles, forms, &forces::Forces::ofColliders, buffers, constants);
+    dispatchTouching(program, colliders, colliders.itemsEach, code, buffers, pushOf(colliders, substep, kick),
+                     constants);
+}
+
+void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+                 const Colliders& colliders, std::uint32_t substep) {
+    if (colliders.count == 0) return;
+    std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
+                                  particles.positions, particles.velocities, particles.step,
+                                  corrections};
+    ProgramBuilder::Constants constants = constantsOf(colliders);
+    const vk::ShaderCode& code =
+        forces::formFor(particles, {&kernels::solveCollidersOpen, &kernels::solveCollidersOpenForces},
+                        &forces::Forces::ofColliders, buffers, constants);
+    dispatchTouching(program, colliders, colliders.itemsEach, code, buffers,
+                     pushOf(colliders, substep, Kick::half), constants);
+}
+
+} // namespace sinew::sim::rigid::colliders

@@ -1,0 +1,45 @@
+// Spheres, capsules and boxes on the device: one pass at the end of a substep, after contacts, attachments
+// and tethers, the same for every solver. If any of them moves, a pass at the start of a step computes their
+// poses for all its substeps. Pokes come first among them; the host says which are present, and passes that
+// only pokes need run for no group while none is. A scene without colliders, with settings without pokes, has
+// none of these passes.
+#pragma once
+
+#include "common/layout.h"
+#include "sim/model/state.hpp"
+
+namespace sinew::sim::rigid::colliders {
+
+struct Colliders {
+    std::uint32_t count = 0;     ///< pokes included
+    std::uint32_t pokes = 0;     ///< the first of them
+    std::uint32_t particles = 0; ///< slots of the state
+    std::uint32_t placed = 0;    ///< poses of a substep: colliders, then driven bodies
+    std::uint32_t itemsEach = 1; ///< particles of an invocation (many_items.hpp)
+    bool areMoving = false;      ///< whether any of these poses can change
+    bool hasRebound = false;
+    BufferId shapes;        ///< of colliders, then spheres around driven bodies
+    BufferId pokeArguments; ///< of passes that only pokes need; invalid without pokes
+    BufferId poses, contactOffsets, before;
+    BufferId ways; ///< start and end poses in this step; invalid unless areMoving
+};
+
+/// Also appends the pass that computes the poses of colliders and driven bodies: call it once, before the
+/// substeps.
+Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+              const StateLayout& layout);
+
+/// Adds the buffer that addOpening() fills, for `split` and `jacobi`; only if something has restitution.
+void addMemory(ProgramBuilder& program, Colliders& colliders);
+/// Appends the pass before the links of a substep.
+void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
+                bool isFirst);
+/// Appends the end of that substep, which counts from 0. `predicted`: particles before contacts with each
+/// other; null if they touch nothing else.
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
+             std::uint32_t substep, Kick kick, const ParticleBuffers* predicted = nullptr);
+/// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
+void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+                 const Colliders& colliders, std::uint32_t substep);
+
+} // namespace sinew::sim::rigid::colliders

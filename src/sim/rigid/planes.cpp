@@ -1,0 +1,90 @@
+// The host side of boundary planes.
+#include "sim/rigid/planes.hpp"
+
+#include "kernels.hpp"
+#include "sim/forces/forces.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim::rigid::planes {
+
+namespace {
+
+constexpr std::uint32_t planeCountId = 2; // constant_id in planes.glsl
+
+// Appends a pass over all particles, in the form that keeps forces if the step does.
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const forces::Forms& forms,
+             std::vector<BufferId> buffers, ProgramBuilder::Constants constants) {
+    const vk::ShaderCode& code =
+        forces::formFor(particles, forms, &forces::Forces::ofPlanes, buffers, constants);
+    program.dispatch(code, particles.count, buffers, layout::CountPush{particles.count}, constants);
+}
+
+} // namespace
+
+ProgramBuilder::Constants Planes::constants() const {
+    return {{planeCountId, count}};
+}
+
+Planes add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
+    if (scene.planes.empty()) return {};
+    std::vector<layout::PlaneCollider> items;
+    for (const Plane& plane : scene.planes) {
+        const Vec3& n = plane.normal;
+        items.push_back({{n.x, n.y, n.z, plane.offset},
+                         plane.friction,
+                         plane.restitution,
+                         std::max(plane.friction, plane.staticFriction),
+                         0});
+    }
+    std::vector<float> offsets(layout.count, 0);
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        offsets[layout.slot[i]] = scene.particles[i].contactOffset;
+    return {.count = static_cast<std::uint32_t>(items.size()),
+            .planes = program.upload("planes", items),
+            .contactOffsets = program.upload("contact_offsets", offsets)};
+}
+
+void addTouch(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+              const Planes& planes) {
+    if (planes.count == 0) return;
+    addPass(program, particles, {&kernels::touchPlanes, &kernels::touchPlanesForces},
+            {particles.positions, particles.velocities, corrections, planes.planes, planes.contactOffsets,
+             particles.step},
+            planes.constants());
+}
+
+Contacts addContacts(ProgramBuilder& program, const Scene& scene) {
+    if (scene.planes.empty()) return {};
+    return {add(program, scene, orderedLayout(scene.particles.size())),
+            program.scratch<layout::PlaneContact>("contacts", scene.particles.size())};
+}
+
+void addOpen(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
+    if (contacts.planes.count == 0) return;
+    program.dispatch(kernels::openPlaneContacts, particles.count, {particles.velocities, contacts.contacts},
+                     layout::CountPush{particles.count});
+}
+
+void addSolve(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
+    if (contacts.planes.count == 0) return;
+    addPass(program, particles, {&kernels::solvePlanes, &kernels::solvePlanesForces},
+            {particles.positions, particles.velocities, contacts.contacts, contacts.planes.planes,
+             contacts.planes.contactOffsets, particles.step},
+            contacts.planes.constants());
+}
+
+void addVelocityUpdate(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
+    if (contacts.planes.count == 0) {
+        program.dispatch(kernels::updateVelocity, particles.count, {particles.velocities, particles.step},
+                         layout::CountPush{particles.count});
+    } else {
+        std::vector<BufferId> buffers{particles.velocities, particles.step, contacts.contacts,
+                                      contacts.planes.planes};
+        if (particles.forces) buffers.push_back(particles.positions);
+        addPass(program, particles, {&kernels::updateVelocityPlanes, &kernels::updateVelocityPlanesForces},
+                std::move(buffers), contacts.planes.constants());
+    }
+}
+
+} // namespace sinew::sim::rigid::planes

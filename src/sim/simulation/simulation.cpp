@@ -1,0 +1,331 @@
+// The façade: validates, compiles, owns the executor, and turns a Step into the parameters that kernels read.
+#include "sim/simulation/simulation_state.hpp"
+
+#include "sinew/validate.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
+namespace sinew::sim {
+
+namespace {
+
+// `dt` within its range; NaN becomes the shortest step.
+float withinRange(float dt) {
+    const auto low = static_cast<float>(ranges::dt.low), high = static_cast<float>(ranges::dt.high);
+    return dt >= low ? std::min(dt, high) : low;
+}
+
+} // namespace
+
+const Scene& valid(const Scene& scene, const Settings& settings) {
+    requireNone(validate(scene, settings));
+    return scene;
+}
+
+SplitBudget dampedBudget(const Scene& scene, const Settings& settings) {
+    return scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{};
+}
+
+Simulation::Simulation(const vk::Device& device, const Scene& scene, const Settings& settings)
+    : state_(std::make_unique<State>(device, scene, settings)) {}
+
+Simulation::~Simulation() {
+#ifndef NDEBUG
+    if (const auto frame = state_->ring.oldestUnfinished())
+        std::fprintf(
+            stderr,
+            "sinew: a simulation is destroyed, and step %llu was recorded and has not finished: wait "
+            "for its submission first\n",
+            static_cast<unsigned long long>(*frame));
+#endif
+}
+
+// Conditions of a calm step. No grab may be active: grabs that change in an undone step would begin anew when
+// it is repeated. There must be passes to leave out. An undone step must leave the state as it was before, in
+// bits, which it does not with a substep of another length.
+bool Simulation::State::mayBeCalm(float h) const noexcept {
+    return isKeptWhereUndone && h == previousH && calmSteps.areCalm() && hands.areFree() &&
+           !program.grids.empty();
+}
+
+void Simulation::State::readSteps() noexcept {
+    for (std::uint64_t i = 0; i < ring.slots(); ++i) { // oldest first
+        RecordedStep& step = ring.step(nextFrame + i);
+        if (step.isRead || step.generation != generation || !ring.isFinished(step.frame)) continue;
+        step.isRead = true;
+        const layout::StatusWords words = ring.words(step.frame);
+        if (lackedLists) continue; // undone too
+        if (lackLists(words)) {
+            lackedLists = step.frame;
+            calmSteps.lacked();
+        } else {
+            calmSteps.finished(words.laterLists, step.isCalm);
+        }
+    }
+}
+
+void Simulation::State::noteBefore(std::uint64_t frame) noexcept {
+    Before& slot = befores[ring.slotOf(frame)];
+    const rigid::Pokes& pokes = colliders.pokes();
+    slot.h = previousH;
+    slot.time = colliders.time();
+    slot.pokes = pokes.states();
+    std::ranges::copy(anchors.values(), slot.anchors.begin());
+    slot.hands = hands;
+    slot.isUncut = isUncut;
+    slot.hasNewTopology = hasNewTopology;
+    slot.isChanged = isChanged;
+    slot.changes = changes;
+    slot.topologies = topologies;
+    slot.frame = frame;
+}
+
+void Simulation::State::goBack() noexcept {
+    readSteps();
+    if (!lackedLists || isBack) return;
+    const Before& slot = befores[ring.slotOf(*lackedLists)];
+    if (slot.frame != lackedLists) return; // too many steps were in flight
+    isBack = true;
+    undoneH = previousH;
+    previousH = slot.h;
+    colliders.moveTo(slot.time, slot.pokes);
+    anchors.restore(slot.anchors);
+    hands.restore(*slot.hands);
+    isUncut = slot.isUncut && topologies == slot.topologies;
+    hasNewTopology = slot.hasNewTopology || topologies != slot.topologies;
+    isChanged = slot.isChanged || changes != slot.changes;
+}
+
+void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
+    vk::Commands commands(state_->device, buffer);
+    state_->executor.upload(commands);
+    state_->previousH = 0;
+    state_->settledEnd = {};
+    state_->forgetUnsettled();
+    state_->hasState = true;
+    state_->anchors.reset();
+    state_->hands.reset();
+    state_->colliders.moveTo(0);
+    state_->isUncut = true;
+}
+
+void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps* timestamps) noexcept {
+    const float dt = withinRange(step.dt);
+    const bool isBlade = state_->blade.read(step) && state_->mayBeCut();
+    const bool hasBlade = isBlade || state_->program.cutting.tears;
+    state_->noteMisuse(step);
+    state_->readSteps();
+    state_->noteRepetition(step.frame);
+    const bool isAgain = state_->lackedLists == step.frame;
+    const bool givesUp = !step.repeats && state_->missesRepetition(step.frame);
+    if (isAgain || givesUp) {
+        state_->goBack();
+        const std::optional<float> undoneH = state_->undoneH;
+        state_->beginGeneration();
+        state_->undoneH = undoneH;
+    }
+    state_->isBack = false;
+    if (step.repeats) state_->noteBefore(step.frame);
+    state_->settledEnd = state_->settled(step.frame, state_->settledEnd); // before its slot is reused
+    state_->nextFrame = step.frame + 1;
+    state_->anchors.advance(step.anchors, dt);
+    state_->hands.advance(step.grabs, dt);
+    const bool isCalm =
+        step.repeats && !isAgain && !isBlade && state_->mayBeCalm(dt / static_cast<float>(state_->substeps));
+    const std::uint32_t lists = (step.repeats ? LISTS_REPEATS : 0) | (isCalm ? LISTS_CALM : 0) |
+                                (isAgain || givesUp || state_->isNewState ? LISTS_RESUMES : 0);
+    const layout::StepParams parameters = state_->parameters(step, dt, lists);
+    state_->ring.open({.isRecorded = true,
+                       .frame = step.frame,
+                       .lostTime = std::max(0.0f, step.dt - dt),
+                       .hasBlade = hasBlade,
+                       .isCalm = isCalm,
+                       .repeats = step.repeats,
+                       .generation = state_->generation});
+    state_->colliders.advance(dt, step.pokes);
+    const rigid::ColliderPaths& colliders = state_->colliders;
+    const auto pokeArguments = state_->pokeArguments();
+    state_->unsettled[state_->ring.slotOf(step.frame)] = {
+        true, {parameters.h, colliders.time(), colliders.pokes().states()}};
+    state_->isUncut = state_->isUncut && !hasBlade;
+    vk::Commands commands(state_->device, buffer);
+    if (timestamps) timestamps->reset(commands);
+    commands.beginStep();
+    state_->executor.step(commands,
+                          {std::as_bytes(std::span(&parameters, 1)), std::as_bytes(state_->anchors.values()),
+                           std::as_bytes(colliders.ways()), std::as_bytes(colliders.pokes().shapes()),
+                           std::as_bytes(std::span(pokeArguments)), std::as_bytes(state_->hands.values()),
+                           state_->blade.head(), state_->blade.points()},
+                          timestamps, {.hasBlade = hasBlade, .isCalm = isCalm});
+    commands.barrier();
+    state_->recordStatus(commands, step.frame);
+    commands.endStepForHost();
+    state_->recordEnd(commands, step.frame);
+    commands.hostBarrier();
+    state_->previousH = parameters.h;
+    state_->undoneH.reset();
+    state_->hasNewTopology = state_->isChanged = state_->isNewState = false;
+}
+
+void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail) noexcept {
+    if (!state_->hasState) state_->misuse.note(Misuse::noReset, state_->nextFrame);
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    if (detail == SkinDetail::drawn && drawnSkins().areWhole)
+        state_->executor.wholeSkin(commands);
+    else
+        state_->executor.skin(commands);
+    commands.endStep();
+}
+
+vk::BufferView Simulation::positions() const noexcept {
+    return state_->executor.view(state_->program.positions);
+}
+vk::BufferView Simulation::velocities() const noexcept {
+    return state_->executor.view(state_->program.velocities);
+}
+vk::BufferView Simulation::pieces() const noexcept {
+    return state_->executor.view(state_->program.cutting.pieces);
+}
+vk::BufferView Simulation::pieceSizes() const noexcept {
+    return state_->executor.view(state_->program.cutting.pieceSizes);
+}
+vk::BufferView Simulation::skinVertices() const noexcept {
+    return state_->executor.view(state_->program.skinVertices);
+}
+vk::BufferView Simulation::skinIndices() const noexcept {
+    return state_->executor.view(state_->program.skinIndices);
+}
+const std::vector<SkinRange>& Simulation::skins() const noexcept {
+    return state_->skins;
+}
+Simulation::DrawnSkins Simulation::drawnSkins() const noexcept {
+    const vk::BufferView whole = view(state_->program.wholeIndices);
+    if (state_->isUncut && whole.size > 0) return {whole, state_->wholeSkins, true};
+    return {skinIndices(), state_->skins};
+}
+CutSurface Simulation::cutSurface() const noexcept {
+    const CutSurfaceBuffers& buffers = state_->program.cutSurface;
+    return {view(buffers.vertices), view(buffers.rest),  view(buffers.indices),
+            view(buffers.draws),    view(buffers.state), view(buffers.particles)};
+}
+vk::BufferView Simulation::pieceDraws() const noexcept {
+    return state_->executor.view(state_->program.pieceDraws);
+}
+std::span<const Pose> Simulation::colliderPoses() const noexcept {
+    state_->goBack();
+    return state_->colliders.poses();
+}
+std::span<const PokeState> Simulation::pokes() const noexcept {
+    state_->goBack();
+    const rigid::Pokes& pokes = state_->colliders.pokes();
+    return std::span(pokes.states()).first(pokes.count());
+}
+vk::BufferView Simulation::view(BufferId buffer) const noexcept {
+    return state_->executor.view(buffer);
+}
+const StepProgram& Simulation::program() const noexcept {
+    return state_->program;
+}
+
+Status Simulation::status(std::uint64_t frame) const noexcept {
+    const StepRing& ring = state_->ring;
+    if (!ring.isFinished(frame)) return {.frame = static_cast<std::uint32_t>(frame)};
+    const layout::StatusWords words = ring.words(frame);
+    const RecordedStep& step = ring.step(frame);
+    const layout::CutCounts counts = ring.counts(frame);
+    const bool lacksLists = State::lackLists(words);
+    return {.frame = words.frame,
+            .isFinished = true,
+            .isUndone = ring.isUndone(frame),
+            .stepsUndone = ring.undoneUntil(frame),
+            .nonFinite = lacksLists ? 0 : words.nonFinite, // that state lacks contacts
+            .firstBadParticle = ~words.invertedFirstBad,
+            .contactRoom = words.candidates,
+            .lacksLists = lacksLists,
+            .isCalm = step.isCalm,
+            .laterLists = words.laterLists,
+            .slowed = words.slowed,
+            .sleeping = words.sleeping,
+            .lostTime = step.lostTime,
+            .linksCut = step.hasBlade ? counts.linksOfStep : 0,
+            .linksCutInAll = counts.links,
+            .pieces = counts.pieces,
+            .crumbs = counts.crumbs,
+            .crumbParticles = counts.crumbParticles,
+            .crumbMass = static_cast<float>(state_->program.cutting.crumbUnit * counts.crumbMass),
+            .cutSurfaceMissing = counts.missing};
+}
+
+namespace {
+
+Impulse impulseOf(const layout::ForceSum& sum) {
+    return {{sum.impulse.x, sum.impulse.y, sum.impulse.z}, {sum.torque.x, sum.torque.y, sum.torque.z}};
+}
+
+} // namespace
+
+Impulses Simulation::forces(std::uint64_t frame) const {
+    const ForceBuffers& buffers = state_->program.forces;
+    if (!state_->ring.isFinished(frame)) return {};
+    Impulses impulses{.isFinished = true};
+    const std::vector<layout::ForceSum> sums = state_->ring.forces(frame);
+    if (sums.empty()) return impulses;
+    for (std::uint32_t b = 0; b < buffers.bodies; ++b) {
+        const auto of = [&](std::uint32_t kind) { return impulseOf(sums[FORCE_KINDS * b + kind]); };
+        impulses.bodies.push_back({.contacts = of(FORCE_CONTACTS),
+                                   .planes = of(FORCE_PLANES),
+                                   .colliders = of(FORCE_COLLIDERS),
+                                   .holds = of(FORCE_HOLDS),
+                                   .grabs = of(FORCE_GRABS)});
+    }
+    auto next = sums.begin() + FORCE_KINDS * buffers.bodies;
+    const auto take = [&](std::uint32_t count) {
+        std::vector<Impulse> list;
+        for (; count > 0; --count) list.push_back(impulseOf(*next++));
+        return list;
+    };
+    impulses.grabs = take(buffers.grabs);
+    impulses.planes = take(buffers.planes);
+    impulses.pokes = take(buffers.pokes);
+    impulses.colliders = take(buffers.colliders);
+    next += buffers.stops; // already part of the bodies
+    impulses.attachments = take(buffers.attachments);
+    impulses.holds = take(buffers.holds);
+    return impulses;
+}
+
+vk::BufferView Simulation::forceSums() const noexcept {
+    return state_->executor.view(state_->program.forces.sums);
+}
+
+std::vector<std::string> Simulation::complaints() {
+    state_->readSteps();
+    const std::uint64_t end = state_->lackedLists.value_or(~std::uint64_t{0}); // later steps are undone
+    if (const auto lack = state_->ring.lackOfRoom(state_->generation, end))
+        state_->misuse.note(Misuse::contactRoom, lack->frame, lack->needed, state_->chosen.contactRoom);
+    std::vector<std::string> sentences = std::exchange(state_->untold, {});
+    std::ranges::move(state_->misuse.take(), std::back_inserter(sentences));
+    return sentences;
+}
+
+std::vector<std::string> Simulation::complaintsOfUse() {
+    state_->untold.clear();
+    return complaints();
+}
+
+std::optional<std::uint64_t> Simulation::oldestInFlight() const noexcept {
+    return state_->ring.oldestUnfinished();
+}
+
+std::vector<std::string> Simulation::phases() const {
+    std::vector<std::string> names;
+    for (const std::uint32_t phase : state_->executor.timedPhases())
+        names.push_back(state_->program.phases[phase]);
+    return names;
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,290 @@
+// The buffers and passes of sleeping in order, and the choice of indirect dispatches.
+#include "sim/sleep/sleep.hpp"
+
+#include "kernels.hpp"
+#include "sim/grabs/grab.hpp"
+#include "sim/model/components.hpp"
+#include "sim/model/inverse_masses.hpp"
+#include "sim/rigid/driven.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace sinew::sim::sleep {
+
+namespace {
+
+namespace k = kernels;
+
+constexpr std::uint32_t mostPasses = 64; // passes that differ in kind or number of groups
+
+std::uint32_t groupsOf(std::uint32_t items, std::uint32_t groupSize) {
+    return (items - 1) / groupSize + 1;
+}
+
+// By slot the first slot of its linked component. Static particles connect nothing.
+std::vector<std::uint32_t> componentsOf(const Scene& scene, const StateLayout& layout,
+                                        std::span<const float> weights) {
+    std::vector<float> inverseMass(scene.particles.size());
+    for (std::size_t i = 0; i < inverseMass.size(); ++i)
+        inverseMass[i] = std::max(weights[layout.slot[i]], 0.0f);
+    const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
+    std::vector<std::uint32_t> least(components.size(), ~0u), result(layout.count);
+    for (std::size_t i = 0; i < components.size(); ++i)
+        least[components[i]] = std::min(least[components[i]], layout.slot[i]);
+    std::iota(result.begin(), result.end(), 0u);
+    for (std::size_t i = 0; i < components.size(); ++i) result[layout.slot[i]] = least[components[i]];
+    return result;
+}
+
+// Largest drift of a resting particle [m]: 0.02 radii, or without a radius 0.01 of the mean length of its
+// links.
+std::vector<float> limitsOf(const Scene& scene, const StateLayout& layout) {
+    constexpr float ofRadius = 0.02f, ofLength = 0.01f, ofNothing = 0.001f;
+    std::vector<float> lengths(scene.particles.size()), links(scene.particles.size());
+    for (const DistanceConstraint& d : scene.distances)
+        for (const std::uint32_t end : {d.a, d.b}) {
+            lengths[end] += d.restLength;
+            links[end] += 1;
+        }
+    std::vector<float> limits(layout.count);
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        const float radius = scene.particles[i].radius;
+        const float mean = links[i] > 0 ? lengths[i] / links[i] : 0;
+        limits[layout.slot[i]] = radius > 0 ? ofRadius * radius : mean > 0 ? ofLength * mean : ofNothing;
+    }
+    return limits;
+}
+
+std::vector<float> weightsOf(const Scene& scene, const StateLayout& layout) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    const std::vector<bool> isDriven = rigid::driven::areDriven(scene);
+    std::vector<float> weights(layout.count, 0);
+    for (std::size_t i = 0; i < inverseMass.size(); ++i)
+        weights[layout.slot[i]] = isDriven[i] ? SLEEP_DRIVEN : inverseMass[i];
+    return weights;
+}
+
+IndirectItems itemsOf(Sleep& sleep, std::uint32_t kind, std::uint32_t items, std::uint32_t groupSize) {
+    const layout::SleepPass pass{groupsOf(items, groupSize), kind};
+    const auto isSame = [&](const layout::SleepPass& other) {
+        return other.groups == pass.groups && other.kind == pass.kind;
+    };
+    const auto found = std::ranges::find_if(sleep.passesSeen, isSame);
+    const auto element = static_cast<std::uint32_t>(found - sleep.passesSeen.begin());
+    if (found == sleep.passesSeen.end()) sleep.passesSeen.push_back(pass);
+    return {sleep.arguments, element, items};
+}
+
+const vk::ShaderCode* awakeForm(const vk::ShaderCode& code) {
+    for (const auto& [form, awake] : k::awakeForms)
+        if (form == &code) return awake;
+    return nullptr;
+}
+
+// Passes over particles run for listed groups; any other pass runs entirely or not at all.
+GatedDispatch gated(Sleep& sleep, const vk::ShaderCode& code, std::uint32_t items) {
+    const std::uint32_t groupSize = vk::readInterface(code).groupSize[0];
+    const vk::ShaderCode* awake = awakeForm(code);
+    if (!awake) return {&code, itemsOf(sleep, SLEEP_ALL, items, groupSize), {}};
+    return {awake, itemsOf(sleep, SLEEP_LISTED, items, groupSize), sleep.listed};
+}
+
+IndirectItems wakingItems(const Sleep& sleep, std::uint32_t element, std::uint32_t items) {
+    return {sleep.waking, element, items};
+}
+
+// Passes that wake the particles of marked islands, and then list the groups that run.
+void addWaking(ProgramBuilder& program, const Sleep& sleep, BufferId velocities, std::uint32_t all,
+               std::uint32_t one) {
+    program.dispatchIndirect(k::wakeIslands, wakingItems(sleep, all, sleep.push.count),
+                             {sleep.weights, velocities, sleep.islands, sleep.marks, sleep.groups},
+                             sleep.push);
+    program.dispatchIndirect(k::listAwake, wakingItems(sleep, one, GROUP_ITEMS),
+                             {sleep.groups, sleep.listed, sleep.passes, sleep.arguments, sleep.state},
+                             sleep.push);
+}
+
+// Passes that wake islands marked in a substep.
+void addWakingTouched(ProgramBuilder& program, Sleep& sleep, BufferId velocities) {
+    program.dispatchIndirect(k::planWaking, itemsOf(sleep, SLEEP_MIXED_ALL, 1, GROUP_ITEMS),
+                             {sleep.state, sleep.waking}, sleep.push);
+    addWaking(program, sleep, velocities, SLEEP_WAKING, SLEEP_WAKING_ONE);
+}
+
+void closeGate(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) {
+    program.setGate(
+        [sleep](const vk::ShaderCode& code, std::uint32_t items) { return gated(*sleep, code, items); });
+}
+
+// Passes after the check of a step: detect rest, and put islands to sleep.
+void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuffers& particles) {
+    const auto& status = program.program().status;
+    const BufferId positions = particles.positions, velocities = particles.velocities;
+    const auto add = [&](const vk::ShaderCode& code, const std::vector<BufferId>& buffers) {
+        program.dispatchIndirect(code, wakingItems(sleep, SLEEP_RESTING, sleep.push.count), buffers,
+                                 sleep.push);
+    };
+    program.setGate({});
+    program.dispatch(k::closeSleep, GROUP_ITEMS,
+                     {sleep.state, status, sleep.waking, particles.step, sleep.anchors, sleep.seenAnchors,
+                      sleep.ways, sleep.seenPoses, sleep.arguments},
+                     sleep.push);
+    add(k::watchRest, {sleep.weights, sleep.limits, positions, velocities, particles.step, sleep.rests,
+                       sleep.components, sleep.islands, sleep.least});
+    const auto& pairs = sleep.pairs;
+    if (pairs.contacts != BufferId{})
+        add(k::joinIslands, {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.lists,
+                             pairs.hits, pairs.touching});
+    for (const SeenRows& rows : sleep.rows) {
+        std::vector<BufferId> buffers{sleep.weights, velocities, sleep.islands};
+        buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());
+        add(*rows.join, buffers);
+    }
+    add(k::findIslands, {sleep.weights, velocities, sleep.rests, sleep.islands, sleep.least});
+    program.dispatchIndirect(
+        k::fallAsleep, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
+        {sleep.weights, positions, velocities, particles.step, sleep.islands, sleep.least, sleep.rests},
+        sleep.push, remainderConstants(particles.layout));
+}
+
+// Sets the buffers of attachments and colliders, or placeholders for them.
+void setMoving(ProgramBuilder& program, Sleep& sleep, const constraints::attachment::Attachments& attachments,
+               const rigid::colliders::Colliders& colliders) {
+    sleep.push.attachments = attachments.count;
+    sleep.push.colliders = colliders.areMoving ? colliders.placed : 0;
+    sleep.push.driven = colliders.areMoving ? colliders.placed - colliders.count : 0;
+    const bool areAttached = attachments.count > 0, areMoving = colliders.areMoving;
+    const std::uint64_t anchors = std::max(sleep.push.attachments, 1u);
+    const std::uint64_t poses = std::max(sleep.push.colliders, 1u);
+    sleep.attachments = areAttached ? attachments.particles
+                                    : program.scratch<layout::AttachedParticle>("sleep.no_attachments", 1);
+    sleep.anchors = areAttached ? attachments.anchors : program.scratch<layout::vec4>("sleep.no_anchors", 1);
+    sleep.seenAnchors = program.scratch<layout::vec4>("sleep.anchors", anchors);
+    sleep.colliders =
+        areMoving ? colliders.shapes : program.scratch<layout::Collider>("sleep.no_colliders", 1);
+    sleep.contactOffsets = areMoving && colliders.count > 0
+                               ? colliders.contactOffsets
+                               : program.scratch<float>("sleep.no_offsets", sleep.push.count);
+    sleep.ways = areMoving ? colliders.ways : program.scratch<layout::ColliderPose>("sleep.no_ways", 1);
+    sleep.seenPoses = program.scratch<layout::ColliderPose>("sleep.poses", poses);
+    program.carry(sleep.seenAnchors, sleep.seenAnchors);
+    program.carry(sleep.seenPoses, sleep.seenPoses);
+}
+
+void setContents(ProgramBuilder& program, BufferId buffer, std::span<const std::byte> bytes) {
+    std::vector<std::byte>& initial = program.program().buffers[buffer.index].initial;
+    initial.assign(program.program().buffers[buffer.index].bytes(), std::byte{0});
+    std::copy(bytes.begin(), bytes.end(), initial.begin());
+}
+
+} // namespace
+
+std::shared_ptr<Sleep> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                           const ParticleBuffers& particles) {
+    const StateLayout& layout = particles.layout;
+    const auto count = static_cast<std::uint32_t>(layout.count);
+    auto sleep = std::make_shared<Sleep>();
+    sleep->push.count = count;
+    sleep->push.groups = groupsOf(count, GROUP_ITEMS);
+    sleep->push.passes = mostPasses; // unused ones have no groups
+    sleep->push.substeps = settings.substeps;
+    const std::vector<float> weights = weightsOf(scene, layout);
+    std::vector<std::uint32_t> groups(sleep->push.groups);
+    std::iota(groups.begin(), groups.end(), 0u);
+    layout::SleepState state{};
+    state.listed = sleep->push.groups;
+    sleep->state = program.upload("sleep.state", std::vector{state});
+    sleep->weights = program.upload("sleep.weights", weights);
+    sleep->limits = program.upload("sleep.limits", limitsOf(scene, layout));
+    sleep->rests = program.scratch<layout::vec4>("sleep.rests", count);
+    sleep->components = program.upload("sleep.components", componentsOf(scene, layout, weights));
+    sleep->islands = program.scratch<std::uint32_t>("sleep.islands", count);
+    sleep->least = program.scratch<std::uint32_t>("sleep.least", count);
+    sleep->marks = program.scratch<std::uint32_t>("sleep.marks", count);
+    sleep->groups = program.upload("sleep.groups", std::vector<std::uint32_t>(groups.size(), 7));
+    sleep->listed = program.upload("sleep.listed", groups);
+    sleep->passes = program.scratch<layout::SleepPass>("sleep.passes", mostPasses);
+    sleep->arguments = program.scratch<layout::DispatchArguments>("sleep.arguments", mostPasses);
+    sleep->waking = program.scratch<layout::DispatchArguments>("sleep.waking", SLEEP_ARGUMENTS);
+    program.program().sleep = {sleep->arguments, sleep->listed};
+    for (const BufferId buffer : {sleep->state, sleep->rests, sleep->islands}) program.carry(buffer, buffer);
+    itemsOf(*sleep, SLEEP_ALL, GROUP_ITEMS, GROUP_ITEMS); // element 0: whether anything runs
+    return sleep;
+}
+
+void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
+                const constraints::attachment::Attachments& attachments,
+                const rigid::colliders::Colliders& colliders) {
+    if (!particles.sleep) return;
+    Sleep& sleep = *particles.sleep;
+    setMoving(program, sleep, attachments, colliders);
+    program.dispatch(k::openSleep, GROUP_ITEMS,
+                     {sleep.state, program.program().status, sleep.waking, particles.step, sleep.anchors,
+                      sleep.seenAnchors, sleep.ways, sleep.seenPoses},
+                     sleep.push);
+    if (const auto& grabs = particles.grabs)
+        program.dispatchIndirect(k::wakeHeld, {grabs->pulling, 0, sleep.push.count},
+                                 {grabs->bodies, grabs->held, grabs->pulling, sleep.weights,
+                                  particles.velocities, sleep.islands, sleep.marks, sleep.waking},
+                                 sleep.push);
+    program.dispatchIndirect(k::markWaking, wakingItems(sleep, SLEEP_OPENING, sleep.push.count),
+                             {sleep.state, sleep.weights, particles.velocities, particles.positions,
+                              sleep.islands, sleep.marks, sleep.attachments, sleep.anchors, sleep.seenAnchors,
+                              sleep.colliders, sleep.contactOffsets, sleep.ways, sleep.seenPoses},
+                             sleep.push);
+    addWaking(program, sleep, particles.velocities, SLEEP_OPENING, SLEEP_OPENING_ONE);
+    closeGate(program, particles.sleep);
+    program.afterCheck([&program, particles] {
+        addJudgement(program, *particles.sleep, particles);
+        closeGate(program, particles.sleep);
+    });
+}
+
+const vk::ShaderCode& listedForm(const vk::ShaderCode& code) {
+    return *awakeForm(code);
+}
+
+void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
+    if (!predicted.sleep) return;
+    Sleep& sleep = *predicted.sleep;
+    program.dispatchIndirect(k::wakeTouched, itemsOf(sleep, SLEEP_MIXED, sleep.push.count, GROUP_ITEMS),
+                             {sleep.weights, predicted.velocities, predicted.positions, sleep.islands,
+                              sleep.marks, sleep.state, sleep.pairs.contacts, sleep.pairs.lists,
+                              sleep.pairs.bounds, predicted.step, sleep.listed},
+                             sleep.push);
+    addWakingTouched(program, sleep, predicted.velocities);
+}
+
+void addRowTouches(ProgramBuilder& program, const ParticleBuffers& predicted, const SeenRows& rows) {
+    if (!predicted.sleep) return;
+    Sleep& sleep = *predicted.sleep;
+    std::vector<BufferId> buffers{sleep.weights, predicted.velocities, sleep.islands, sleep.marks,
+                                  sleep.state};
+    buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());
+    program.dispatchIndirect(*rows.wake, itemsOf(sleep, SLEEP_MIXED_ALL, sleep.push.count, GROUP_ITEMS),
+                             buffers, sleep.push);
+    addWakingTouched(program, sleep, predicted.velocities);
+}
+
+void finish(ProgramBuilder& program, const ParticleBuffers& particles) {
+    if (!particles.sleep) return;
+    const Sleep& sleep = *particles.sleep;
+    program.dispatch(k::countAwake, sleep.push.count,
+                     {sleep.weights, particles.velocities, program.program().status, sleep.groups,
+                      sleep.marks, sleep.state},
+                     sleep.push);
+    program.setGate({});
+    program.dispatchIndirect(k::listAwake, wakingItems(sleep, SLEEP_CLOSING_ONE, GROUP_ITEMS),
+                             {sleep.groups, sleep.listed, sleep.passes, sleep.arguments, sleep.state},
+                             sleep.push);
+    std::vector<layout::DispatchArguments> arguments; // of the first step: every particle is awake
+    for (const layout::SleepPass& pass : sleep.passesSeen) {
+        const bool runs = pass.kind == SLEEP_ALL || pass.kind == SLEEP_LISTED;
+        arguments.push_back({runs ? pass.groups : 0, 1, 1, 0});
+    }
+    setContents(program, sleep.passes, std::as_bytes(std::span(sleep.passesSeen)));
+    setContents(program, sleep.arguments, std::as_bytes(std::span(arguments)));
+}
+
+} // namespace sinew::sim::sleep

@@ -1,0 +1,57 @@
+// Island sleeping: detection of rest, dispatched groups, wake conditions. An island consists of all bodies
+// that are linked or in contact; it sleeps after half a second at rest. Its particles then count as static in
+// every pass, and dispatches of the step become indirect: they run only for work groups with an awake
+// particle. An island wakes before something touches it, and when a step begins with another gravity or
+// length, a moved anchor or collider nearby, or Step::wakes. A scene without Settings::sleeps has none of
+// these passes.
+#pragma once
+
+#include "sim/constraints/attachment.hpp"
+#include "sim/model/state.hpp"
+#include "sim/rigid/colliders.hpp"
+
+namespace sinew::sim::sleep {
+
+/// Face or edge contacts that wake and join islands: the two kernels, and the buffers that both bind last.
+struct SeenRows {
+    const vk::ShaderCode* wake = nullptr;
+    const vk::ShaderCode* join = nullptr;
+    std::vector<BufferId> buffers;
+};
+
+struct Sleep {
+    layout::SleepPush push{};
+    BufferId state, weights, limits, rests, components, islands, least, marks;
+    BufferId groups, listed, passes, arguments, waking;
+    BufferId attachments, anchors, seenAnchors, colliders, contactOffsets, ways, seenPoses;
+    /// Particles that touch: their lists, which candidates touch, and with which positions. Invalid without.
+    struct {
+        BufferId contacts, lists, hits, touching, bounds;
+    } pairs;
+    std::vector<SeenRows> rows;                ///< contacts with faces and between edges
+    std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`
+};
+
+/// Appends passes before those of the solver, whose state is `particles`.
+std::shared_ptr<Sleep> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                           const ParticleBuffers& particles);
+
+/// Appends the passes at the start of a step; none if particles.sleep is null. Later passes run only while a
+/// particle is awake.
+void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
+                const constraints::attachment::Attachments& attachments = {},
+                const rigid::colliders::Colliders& colliders = {});
+
+/// The form of a kernel over particles that runs for listed work groups; it binds the list last.
+const vk::ShaderCode& listedForm(const vk::ShaderCode& code);
+
+/// Appends passes in a substep, before contacts of `predicted` are counted: touched particles wake.
+void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted);
+/// Appends passes in a substep, after contacts with faces, or between edges, were found: touched particles
+/// wake.
+void addRowTouches(ProgramBuilder& program, const ParticleBuffers& predicted, const SeenRows& rows);
+
+/// Appends passes after publishing, and ends the range that addOpening began.
+void finish(ProgramBuilder& program, const ParticleBuffers& particles);
+
+} // namespace sinew::sim::sleep
