@@ -170,9 +170,9 @@ def contacts():
     heads = ["did a particle stray?", "how many groups", "only if incomplete", "only groups with candidates"]
     for (x, w, name), head in zip(columns, heads):
         f.lines(x + w / 2, 98, [name, head], 12)
-    rows = [("faces", "point", "triangle", 120, ["watch_particles"], "touch, share, press, gather"),
-            ("edges", "edge", "edge", 240, ["watch_particles"], "touch, share, press, gather"),
-            ("pairs", "particle", "particle", 360, ["settle_free or", "watch_motion"], "count_contacts, gather_contacts")]
+    rows = [("faces", "point", "triangle", 120, ["check_surface_lists"], "touch, share, press, gather"),
+            ("edges", "edge", "edge", 240, ["check_surface_lists"], "touch, share, press, gather"),
+            ("pairs", "particle", "particle", 360, ["finish_without_contacts or", "check_pair_lists"], "count_contacts, gather_contacts")]
     solving = {"faces": ["which, on which side", "parts of a particle sum to 1", "impulses and friction",
                          "each end sums its own, in order"],
                "edges": ["which, on which side", "parts of an end sum to 1", "impulses and friction",
@@ -204,7 +204,7 @@ def contacts():
     f.box(24, 576, 752, 40, ["*state after the substep: positions, velocities, memory of contacts"], GREY)
     f.arrow((682, 554), (682, 574))
     f.text(24, 641, "Faces and edges change predicted positions where they stand. Pairs end the substep; without pairs "
-           "finish_free does.", 12, "start", QUIET)
+           "finish_after_surfaces does.", 12, "start", QUIET)
     f.text(24, 658, "Dashed passes have no work groups, or are not in the program, where they are not needed.", 12,
            "start", QUIET)
     return f
@@ -283,9 +283,9 @@ def cutting():
         if panel < 2:
             f.line([(left + x0 * CELL, top + y0 * CELL), (left + x1 * CELL, top + y1 * CELL)], CUT, 2.4)
     notes = [["Step::blade: two", "poly-lines [m]", "", "find_near_links:", "nodes near it", "", "blade_hit.glsl:", "exact signs"],
-             ["cut_links: both", "ends, by integer", "atomics", "", "settle_links:", "links that hold", "nothing die too"],
-             ["hook_pieces and", "jump_pieces, until", "no label changes", "", "contacts, sleep,", "grabs and tethers", "follow"],
-             ["marching tetra-", "hedra on dead", "links: inside", "", "pieces of the", "skin beside it;", "move_rims draws", "rims to the blade"]]
+             ["cut_links: both", "ends, by integer", "atomics", "", "remove_loose_links:", "links that hold", "nothing die too"],
+             ["union_pieces and", "shorten_pieces, until", "no label changes", "", "contacts, sleep,", "grabs and tethers", "follow"],
+             ["marching tetra-", "hedra on dead", "links: inside", "", "pieces of the", "skin beside it;", "snap_rims_to_blade draws", "rims to the blade"]]
     for (left, top), lines in zip(places, notes):
         f.lines(left + 174, top + 50, lines, 12, "start", QUIET)
     for a, b in (((376, 116), (422, 116)), ((376, 324), (422, 324))):

@@ -143,9 +143,9 @@ void Gauges::stepFinished(const sim::Status& status) {
     facts_.slowed = status.slowed;
     facts_.sleeping = status.sleeping;
     facts_.linksCut = status.linksCutInAll;
-    facts_.crumbs = status.crumbs;
-    facts_.crumbParticles = status.crumbParticles;
-    facts_.crumbMass = status.crumbMass;
+    facts_.debris = status.debris;
+    facts_.debrisParticles = status.debrisParticles;
+    facts_.debrisMass = status.debrisMass;
     if (status.linksCutInAll == 0) facts_.pieces = {.pieces = status.pieces};
 }
 
@@ -160,8 +160,8 @@ void Gauges::restart() {
     facts_.slowed = facts_.sleeping = facts_.linksCut = 0;
     facts_.stepsRepeated = 0;
     facts_.pieces = {};
-    facts_.crumbs = facts_.crumbParticles = 0;
-    facts_.crumbMass = 0;
+    facts_.debris = facts_.debrisParticles = 0;
+    facts_.debrisMass = 0;
 }
 
 void Gauges::goOn(const Gauges& before) {

@@ -76,7 +76,7 @@ Opening look(const Options& asked, float aspect) {
                                            : scenes::load(options.scene, options.overrides);
     if (opening.run) {
         opening.loaded.settings = app::withRun(opening.loaded.settings, *opening.run);
-        app::addHands(opening.loaded.settings);
+        app::addRoomForUser(opening.loaded.settings);
     }
     opening.bladeDepth = options.bladeDepth;
     opening.camera = firstView(opening.loaded, aspect);

@@ -16,7 +16,7 @@ namespace {
 sim::Settings fastest(const vk::Device& device, const Opening& opening) {
     vk::Queue queue(device);
     sim::Settings settings = opening.loaded.settings;
-    app::addHands(settings);
+    app::addRoomForUser(settings);
     if (opening.again) settings = sim::withRoomsOf(settings, opening.again->settings);
     return opening.run ? settings : sim::tuned(device, queue, opening.loaded.scene, settings);
 }

@@ -105,7 +105,7 @@ void prepareForReplay(Opening& opening, const InputFile& file) {
                                               ": the opened state is another one: open the file that was "
                                               "loaded then");
     sim::Settings& settings = opening.loaded.settings;
-    app::addHands(settings);
+    app::addRoomForUser(settings);
     if (!file.from) settings = sim::withRoomsOf(settings, roomOf(file));
     opening.bladeDepth.reset(); // the log has its own
 }

@@ -24,7 +24,7 @@ struct StepHands {
     StepHands() { grabs.fill(emptyHand()); }
     std::array<sim::Grab, sim::ranges::mostGrabs> grabs; ///< the pointer's, then pins; others hold nothing
     std::optional<Sweep> sweep;                          ///< of the blade
-    std::optional<sim::Poke> poke;
+    std::optional<sim::HostCollider> poke;
 };
 void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
                 vk::Timestamps* timestamps = nullptr) noexcept;

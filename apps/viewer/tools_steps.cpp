@@ -13,9 +13,9 @@ void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
     sim::Blade blade;
     if (hands.sweep)
         blade = {.from = hands.sweep->from, .to = hands.sweep->to, .isCarried = hands.sweep->isCarried};
-    const std::span<const sim::Poke> pokes =
-        hands.poke ? std::span(&*hands.poke, 1) : std::span<const sim::Poke>();
-    stage.recordStep(commands, timestamps, hands.grabs, blade, pokes);
+    const std::span<const sim::HostCollider> hostColliders =
+        hands.poke ? std::span(&*hands.poke, 1) : std::span<const sim::HostCollider>();
+    stage.recordStep(commands, timestamps, hands.grabs, blade, hostColliders);
 }
 
 // Undoes steps and releases all grabs, like undo of cuts; drops cuts of a later time.

@@ -6,7 +6,7 @@
 
 namespace sinew::sim {
 
-struct Poke;
+struct HostCollider;
 
 /// All particles of a driven body: those of its range, then the listed ones.
 std::vector<std::uint32_t> particlesOf(const DrivenBody& body);
@@ -19,8 +19,8 @@ bool isMoving(const DrivenBody& body);
 Pose poseAt(const Collider& collider, double time) noexcept;
 Pose poseAt(const DrivenBody& body, double time) noexcept;
 
-/// A collider with the shape and surface of `poke`.
-Collider colliderOf(const Poke& poke) noexcept;
+/// A collider with the shape and surface of `host collider`.
+Collider colliderOf(const HostCollider& hostCollider) noexcept;
 
 /// The cosine of half the angle between two rotations; its sign may be either.
 double dot(const Quaternion& a, const Quaternion& b) noexcept;

@@ -16,8 +16,8 @@ struct Material {
     float stiffness = 1;
     std::vector<float> bodies{};    ///< further factors, by Scene::bodies; missing ones are 1
     std::optional<float> damping{}; ///< replaces Scene::damping [1/s]
-    /// Replaces the friction of planes, colliders, particles and faces, static friction included; pokes keep
-    /// their own.
+    /// Replaces the friction of planes, colliders, particles and faces, static friction included; host
+    /// colliders keep their own.
     std::optional<float> friction{};
     bool operator==(const Material&) const = default;
 };

@@ -50,7 +50,7 @@ inline constexpr Range colliderSize{.low = 0, .high = largest, .isLowOpen = true
 inline constexpr Range colliderLength{0, largest};                                 // [m]
 inline constexpr Range margin{0, largest};                                         // [m]
 inline constexpr Range pathTime{0, largest};                                       // [s]
-inline constexpr std::uint32_t mostGrabs = 8, mostPokes = 8;
+inline constexpr std::uint32_t mostGrabs = 8, mostHostColliders = 8;
 /// Limit of colliders: every particle tests all of them.
 inline constexpr std::size_t mostColliders = 64;
 inline constexpr Range recoverySpeed{.low = 0, .high = largest, .isLowOpen = true}; // [m/s]
@@ -99,7 +99,7 @@ inline constexpr std::uint32_t mostInOneSpot = 256;
 inline constexpr Range framesInFlight{1, 64};
 inline constexpr std::uint32_t mostCutSurfaceRoom = 16'000'000; // the next number is exact in float too
 inline constexpr Range cutSurfaceRoom{0, mostCutSurfaceRoom};
-inline constexpr Range crumbs{0, 1'000'000};
+inline constexpr Range debris{0, 1'000'000};
 /// `jacobi` converges on any graph if its factor on averaged corrections is below this.
 inline constexpr double provenRelaxation = 4.0 / 3;
 inline constexpr Range overRelaxation{.low = 0, .high = 2, .isLowOpen = true, .isHighOpen = true};

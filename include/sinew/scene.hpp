@@ -289,7 +289,7 @@ struct Scene {
     /// contacts, grabs, drawing and counts then ignore them. Their particles stay in the state with their
     /// mass, belong to no piece, and move on under gravity, planes and colliders, or sleep
     /// (Settings::sleeps). An undo of the cut restores them. 0 = removes none.
-    std::uint32_t crumbs = 0;
+    std::uint32_t debris = 0;
     std::vector<Body> bodies;
     std::vector<Grid> grids;
     std::vector<Skin> skins;
@@ -366,7 +366,8 @@ struct Settings {
     /// rounding in `split` without contacts.
     bool keepsForces = false;
     std::uint32_t grabs = 0; ///< grabs that can be active at a time (Step::grabs), 0..8; 0 = no passes
-    std::uint32_t pokes = 0; ///< kinematic colliders at a time (Step::pokes), 0..8; 0 = no passes
+    std::uint32_t hostColliders =
+        0; ///< kinematic colliders at a time (Step::hostColliders), 0..8; 0 = no passes
     Forms forms{};
     /// False saves 16 bytes a particle: the buffer of public velocities is omitted, and an undone step leaves
     /// its particles at rest.

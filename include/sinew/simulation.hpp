@@ -54,9 +54,9 @@ struct Status {
     std::uint32_t linksCut = 0;
     std::uint32_t linksCutInAll = 0; ///< since the uncut bodies, or since recordLoadTopology()
     std::uint32_t pieces = 0;        ///< of cuttable bodies, single particles included
-    std::uint32_t crumbs = 0;        ///< removed pieces (Scene::crumbs); not counted in `pieces`
-    std::uint32_t crumbParticles = 0;
-    float crumbMass = 0; ///< of removed particles, without those that never move [kg]
+    std::uint32_t debris = 0;        ///< removed pieces (Scene::debris); not counted in `pieces`
+    std::uint32_t debrisParticles = 0;
+    float debrisMass = 0; ///< of removed particles, without those that never move [kg]
     /// Triangles and vertices that the surface of cuts needs, if that exceeds its capacity; else 0. The
     /// surface is then not drawn and skins are not clipped; nothing else is missing, and no step is undone. A
     /// simulation with more room (Settings::cutSurfaceRoom) that takes over draws the surface.
@@ -77,7 +77,7 @@ struct Impulse {
 struct BodyImpulses {
     Impulse contacts{}; ///< of other particles, faces and edges, including those of the same body (which
                         ///< cancel)
-    Impulse planes{}, colliders{}; ///< pokes count as colliders
+    Impulse planes{}, colliders{}; ///< host colliders count as colliders
     Impulse holds{};               ///< of constraints that fix particles against links and contacts, of
                                    ///< attachments and of tethers
     Impulse grabs{};
@@ -90,9 +90,9 @@ struct BodyImpulses {
 struct Impulses {
     bool isFinished = false;          ///< as Status::isFinished; if false the lists are empty
     std::vector<BodyImpulses> bodies; ///< one for each of Scene::bodies
-    /// Impulses on planes, colliders and pokes, opposite to those on the particles. Angular ones are about
-    /// the point of a plane nearest to the origin, or about the middle of a collider.
-    std::vector<Impulse> planes, colliders, pokes;
+    /// Impulses on planes, colliders and host colliders, opposite to those on the particles. Angular ones are
+    /// about the point of a plane nearest to the origin, or about the middle of a collider.
+    std::vector<Impulse> planes, colliders, hostColliders;
     /// Impulses on the particles. Angular ones are about the held point of a grab, and 0 for the others.
     std::vector<Impulse> grabs, attachments, holds; ///< by Settings::grabs, Scene::attachments, Scene::holds
 };
@@ -109,7 +109,7 @@ struct SavedState {
     float h = 0;                 ///< substep of the last step [s]; 0 = before the first step
     double colliderTime = 0;     ///< time of the colliders on their paths [s]
     std::vector<Vec3> anchors{}; ///< of the scene's attachments [m]
-    std::vector<PokeState> pokes{};
+    std::vector<HostColliderState> hostColliders{};
     bool hasNewTopology = false;    ///< recordLoadTopology() since the last step
     std::uint32_t changes = 0;      ///< number of recordChange() before it
     bool isUncut = false;           ///< nothing can have been cut since the reset
@@ -186,9 +186,9 @@ public:
     /// and cutSurfaceRoom, the last two at most as large as here. All steps of `from` must have finished, and
     /// `from` must live until the commands have finished. `from` either is on the same device; or it is on
     /// another one, and `copy` holds the output of its recordHandOver(), moved to this device by the host.
-    /// Colliders on a path, and pokes, have their poses at the end of the last step that was not undone. If
-    /// both have the same solver (and the same Forms::usesGrids), the whole state between steps is copied.
-    /// Otherwise only positions and velocities are copied, and both simulations need
+    /// Colliders on a path, and host colliders, have their poses at the end of the last step that was not
+    /// undone. If both have the same solver (and the same Forms::usesGrids), the whole state between steps is
+    /// copied. Otherwise only positions and velocities are copied, and both simulations need
     /// Settings::publishesVelocities; a velocity half a substep before the end is taken as that of the end,
     /// grabs begin anew, and sleeping particles wake.
     /// With `saved`, `copy` is the output of recordHandOver() for a state that `from` saved, on this device
@@ -259,7 +259,7 @@ public:
     vk::BufferView velocities() const noexcept;
     /// Pieces of cuttable bodies after the newest step. pieces() has for each particle a uint32, the particle
     /// that names its piece (one of its particles; 0xffffffff in other bodies, 0xfffffffe in removed pieces,
-    /// Scene::crumbs). pieceSizes() has for each particle the size of the piece that it names, in particles,
+    /// Scene::debris). pieceSizes() has for each particle the size of the piece that it names, in particles,
     /// or 0. Empty views if no body is cuttable.
     vk::BufferView pieces() const noexcept;
     vk::BufferView pieceSizes() const noexcept;
@@ -284,11 +284,11 @@ public:
     /// to a cuttable sheet.
     vk::BufferView pieceDraws() const noexcept;
     /// Poses of the scene's colliders at the end of the newest recorded step, in their order; if that step
-    /// lacked lists, before that step until it is repeated. Valid until the next call of this or of pokes(),
-    /// and until the next step is recorded.
+    /// lacked lists, before that step until it is repeated. Valid until the next call of this or of
+    /// hostColliders(), and until the next step is recorded.
     std::span<const Pose> colliderPoses() const noexcept;
-    /// States of all pokes (Settings::pokes of them), at the same time and valid as long.
-    std::span<const PokeState> pokes() const noexcept;
+    /// States of all host colliders (Settings::hostColliders of them), at the same time and valid as long.
+    std::span<const HostColliderState> hostColliders() const noexcept;
 
     /// The status of a finished step that is one of the last Settings::framesInFlight recorded; for any other
     /// step Status::isFinished is false. Does not wait. Steps before a reset keep their status until others
@@ -298,14 +298,15 @@ public:
     /// lists. Empty lists without Settings::keepsForces.
     Impulses forces(std::uint64_t frame) const;
     /// The sums behind forces() on the device, of the newest step: layout::ForceSum (stride 32), FORCE_KINDS
-    /// for each body, then one for each grab, plane, poke, collider, then the others; an empty view without
-    /// Settings::keepsForces. Written by the commands of record(), visible as positions() are.
+    /// for each body, then one for each grab, plane, host collider, collider, then the others; an empty view
+    /// without Settings::keepsForces. Written by the commands of record(), visible as positions() are.
     vk::BufferView forceSums() const noexcept;
     /// Sentences about mistakes in the host's recording that were ignored: a step before the first reset,
-    /// more steps in flight than Settings::framesInFlight, more grabs, pokes or anchors than allowed, an
-    /// invalid blade or one without a cuttable body, and steps undone for lack of Settings::contactRoom. The
-    /// first call also returns warnings() of validate.hpp. Each kind is returned once, by the next call after
-    /// it occurred; show it to the host's developer. Allocates only if there is something to return.
+    /// more steps in flight than Settings::framesInFlight, more grabs, host colliders or anchors than
+    /// allowed, an invalid blade or one without a cuttable body, and steps undone for lack of
+    /// Settings::contactRoom. The first call also returns warnings() of validate.hpp. Each kind is returned
+    /// once, by the next call after it occurred; show it to the host's developer. Allocates only if there is
+    /// something to return.
     std::vector<std::string> complaints();
     /// The same without the warnings of the scene, for a host that showed them when it loaded the scene.
     std::vector<std::string> complaintsOfUse();

@@ -29,7 +29,7 @@ struct Grab {
 /// after a change of shape, leaves by the nearest side at 1 m/s and keeps no velocity from that. Planes take
 /// precedence: a particle pushed through a plane is put back. A particle between it and a Collider is put in
 /// front of the Collider.
-struct Poke {
+struct HostCollider {
     ColliderShape shape = ColliderShape::sphere;
     float radius = 0; ///< [m]; sizes as in Collider
     float halfLength = 0;
@@ -40,9 +40,9 @@ struct Poke {
     float maxSpeed = 10;      ///< of any of its points on the way there [m/s]
 };
 
-/// The state of a poke after a step.
-struct PokeState {
-    Poke poke{}; ///< as last listed, with its pose at the end of that step
+/// The state of a host collider after a step.
+struct HostColliderState {
+    HostCollider hostCollider{}; ///< as last listed, with its pose at the end of that step
     bool isThere = false;
     std::uint32_t changes = 0; ///< how often it appeared, disappeared, or changed its shape
 };
@@ -79,11 +79,12 @@ struct Step {
     /// number, releases its particles. An entry with another particle than before begins a new grab. Read
     /// only during record().
     std::span<const Grab> grabs{};
-    /// Pokes 0, 1, ..., at most Settings::pokes; a poke that is not listed, has a non-finite number or an
-    /// invalid size, is absent and touches nothing. Read only during record().
-    std::span<const Poke> pokes{};
+    /// Host colliders 0, 1, ..., at most Settings::hostColliders; a host collider that is not listed, has a
+    /// non-finite number or an invalid size, is absent and touches nothing. Read only during record().
+    std::span<const HostCollider> hostColliders{};
     /// Wakes all sleeping particles (Settings::sleeps). Not needed for changes that the step itself contains:
-    /// another gravity or dt wakes all; a moving anchor, collider or poke wakes what it holds or comes near.
+    /// another gravity or dt wakes all; a moving anchor, collider or host collider wakes what it holds or
+    /// comes near.
     bool wakes = false;
     /// Declares that the host reads Status::lacksLists of every step. When all recorded steps have finished,
     /// it must record the first step with lacksLists again, with the same frame and input, and all steps

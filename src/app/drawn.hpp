@@ -45,7 +45,7 @@ struct DrawnTriangle {
     bool isOfSurface() const { return part == Part::beside || part == Part::inside; }
 };
 
-/// All of skin `index` but those that have shrunk to a point, and those of crumbs (Scene::crumbs), in the
+/// All of skin `index` but those that have shrunk to a point, and those of debris (Scene::debris), in the
 /// order in which they are drawn.
 void eachTriangle(const sim::Scene& scene, std::size_t index, const Drawn& drawn,
                   const std::function<void(const DrawnTriangle&)>& use);

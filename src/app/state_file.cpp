@@ -87,7 +87,7 @@ private:
     bool isWhole_ = true;
 };
 
-// The same order both ways. A hand lets go of what it holds, and a sphere that pokes is not there.
+// The same order both ways. A grab lets go of what it holds, and a sphere that pokes is not there.
 template <typename Run, typename Visit> void visit(Run& run, Visit& each) {
     each(run.scene);
     each(run.settings.solver);
@@ -153,7 +153,7 @@ SavedRun saveRun(const vk::Device& device, const sim::Simulation& simulation, co
     SavedRun run{.settings = settings, .key = simulation.stateKey()};
     run.settings.forms = sim::completed(run.settings.forms, sim::kindOf(device)); // on other kinds as well
     run.host = simulation.recordSaveState(commands, copy.view());
-    run.host.pokes.clear();
+    run.host.hostColliders.clear();
     vk::Commands(device, commands).hostBarrier();
     queue.wait(queue.submit(commands));
     const auto* bytes = static_cast<const std::byte*>(copy.mapped());
@@ -181,9 +181,9 @@ sim::Settings withRun(sim::Settings settings, const SavedRun& run) {
     return settings;
 }
 
-void addHands(sim::Settings& settings) {
+void addRoomForUser(sim::Settings& settings) {
     settings.grabs = sim::ranges::mostGrabs;
-    settings.pokes = 1;
+    settings.hostColliders = 1;
 }
 
 void writeRun(const std::filesystem::path& file, const SavedRun& run) {

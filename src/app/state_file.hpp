@@ -47,9 +47,9 @@ void loadRun(const vk::Device& device, sim::Simulation& simulation, const SavedR
 /// `settings` of the scene as the state was saved with.
 sim::Settings withRun(sim::Settings settings, const SavedRun& run);
 
-/// Gives `settings` room for grabs and one poke, which a window needs. A state fits simulations with the same
-/// room only, so programs that write states for each other all call this.
-void addHands(sim::Settings& settings);
+/// Gives `settings` room for grabs and one host collider, which a window needs. A state fits simulations with
+/// the same room only, so programs that write states for each other all call this.
+void addRoomForUser(sim::Settings& settings);
 
 /// As mesh::writeWhole.
 void writeRun(const std::filesystem::path& file, const SavedRun& run);

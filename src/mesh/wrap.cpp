@@ -24,14 +24,14 @@ constexpr double leastDepth = 0.45;
 /// Open components of less area are too narrow to be thickened by themselves: triangles of a file in which no
 /// two share corners [cells^2].
 constexpr double leastArea = 4;
-constexpr std::uint32_t nobody = ~0u, crumbs = nobody - 1; ///< label of far samples; of narrow components
+constexpr std::uint32_t nobody = ~0u, debris = nobody - 1; ///< label of far samples; of narrow components
 
 /// Signed distances at the samples of a grid and of a rim around it, negative inside.
 class Field {
 public:
     Field(const TriangleMesh& mesh, const VoxelGrid& grid)
         : positions_(toCellUnits(mesh, grid)), tree_(positions_, mesh.triangles),
-          componentOf_(mesh.triangles.size(), crumbs) {
+          componentOf_(mesh.triangles.size(), debris) {
         std::uint32_t number = 0;
         for (const Component& component : components(mesh)) {
             if (!component.isClosed && areaOf(mesh, component) < leastArea) continue;
@@ -144,7 +144,7 @@ private:
             if (own == nobody) return;
             double depth = 0;
             forAround(at, perCell, [&](std::size_t other) {
-                if (nearest_[other] == own || nearest_[other] == nobody || own == crumbs)
+                if (nearest_[other] == own || nearest_[other] == nobody || own == debris)
                     depth = std::max(depth, -given[other]);
             });
             if (depth < leastDepth)

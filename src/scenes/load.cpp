@@ -305,7 +305,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     readSettings(loaded, top.child("solver"), source.file);
     readContacts(loaded, top.child("contacts"));
     loaded.settings.keepsForces = top.child("report").flag("forces");
-    loaded.scene.crumbs = top.count("crumbs");
+    loaded.scene.debris = top.count("debris");
     loaded.settings.cutSurfaceRoom = top.count("cut_surface_room");
     if (!overrides.solver) warnOfForeignKeys(loaded, top.child("solver"));
     apply(overrides, loaded);

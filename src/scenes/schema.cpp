@@ -69,7 +69,7 @@ constexpr Key keys[] = {
     {"", "collider", Kind::tables, "", {}, "", "spheres, capsules and boxes that particles cannot enter, static or moving"},
     {"", "contacts", Kind::table, "", {}, "", "contact settings"},
     {"", "report", Kind::table, "", {}, "", "additional results of a run"},
-    {"", "crumbs", Kind::count, "particles", ranges::crumbs, "0", "pieces of a box, a mesh or a cloth with fewer particles than this are removed when they are cut off: they are no longer touched, held, drawn or exported; 0 = none"},
+    {"", "debris", Kind::count, "particles", ranges::debris, "0", "pieces of a box, a mesh or a cloth with fewer particles than this are removed when they are cut off: they are no longer touched, held, drawn or exported; 0 = none"},
     {"", "cut_surface_room", Kind::count, "triangles", ranges::cutSurfaceRoom, "0", "initial capacity for the surface of cuts, if larger than the default for some cuts through the whole of each body; programs enlarge it when needed"},
     {"", "blade", Kind::tables, "", {}, "", "blades that cut at given times"},
     {"", "strokes", Kind::tables, "", {}, "", "many blades at random places"},

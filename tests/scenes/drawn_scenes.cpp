@@ -117,7 +117,7 @@ void addBodies(Scene& scene, Lots& lots, bool isSplit) {
     Kind kind{.radius = isSplit && lots.oneIn(2) ? radius : 0, .isCuttable = isSplit && lots.oneIn(2)};
     kind.hasVolumes = isSplit;
     kind.tears = kind.isCuttable && lots.oneIn(2);
-    scene.crumbs = kind.isCuttable && lots.oneIn(2) ? 4 : 0;
+    scene.debris = kind.isCuttable && lots.oneIn(2) ? 4 : 0;
     const bool interlock = lots.oneIn(4);
     const std::uint32_t most = 1 + 2 * lots.below(2);
     for (std::uint32_t bodies = 1 + lots.below(most); bodies > 0; --bodies) {
@@ -173,7 +173,7 @@ Settings drawSettings(Lots& lots) {
         return settings;
     }
     settings.sleeps = lots.oneIn(2);
-    settings.pokes = lots.extraIn(2) ? 1 : 0;
+    settings.hostColliders = lots.extraIn(2) ? 1 : 0;
     return settings;
 }
 

@@ -77,8 +77,8 @@ void makeKept(Maker& maker, sim::Scene scene, sim::Settings settings) {
     if (sim::validate(scene, settings).empty()) maker.make(scene, settings);
 }
 
-// Makes a scene in all its forms, with and without grabs and pokes, which exclude resident bodies, and far
-// away.
+// Makes a scene in all its forms, with and without grabs and host colliders, which exclude resident bodies,
+// and far away.
 void makeForms(Maker& maker, const sim::Scene& scene, sim::Settings settings) {
     for (const sim::Forms& forms : formsOf(maker.device, settings)) {
         settings.forms = forms;
@@ -86,15 +86,15 @@ void makeForms(Maker& maker, const sim::Scene& scene, sim::Settings settings) {
     }
     settings.forms = {};
     maker.make(farAway(scene), settings);
-    settings.grabs = settings.pokes = settings.solver == sim::Solver::split;
+    settings.grabs = settings.hostColliders = settings.solver == sim::Solver::split;
     maker.make(scene, settings);
     makeKept(maker, scene, settings);
 }
 
 // The scene with removal of fragments, and with skins either as before mesh::addMesh split them, or
 // stretching over cuts.
-sim::Scene crumbling(sim::Scene scene, bool stretches) {
-    scene.crumbs = 4;
+sim::Scene withDebris(sim::Scene scene, bool stretches) {
+    scene.debris = 4;
     for (sim::Skin& skin : scene.skins) {
         skin.wholeTriangles.clear();
         skin.wholeOf.clear();
@@ -139,8 +139,8 @@ void makeKernelsOfAllScenes(Maker& maker) {
             loaded->settings.substeps = std::min(loaded->settings.substeps, fewSubsteps);
             makeForms(maker, loaded->scene, loaded->settings);
             if (loaded->settings.solver == sim::Solver::split && !loaded->scene.grids.empty())
-                for (const sim::Scene& scene : {recovering(loaded->scene), crumbling(loaded->scene, false),
-                                                crumbling(loaded->scene, true)})
+                for (const sim::Scene& scene : {recovering(loaded->scene), withDebris(loaded->scene, false),
+                                                withDebris(loaded->scene, true)})
                     makeForms(maker, scene, loaded->settings);
         }
 }

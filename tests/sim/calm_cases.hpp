@@ -52,7 +52,7 @@ inline Case landing() {
 
 // Two boxes that fly until they collide.
 inline Case collision() {
-    Case one{"boxes that collide", {}, {.substeps = 12, .contactRoom = 64, .pokes = 1}, 30, {}, true};
+    Case one{"boxes that collide", {}, {.substeps = 12, .contactRoom = 64, .hostColliders = 1}, 30, {}, true};
     one.scene.gravity = {0, 0, 0};
     one.scene.contacts = {.friction = 0.3f, .restitution = 0.4f};
     addBox(one.scene, {0, 0, 0}, {3, 3, 3}, {.velocity = {1.5f, 0, 0}});
@@ -61,7 +61,7 @@ inline Case collision() {
 }
 
 // The state has a part that the host controls. While two boxes collide, a grab with a bounded speed leads a
-// third box, and a collider on a path and a poke move beside it.
+// third box, and a collider on a path and a host collider move beside it.
 inline Case ledByTheHost() {
     Case one = collision();
     one.name = "a box that is led";
@@ -74,14 +74,14 @@ inline Case ledByTheHost() {
                                      {.time = 1, .pose = {.position = {0.2f, 1.1f, 0.1f}}}}}};
     one.input = [place](Step& step) {
         static std::array<Vec3, 1> anchors;
-        static std::array<Poke, 1> pokes;
+        static std::array<HostCollider, 1> hostColliders;
         const auto frame = static_cast<float>(step.frame);
         anchors = {{{place.x + 0.01f * frame, place.y, place.z}}};
-        pokes = {{{.radius = 0.08f,
-                   .pose = {.position = {0.1f, 0.905f + 0.002f * frame, 0.1f}},
-                   .maxSpeed = 0.05f}}};
+        hostColliders = {{{.radius = 0.08f,
+                           .pose = {.position = {0.1f, 0.905f + 0.002f * frame, 0.1f}},
+                           .maxSpeed = 0.05f}}};
         step.anchors = anchors;
-        step.pokes = pokes;
+        step.hostColliders = hostColliders;
     };
     return one;
 }

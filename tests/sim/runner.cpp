@@ -21,7 +21,7 @@ constexpr int rehearsalsOfAPair = 2; // steps of one kind after one of another
 // The parts of a step that change its commands, as bits.
 unsigned kindOf(const sim::Step& step) {
     return unsigned{!step.anchors.empty()} | unsigned{!step.grabs.empty()} << 1 |
-           unsigned{!step.pokes.empty()} << 2 | unsigned{step.wakes} << 3 |
+           unsigned{!step.hostColliders.empty()} << 2 | unsigned{step.wakes} << 3 |
            unsigned{!step.blade.from.empty()} << 4 | unsigned{(step.ray.radius > 0)} << 5;
 }
 

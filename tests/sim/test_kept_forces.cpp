@@ -100,7 +100,7 @@ void expectNothing(const Impulses& impulses) {
                       norm(body.holds.linear) + norm(body.grabs.linear) + norm(body.contacts.angular),
                   0);
     for (const std::vector<Impulse>* list :
-         {&impulses.planes, &impulses.colliders, &impulses.pokes, &impulses.grabs, &impulses.holds})
+         {&impulses.planes, &impulses.colliders, &impulses.hostColliders, &impulses.grabs, &impulses.holds})
         for (const Impulse& impulse : *list) EXPECT_EQ(norm(impulse.linear) + norm(impulse.angular), 0);
 }
 
@@ -198,7 +198,7 @@ TEST(KeptForces, CostNothingWhereNobodyAsks) {
         settings.keepsForces = keeps;
         const StepProgram program = compile(scene, settings);
         const auto isOfForces = [](const auto& named) {
-            return named.label.find("forces") != std::string::npos || named.label == "take_pulls";
+            return named.label.find("forces") != std::string::npos || named.label == "extract_hold_impulses";
         };
         EXPECT_EQ(std::ranges::any_of(program.buffers, isOfForces), keeps);
         EXPECT_EQ(std::ranges::any_of(program.step, isOfForces), keeps);
@@ -289,21 +289,22 @@ TEST(KeptForces, OfPokesAreOppositeToTheirBodies) {
     Scene scene = test::weightless();
     addLattice(scene, blockAt({0, 0, 0}));
     Settings settings = withForces();
-    settings.pokes = 2;
+    settings.hostColliders = 2;
     test::Runner runner(scene, settings);
     double pushed = 0;
     for (int s = 0; s < 30; ++s) {
-        const std::array pokes{
-            Poke{.radius = NAN}, // is inactive
-            Poke{.radius = 0.1f,
-                 .pose = {.position = {-0.3f + 0.01f * static_cast<float>(s), 0.15f, 0.15f}}}};
-        const Status status = runner.step({.dt = scene.dt, .gravity = scene.gravity, .pokes = pokes});
+        const std::array hostColliders{
+            HostCollider{.radius = NAN}, // is inactive
+            HostCollider{.radius = 0.1f,
+                         .pose = {.position = {-0.3f + 0.01f * static_cast<float>(s), 0.15f, 0.15f}}}};
+        const Status status =
+            runner.step({.dt = scene.dt, .gravity = scene.gravity, .hostColliders = hostColliders});
         const Impulses impulses = runner.simulation().forces(status.frame);
-        EXPECT_EQ(norm(impulses.pokes[0].linear), 0);
-        EXPECT_LE(
-            (test::toVector(impulses.pokes[1].linear) + test::toVector(impulses.bodies[0].colliders.linear))
-                .norm(),
-            1e-5);
+        EXPECT_EQ(norm(impulses.hostColliders[0].linear), 0);
+        EXPECT_LE((test::toVector(impulses.hostColliders[1].linear) +
+                   test::toVector(impulses.bodies[0].colliders.linear))
+                      .norm(),
+                  1e-5);
         pushed += double{impulses.bodies[0].colliders.linear.x};
     }
     Vector momentum = Vector::Zero();
@@ -346,7 +347,7 @@ TEST(KeptForces, AreRefusedWhereTheyHaveNoRoom) {
     scene.colliders.resize(64, {.radius = 1});
     Settings settings = withForces();
     EXPECT_TRUE(validate(scene, settings).empty()); // 194 elements of 16 B for each
-    settings.grabs = settings.pokes = 8;
+    settings.grabs = settings.hostColliders = 8;
     ASSERT_EQ(validate(scene, settings).size(), 1u); // 226
     EXPECT_NE(validate(scene, settings)[0].find("do not fit in one buffer"), std::string::npos);
     settings.keepsForces = false;

@@ -53,13 +53,16 @@ Scene crowd(int count) {
 TEST(Misuse, OfNothingIsNotSaid) {
     Scene scene = test::cuttableSheet();
     Settings settings = fewSubsteps;
-    settings.grabs = settings.pokes = 2;
+    settings.grabs = settings.hostColliders = 2;
     Simulation simulation(test::device(), scene, settings);
     reset(simulation);
     const std::vector<Grab> grabs(2);
-    const std::vector<Poke> pokes(2, {.radius = 0.01f, .pose = {{9, 9, 9}, {}}});
+    const std::vector<HostCollider> hostColliders(2, {.radius = 0.01f, .pose = {{9, 9, 9}, {}}});
     for (std::uint64_t frame = 0; frame < 9; ++frame)
-        step(simulation, {.frame = frame, .grabs = grabs, .pokes = pokes, .blade = test::bladeAcrossSheet()});
+        step(simulation, {.frame = frame,
+                          .grabs = grabs,
+                          .hostColliders = hostColliders,
+                          .blade = test::bladeAcrossSheet()});
     EXPECT_EQ(simulation.complaints(), Sentences{});
     EXPECT_EQ(simulation.oldestInFlight(), std::nullopt);
 }
@@ -78,19 +81,20 @@ TEST(Misuse, OfPlacesFarFromTheOriginIsSaidOnce) {
 TEST(Misuse, OfMoreGrabsOrPokesThanThereIsRoomForIsSaidOnce) {
     for (const std::uint32_t allowed : {0u, 1u}) {
         Settings settings = fewSubsteps;
-        settings.grabs = settings.pokes = allowed;
+        settings.grabs = settings.hostColliders = allowed;
         Simulation simulation(test::device(), test::chain(6), settings);
         reset(simulation);
         const std::vector<Grab> grabs(20);
-        const std::vector<Poke> pokes(3, {.radius = 0.1f, .pose = {{9, 9, 9}, {}}});
+        const std::vector<HostCollider> hostColliders(3, {.radius = 0.1f, .pose = {{9, 9, 9}, {}}});
         step(simulation, {.frame = 0});
         EXPECT_EQ(simulation.complaints(), Sentences{});
         step(simulation, {.frame = 1, .grabs = grabs});
         const std::string is = " is " + std::to_string(allowed);
         expectOne(simulation.complaints(), {"step 1", "20 grabs", ("settings.grabs" + is).c_str()});
-        step(simulation, {.frame = 2, .grabs = grabs, .pokes = pokes});
-        expectOne(simulation.complaints(), {"step 2", "3 pokes", ("settings.pokes" + is).c_str()});
-        step(simulation, {.frame = 3, .grabs = grabs, .pokes = pokes});
+        step(simulation, {.frame = 2, .grabs = grabs, .hostColliders = hostColliders});
+        expectOne(simulation.complaints(),
+                  {"step 2", "3 host colliders", ("settings.hostColliders" + is).c_str()});
+        step(simulation, {.frame = 3, .grabs = grabs, .hostColliders = hostColliders});
         EXPECT_EQ(simulation.complaints(), Sentences{}) << "it was said";
     }
 }

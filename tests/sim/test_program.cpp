@@ -231,7 +231,7 @@ TEST(Program, OfGaussSeidelIsOneDispatchAColorAndOneMoreASubstep) {
     settings.iterations = 3;
     const StepProgram room = compile(inRoom(test::sheet(8)), settings);
     EXPECT_EQ(countPasses(room, "solve_distance_color[0]"), 15u);
-    EXPECT_EQ(countPasses(room, "touch_planes"), 10u);
+    EXPECT_EQ(countPasses(room, "project_onto_planes"), 10u);
     EXPECT_EQ(room.sweeps, 15u);
 }
 

@@ -72,9 +72,10 @@ void expectSameHost(const SavedState& a, const SavedState& b) {
     EXPECT_EQ(a.hasNewTopology, b.hasNewTopology);
     ASSERT_EQ(a.anchors.size(), b.anchors.size());
     for (std::size_t i = 0; i < a.anchors.size(); ++i) EXPECT_TRUE(areSame(a.anchors[i], b.anchors[i]));
-    ASSERT_EQ(a.pokes.size(), b.pokes.size());
-    for (std::size_t i = 0; i < a.pokes.size(); ++i)
-        EXPECT_TRUE(areSame(a.pokes[i].poke.pose.position, b.pokes[i].poke.pose.position));
+    ASSERT_EQ(a.hostColliders.size(), b.hostColliders.size());
+    for (std::size_t i = 0; i < a.hostColliders.size(); ++i)
+        EXPECT_TRUE(areSame(a.hostColliders[i].hostCollider.pose.position,
+                            b.hostColliders[i].hostCollider.pose.position));
 }
 
 double farthest(const ByHand& a, const ByHand& b) {
@@ -95,8 +96,8 @@ TEST(RepeatedSteps, AreSavedAndTakenOverAsBeforeTheOneThatLackedLists) {
     for (std::uint64_t frame = 0; frame < broken; ++frame) plain.step(frame);
     EXPECT_TRUE(
         areSame(calm.simulation.colliderPoses()[0].position, plain.simulation.colliderPoses()[0].position));
-    EXPECT_TRUE(areSame(calm.simulation.pokes()[0].poke.pose.position,
-                        plain.simulation.pokes()[0].poke.pose.position));
+    EXPECT_TRUE(areSame(calm.simulation.hostColliders()[0].hostCollider.pose.position,
+                        plain.simulation.hostColliders()[0].hostCollider.pose.position));
 
     ByHand ofCalm(one, false), ofPlain(one, false); // simulations that take over
     ofCalm.submit([&](VkCommandBuffer c) { ofCalm.simulation.recordTakeOver(c, calm.simulation); });

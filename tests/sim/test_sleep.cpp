@@ -478,10 +478,10 @@ TEST(Sleep, IsRefusedBySolversWithoutAFormForIt) {
 
 TEST(Sleep, IsSaidWhereAStepIsDescribed) {
     const StepProgram program = compile(heap(3), {.substeps = 2, .sleeps = true});
-    std::size_t gated = 0, direct = 0;
+    std::size_t indirect = 0, direct = 0;
     for (const Pass& pass : program.step) {
         if (pass.kind != PassKind::dispatch) continue;
-        gated += pass.isIndirect && pass.uses.back().buffer == program.sleep.arguments ? 1 : 0;
+        indirect += pass.isIndirect && pass.uses.back().buffer == program.sleep.arguments ? 1 : 0;
         direct += pass.isIndirect ? 0 : 1;
     }
     const std::string text = describe(program);
@@ -490,7 +490,7 @@ TEST(Sleep, IsSaidWhereAStepIsDescribed) {
     std::smatch said;
     ASSERT_TRUE(std::regex_search(text, said, line)) << text;
     const auto number = [&](std::size_t i) { return std::stoul(said[i]); };
-    EXPECT_EQ(number(2) + number(3), gated);
+    EXPECT_EQ(number(2) + number(3), indirect);
     EXPECT_GE(number(2), 2u * 4) << "in each substep: moving, watching, counting, parting";
     EXPECT_EQ(number(5), direct);
     EXPECT_EQ(number(1), number(2) + number(3) + number(4) + number(5));

@@ -264,7 +264,7 @@ TEST(TakeOver, OfAnotherSceneIsRefusedInASentence) {
          }},
         {"one that floats above planes", [](Scene& other) { other.particles[0].contactOffset = 0.05f; }},
         {"wider particles", [](Scene& other) { other.particles[0].radius = 0.04f; }},
-        {"crumbs that are removed", [](Scene& other) { other.crumbs = 3; }},
+        {"debris that is removed", [](Scene& other) { other.debris = 3; }},
         {"another way of an attachment", [](Scene& other) { other.attachments = {{.particle = 3}}; }}};
     for (const auto& [name, change] : others) {
         SCOPED_TRACE(name);

@@ -305,26 +305,26 @@ json gltfOf(const std::filesystem::path& file) {
 } // namespace
 
 // A removed corner of a cube is in no output, and the report counts it.
-TEST_F(Run, LeavesOutCrumbsAndSaysHowManyThereAre) {
+TEST_F(Run, LeavesOutDebrisAndSaysHowMuchThereIs) {
     const std::string scene =
         "dt = 0.01\ngravity = [0, 0, 0]\n[solver]\nsubsteps = 4\n[[box]]\nname = \"box\"\n"
         "particles = [5, 5, 5]\nspacing = 0.1\ncenter = [0, 0, 0]\nyoung_modulus = 1e5\ndensity = 1000\n"
         "cuttable = true\n[[blade]]\ntimes = [0.01, 0.02]\nedges = [[[-2.15, -0.15, 1.85], "
         "[-0.15, -2.15, 1.85]], [[-0.15, 1.85, -2.15], [1.85, -0.15, -2.15]]]\n";
     write("kept.toml", scene);
-    write("cut.toml", "crumbs = 5\n" + scene);
+    write("cut.toml", "debris = 5\n" + scene);
     const json kept = report({"kept.toml", "--frames", "5"});
     EXPECT_EQ(kept["cut"]["pieces"], 2);
-    EXPECT_EQ(kept["cut"]["crumbs"], (json{{"pieces", 0}, {"particles", 0}, {"mass", 0.0}}));
+    EXPECT_EQ(kept["cut"]["debris"], (json{{"pieces", 0}, {"particles", 0}, {"mass", 0.0}}));
     const Outcome outcome = run({"run", "cut.toml", "--frames", "5", "--out", "out"});
     ASSERT_EQ(outcome.code, 0) << outcome.error;
     EXPECT_NE(outcome.out.find("1 piece, 1 removed with 4 particles, 0.875 kg"), std::string::npos)
         << outcome.out;
     const json cut = json::parse(textOf(folder_ / "out/report.json"))["cut"];
     EXPECT_EQ(cut["pieces"], 1);
-    EXPECT_EQ(cut["crumbs"]["pieces"], 1);
-    EXPECT_EQ(cut["crumbs"]["particles"], 4);
-    EXPECT_NEAR(cut["crumbs"]["mass"].get<double>(), 7.0 / 8, 1e-6) << "of 64 cells of 1 kg";
+    EXPECT_EQ(cut["debris"]["pieces"], 1);
+    EXPECT_EQ(cut["debris"]["particles"], 4);
+    EXPECT_NEAR(cut["debris"]["mass"].get<double>(), 7.0 / 8, 1e-6) << "of 64 cells of 1 kg";
     EXPECT_EQ(mesh::importParticles(folder_ / "out/state.ply").size(), 125u - 4);
     for (const char* name : {"out/box.obj", "out/box.ply", "out/box.glb"}) {
         mesh::MeshDefects defects;

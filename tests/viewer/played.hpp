@@ -112,7 +112,7 @@ struct Played : Scene {
         for (int i = 0; i <= turns; ++i)
             turn({.pointer = from + static_cast<float>(i) / static_cast<float>(turns) * by});
     }
-    bool isPoking() const { return stage.simulation().pokes()[0].isThere; }
+    bool isPoking() const { return stage.simulation().hostColliders()[0].isThere; }
     InputFile file() { return {.scene = "/block.toml", .events = tools.log().events(), .hash = hash()}; }
 
     std::optional<Question> asked;

@@ -285,7 +285,7 @@ TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
 }
 
 // The panel has one more line if fragments were removed.
-TEST_F(PanelsTest, SayHowManyCrumbsWereRemoved) {
+TEST_F(PanelsTest, SayHowMuchDebrisWasRemoved) {
     const auto height = [&] {
         settle();
         float most = 0;
@@ -294,11 +294,11 @@ TEST_F(PanelsTest, SayHowManyCrumbsWereRemoved) {
         return most;
     };
     const float without = height();
-    facts.crumbs = 3;
-    facts.crumbParticles = 1'200;
-    facts.crumbMass = 0.0214f;
+    facts.debris = 3;
+    facts.debrisParticles = 1'200;
+    facts.debrisMass = 0.0214f;
     EXPECT_GT(height(), without + 8);
-    EXPECT_EQ(parts::crumbsText(facts), "3: 1,200 particles, 0.0214 kg");
+    EXPECT_EQ(parts::debrisText(facts), "3: 1,200 particles, 0.0214 kg");
 }
 
 TEST_F(PanelsTest, OfferToUndoOnlyWhatWasDone) {

@@ -22,7 +22,7 @@ PokeTool takenUp(std::vector<sim::Plane> planes = {}) {
 }
 
 Vector3 centerOf(const PokeTool& tool) {
-    const std::optional<sim::Poke> poke = tool.poke();
+    const std::optional<sim::HostCollider> poke = tool.poke();
     EXPECT_TRUE(poke);
     const sim::Vec3 at = poke ? poke->pose.position : sim::Vec3{};
     return {at.x, at.y, at.z};
@@ -105,7 +105,7 @@ TEST(PokeTool, PushesABlockAndIsSeen) {
         .origin = {-0.2f, -0.2f, -0.2f}, .cells = {4, 4, 4}, .spacing = 0.1f, .youngModulus = 1e5f};
     sim::addLatticeSkin(scene, lattice, sim::addLattice(scene, lattice), {0.10f, 0.15f, 0.70f});
     scene.gravity = {0, 0, 0};
-    Stage stage(test::device(), scene, {.substeps = 16, .pokes = 1});
+    Stage stage(test::device(), scene, {.substeps = 16, .hostColliders = 1});
     StateProbe probe(test::device(), stage.scene(), stage.settings(), stage.simulation());
     Offscreen offscreen(test::device(), {160, 100}, lightFor(scene, fromFront), {});
     PokeTool tool = takenUp();
@@ -113,9 +113,9 @@ TEST(PokeTool, PushesABlockAndIsSeen) {
         VkCommandBuffer commands = test::queue().begin();
         if (stage.steps() == 0) stage.recordReset(commands);
         for (int i = 0; i < steps; ++i) {
-            const std::optional<sim::Poke> poke = tool.poke();
+            const std::optional<sim::HostCollider> poke = tool.poke();
             stage.recordStep(commands, nullptr, {}, {},
-                             poke ? std::span(&*poke, 1) : std::span<const sim::Poke>());
+                             poke ? std::span(&*poke, 1) : std::span<const sim::HostCollider>());
         }
         stage.recordSkin(commands);
         probe.record(commands);
@@ -135,7 +135,7 @@ TEST(PokeTool, PushesABlockAndIsSeen) {
     EXPECT_GT(probe.bounds().min().x(), -0.15f) << "it went along";
     tool.release();
     run(1);
-    EXPECT_FALSE(stage.simulation().pokes()[0].isThere);
+    EXPECT_FALSE(stage.simulation().hostColliders()[0].isThere);
 }
 
 } // namespace

@@ -25,7 +25,7 @@ const std::array<std::uint32_t, 4> corner{0, 1, 5, 25}; // particles
 enum class Look { bare, skin, stretched };
 
 // A block of 5 x 5 x 5 particles on the floor, for a cut at its corner (0, 0, 0).
-sim::Scene block(std::uint32_t crumbs, Look look = Look::bare, float speed = 0) {
+sim::Scene block(std::uint32_t debris, Look look = Look::bare, float speed = 0) {
     sim::Scene scene{.name = "block", .gravity = {0, 0, 0}};
     const sim::Lattice lattice{.origin = {0, radius, 0},
                                .cells = {4, 4, 4},
@@ -43,7 +43,7 @@ sim::Scene block(std::uint32_t crumbs, Look look = Look::bare, float speed = 0) 
     for (sim::Particle& particle : scene.particles) particle.contactOffset = radius;
     for (const std::uint32_t i : corner) scene.particles[i].velocity = {-speed, 0, -speed};
     scene.planes.push_back({});
-    scene.crumbs = crumbs;
+    scene.debris = debris;
     return scene;
 }
 
@@ -93,18 +93,18 @@ TEST(Removed, IsCutOffInTheSceneOfTheseTests) {
     EXPECT_EQ(Cut(block(0)).stage.simulation().status(2).pieces, 2u);
     const sim::Status status = Cut(block(5)).stage.simulation().status(2);
     EXPECT_EQ(status.pieces, 1u);
-    EXPECT_EQ(status.crumbParticles, 4u);
+    EXPECT_EQ(status.debrisParticles, 4u);
 }
 
 TEST(Removed, HasNoLines) {
-    for (const std::uint32_t crumbs : {0u, 5u}) {
-        Cut cut(block(crumbs), {.hasLinks = true});
+    for (const std::uint32_t debris : {0u, 5u}) {
+        Cut cut(block(debris), {.hasLinks = true});
         const auto ends =
             test::queue().download<std::uint32_t>(cut.inspection.buffers(cut.layers, 0).links->indices());
         std::size_t inside = 0;
         for (std::size_t i = 0; i < ends.size(); i += 2)
             inside += ends[i] != ends[i + 1] && isOfCorner(ends[i]) ? 1 : 0;
-        EXPECT_EQ(inside, crumbs > 0 ? 0u : 6u);
+        EXPECT_EQ(inside, debris > 0 ? 0u : 6u);
     }
 }
 
@@ -117,16 +117,16 @@ TEST(Removed, HasNoMarks) {
 
 TEST(Removed, HasNoValues) {
     for (const ColorMap map : {ColorMap::strain, ColorMap::speed, ColorMap::sleep})
-        for (const std::uint32_t crumbs : {0u, 5u}) {
-            Cut cut(block(crumbs, Look::bare, 2), {.map = map});
+        for (const std::uint32_t debris : {0u, 5u}) {
+            Cut cut(block(debris, Look::bare, 2), {.map = map});
             std::array<float, 125> values{};
             test::queue().download(cut.inspection.buffers(cut.layers, 0).particles, values.data(),
                                    sizeof values);
             for (std::uint32_t i = 0; i < values.size(); ++i)
-                EXPECT_EQ(values[i]<0, crumbs> 0 && isOfCorner(i)) << i;
+                EXPECT_EQ(values[i]<0, debris> 0 && isOfCorner(i)) << i;
             if (map != ColorMap::speed) continue;
             const float largest = cut.inspection.reading(0).largest;
-            EXPECT_EQ(largest<1, crumbs> 0) << "the corner flies off at 2.8 m/s";
+            EXPECT_EQ(largest<1, debris> 0) << "the corner flies off at 2.8 m/s";
         }
 }
 
@@ -208,12 +208,12 @@ std::size_t differences(const Picture& a, const Picture& b) {
 
 TEST(Removed, HangsOnNoRope) {
     std::array<std::size_t, 2> drawn{};
-    for (const std::uint32_t crumbs : {0u, 5u}) {
-        Cut cut(block(crumbs));
+    for (const std::uint32_t debris : {0u, 5u}) {
+        Cut cut(block(debris));
         Photo photo(cut);
         Overlay holding;
         holding.hand = Hand{0, Vector3::Zero(), Vector3(0, 0.55f, 0)};
-        drawn[crumbs > 0] = differences(photo.take(holding), photo.take());
+        drawn[debris > 0] = differences(photo.take(holding), photo.take());
     }
     EXPECT_GT(drawn[1], 0u) << "the hand itself";
     EXPECT_LT(drawn[1], drawn[0] / 2);

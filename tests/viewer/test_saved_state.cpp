@@ -48,7 +48,7 @@ std::filesystem::path temporary(const std::string& name) {
 
 // Adds grabs and pokes to the settings, as in the window.
 Opening withHands(Opening opening) {
-    app::addHands(opening.loaded.settings);
+    app::addRoomForUser(opening.loaded.settings);
     return opening;
 }
 

@@ -44,7 +44,8 @@ const std::map<std::string, std::string> looseDecisions{
     {"isInBox(struct-Searched", "a face is searched by find_faces or by find_wide_faces"},
     {"isNear(struct-Searched-u1-struct-ContactFace",
      "a face is searched by find_faces or by find_wide_faces"},
-    {"isSliver(", "find_faces looks farther around a sliver, and touch_faces passes it over: one is enough"}};
+    {"isSliver(",
+     "find_faces looks farther around a sliver, and find_face_contacts passes it over: one is enough"}};
 
 constexpr std::uint32_t opName = 5, opExtInst = 12, opTypeBool = 20, opFunction = 54, opFunctionCall = 57,
                         opDecorate = 71, noContraction = 42, opDot = 148;

@@ -13,7 +13,7 @@ namespace sinew::tools {
 struct State {
     std::vector<std::array<float, 4>> positions, velocities;
     std::vector<bool> isAsleep = {}; ///< by particle; empty if nothing can sleep
-    /// By particle: in a removed fragment (sim::Scene::crumbs); empty if nothing can be cut. Figures except
+    /// By particle: in a removed fragment (sim::Scene::debris); empty if nothing can be cut. Figures except
     /// momentum exclude these particles.
     std::vector<bool> isRemoved = {};
     /// By distance constraint of the scene; empty if nothing can be cut.

@@ -154,7 +154,7 @@ Start loadStart(const SceneOptions& options) {
     start.loaded.scene.gravity = run.gravity;
     start.loaded.settings = app::withRun(start.loaded.settings, run);
     start.loaded.settings.forms = options.forms.in(start.loaded.settings.forms);
-    app::addHands(start.loaded.settings);
+    app::addRoomForUser(start.loaded.settings);
     return start;
 }
 

@@ -161,12 +161,12 @@ Json overflowJson(const RunRecord& record) {
 Json cutJson(const RunRecord& record) {
     if (record.program.cutting.counts == sim::BufferId{}) return nullptr;
     const CutFigures& cuts = record.cuts;
-    return {
-        {"blades", record.loaded.blades.size()},
-        {"links", cuts.links},
-        {"pieces", record.skins.count.pieces},
-        {"fragments", record.skins.count.fragments},
-        {"crumbs", {{"pieces", cuts.crumbs}, {"particles", cuts.crumbParticles}, {"mass", cuts.crumbMass}}}};
+    return {{"blades", record.loaded.blades.size()},
+            {"links", cuts.links},
+            {"pieces", record.skins.count.pieces},
+            {"fragments", record.skins.count.fragments},
+            {"debris",
+             {{"pieces", cuts.debris}, {"particles", cuts.debrisParticles}, {"mass", cuts.debrisMass}}}};
 }
 
 Json vectorOver(const sim::Vec3& v, float dt) {
@@ -311,10 +311,10 @@ std::string stiffnessText(const scenes::LoadedScene& loaded) {
 }
 
 // Text on removed fragments.
-std::string crumbsText(const CutFigures& cuts) {
-    if (cuts.crumbs == 0) return {};
-    return fmt::format(", {} removed with {}, {:.3g} kg", cuts.crumbs,
-                       sim::counted(cuts.crumbParticles, "particle"), cuts.crumbMass);
+std::string debrisText(const CutFigures& cuts) {
+    if (cuts.debris == 0) return {};
+    return fmt::format(", {} removed with {}, {:.3g} kg", cuts.debris,
+                       sim::counted(cuts.debrisParticles, "particle"), cuts.debrisMass);
 }
 
 std::string toText(const RunRecord& record) {
@@ -356,7 +356,7 @@ std::string toText(const RunRecord& record) {
             sim::counted(sleeping["bodies"].get<std::size_t>(), "whole body", "whole bodies"));
     if (record.program.cutting.counts != sim::BufferId{})
         text += fmt::format("cut: {}, {}{}\n", sim::counted(record.cuts.links, "link"),
-                            app::toText(record.skins.count), crumbsText(record.cuts));
+                            app::toText(record.skins.count), debrisText(record.cuts));
     text += fmt::format("state hash: {:016x}\n", stateHash(record.state));
     if (record.hasValidation)
         text += fmt::format("validation: {}\n", sim::counted(record.validationMessages.size(), "message"));

@@ -178,7 +178,7 @@ int run(const RunOptions& options) {
     if (options.save) state.emplace(*options.save);
     Start start = loadStart(options.scene);
     scenes::LoadedScene& loaded = start.loaded;
-    if (options.save) app::addHands(loaded.settings);
+    if (options.save) app::addRoomForUser(loaded.settings);
     if (options.folder) folder.emplace(*options.folder);
     Session session(options.device);
     loaded.settings.forms = sim::completed(loaded.settings.forms, sim::kindOf(session.device));

@@ -120,9 +120,9 @@ bool Runner::finishStep(std::uint64_t frame) {
         slowed_ += status.slowed;
         cuts_ = {.links = status.linksCutInAll,
                  .pieces = status.pieces,
-                 .crumbs = status.crumbs,
-                 .crumbParticles = status.crumbParticles,
-                 .crumbMass = double{status.crumbMass}};
+                 .debris = status.debris,
+                 .debrisParticles = status.debrisParticles,
+                 .debrisMass = double{status.debrisMass}};
         surfaceMissing_ = status.cutSurfaceMissing;
         if (settings_.keepsForces) forces_ = simulation().forces(frame);
     }

@@ -33,8 +33,8 @@ struct SkinMeshes {
 /// The figures of sim::Status on cuts.
 struct CutFigures {
     std::uint32_t links = 0, pieces = 0;
-    std::uint32_t crumbs = 0, crumbParticles = 0; ///< removed fragments and their particles
-    double crumbMass = 0;                         ///< [kg]
+    std::uint32_t debris = 0, debrisParticles = 0; ///< removed fragments and their particles
+    double debrisMass = 0;                         ///< [kg]
 };
 
 /// Counts of how steps were recorded and repeated.

@@ -5,7 +5,7 @@
 
 namespace sinew::viewer {
 
-/// One word per particle: REMOVED_PIECE of layout.h if it was removed (sim::Scene::crumbs), any other value
+/// One word per particle: REMOVED_PIECE of layout.h if it was removed (sim::Scene::debris), any other value
 /// if not. State of the simulation's newest step, for vertex input and compute.
 vk::BufferView removedParticles(const sim::Simulation& simulation);
 

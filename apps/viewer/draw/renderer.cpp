@@ -165,7 +165,7 @@ void Renderer::drawShades(VkCommandBuffer commands, const Shades& shades, const 
     if (hasSkins) drawSkins(commands, {ofAll, ofSolids}, simulation);
     if (hasSkins) drawCuts(commands, ofCuts, ofCuts, simulation);
     drawColliders(commands, shades.all, simulation);
-    drawPokes(commands, shades.all, simulation);
+    drawHostColliders(commands, shades.all, simulation);
     drawBalls(commands, opened(shades.balls, layers), simulation, overlay);
 }
 

@@ -192,8 +192,8 @@ private:
                     std::size_t pipeline) const noexcept;
     void drawColliders(VkCommandBuffer commands, std::size_t pipeline,
                        const sim::Simulation& simulation) const noexcept;
-    void drawPokes(VkCommandBuffer commands, std::size_t pipeline,
-                   const sim::Simulation& simulation) const noexcept;
+    void drawHostColliders(VkCommandBuffer commands, std::size_t pipeline,
+                           const sim::Simulation& simulation) const noexcept;
     void drawBalls(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
                    const Overlay& overlay) const noexcept;
     void drawMarks(VkCommandBuffer commands, const sim::Simulation& simulation,

@@ -19,7 +19,7 @@ constexpr float colliderGloss = 0.15f; // less than tissue
 void Renderer::drawThings(VkCommandBuffer commands, const sim::Simulation& simulation, const Layers& layers,
                           std::size_t pipeline) const noexcept {
     drawColliders(commands, pipeline, simulation);
-    drawPokes(commands, pipeline, simulation);
+    drawHostColliders(commands, pipeline, simulation);
     if (layers.map == ColorMap::none && layers.skin == SkinLook::solid)
         drawSkins(commands, opened(pipeline, layers), simulation);
 }
@@ -89,14 +89,14 @@ void Renderer::drawColliders(VkCommandBuffer commands, std::size_t pipeline,
 }
 
 // Draws the spheres at the simulation's positions, which may lag behind the pointer.
-void Renderer::drawPokes(VkCommandBuffer commands, std::size_t pipeline,
-                         const sim::Simulation& simulation) const noexcept {
+void Renderer::drawHostColliders(VkCommandBuffer commands, std::size_t pipeline,
+                                 const sim::Simulation& simulation) const noexcept {
     const ColliderMeshes::Range& sphere = poke_.ranges().front();
-    for (const sim::PokeState& state : simulation.pokes()) {
-        if (!state.isThere || state.poke.shape != sim::ColliderShape::sphere) continue;
+    for (const sim::HostColliderState& state : simulation.hostColliders()) {
+        if (!state.isThere || state.hostCollider.shape != sim::ColliderShape::sphere) continue;
         bind(commands, pipeline);
         bindMesh(commands, poke_.vertices(), poke_.indices());
-        push(commands, sphere.color, colliderGloss, state.poke.pose, state.poke.radius);
+        push(commands, sphere.color, colliderGloss, state.hostCollider.pose, state.hostCollider.radius);
         device_.functions().vkCmdDrawIndexed(commands, sphere.indexCount, 1, sphere.firstIndex,
                                              sphere.firstVertex, 0);
     }

@@ -63,14 +63,14 @@ void Stage::load(const vk::Device& device, const app::SavedRun& run, vk::Queue& 
 }
 
 void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std::span<const sim::Grab> grabs,
-                       const sim::Blade& blade, std::span<const sim::Poke> pokes) noexcept {
+                       const sim::Blade& blade, std::span<const sim::HostCollider> hostColliders) noexcept {
     recordTurn(commands);
     ++recordedSteps_;
     const sim::Blade scripted = blades_.at(played_++);
     sim::Step step{.dt = scene_.dt, .gravity = gravity_, .frame = ++steps_};
     newest_ = std::max(newest_, steps_);
     step.grabs = grabs;
-    step.pokes = pokes;
+    step.hostColliders = hostColliders;
     step.repeats = repeats_;
     step.blade = scripted.from.empty() ? blade : scripted;
     simulation_->record(commands, step, timestamps);

@@ -43,7 +43,7 @@ public:
     void recordReset(VkCommandBuffer commands) noexcept;
     void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
                     std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
-                    std::span<const sim::Poke> pokes = {}) noexcept;
+                    std::span<const sim::HostCollider> hostColliders = {}) noexcept;
     /// The skins as they are drawn (sim::SkinDetail::drawn).
     void recordSkin(VkCommandBuffer commands) noexcept {
         simulation_->recordSkin(commands, sim::SkinDetail::drawn);

@@ -87,7 +87,7 @@ class SkinPicker {
 public:
     SkinPicker(const sim::Scene& scene, const Ray& ray, const SeenState& state, const Seen& seen)
         : scene_(scene), ray_(ray), state_(state), seen_(seen), windings_(scene.skins.size()),
-          hasCrumbs_(std::ranges::count(state.pieces, REMOVED_PIECE) > 0) {}
+          hasDebris_(std::ranges::count(state.pieces, REMOVED_PIECE) > 0) {}
 
     void look(Nearest& nearest) {
         Place place;
@@ -133,9 +133,9 @@ private:
     }
 
     // Whether a triangle is removed: a clipped skin follows its anchors, a stretched one every particle it
-    // depends on (sim/cutting/crumb_skins).
+    // depends on (sim/cutting/debris_skins).
     bool isGone(const sim::Skin& skin, const SeenCuts::Triangle& triangle) const {
-        if (!hasCrumbs_) return false;
+        if (!hasDebris_) return false;
         return std::ranges::any_of(triangle, [&](std::uint32_t corner) {
             if (skin.cells.empty()) return isRemoved(state_.pieces, skin.particles[corner]);
             if (!skin.anchors.empty() && state_.cuts) return isRemoved(state_.pieces, skin.anchors[corner]);
@@ -193,7 +193,7 @@ private:
     const SeenState& state_;
     const Seen& seen_;
     std::vector<int> windings_; // by skin: winding number around the entry point at the section
-    bool hasCrumbs_;
+    bool hasDebris_;
 };
 
 void lookAtBalls(const BallList& balls, const Ray& ray, const SeenState& state, const Seen& seen,

@@ -63,16 +63,16 @@ void PokeTool::putAway() {
 }
 
 // Moves the sphere off the planes: a particle pushed by both would be placed wrongly.
-std::optional<sim::Poke> PokeTool::poke() const {
+std::optional<sim::HostCollider> PokeTool::poke() const {
     if (!center_) return std::nullopt;
     Vector3 at = *center_;
     for (const sim::Plane& plane : planes_) {
         const Vector3 normal = toVector(plane.normal);
         at += std::max(plane.offset + radius_ - normal.dot(at), 0.0f) * normal;
     }
-    return sim::Poke{.radius = radius_,
-                     .pose = {.position = {at.x(), at.y(), at.z()}},
-                     .maxSpeed = std::min(mostSpeed, ofSizeInASecond * size_)};
+    return sim::HostCollider{.radius = radius_,
+                             .pose = {.position = {at.x(), at.y(), at.z()}},
+                             .maxSpeed = std::min(mostSpeed, ofSizeInASecond * size_)};
 }
 
 } // namespace sinew::viewer

@@ -39,8 +39,8 @@ public:
     /// Restores the first radius and turns the tool off.
     void putAway();
 
-    /// For sim::Step::pokes; empty while the sphere is lifted.
-    std::optional<sim::Poke> poke() const;
+    /// For sim::Step::hostColliders; empty while the sphere is lifted.
+    std::optional<sim::HostCollider> poke() const;
 
 private:
     float size_, radius_;

@@ -24,7 +24,7 @@ ImVec4 accent();
 /// A number with separators: "12,345".
 std::string grouped(std::uint64_t number);
 /// Text on removed fragments.
-std::string crumbsText(const Facts& facts);
+std::string debrisText(const Facts& facts);
 
 /// Width between the margins of the panel [pixels].
 float contentWidth();

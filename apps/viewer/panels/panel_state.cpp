@@ -24,10 +24,10 @@ void counts(const SceneFacts& scene, const Facts& facts) {
     if (!scene.stiffness.empty()) wrapped(scene.stiffness, quiet());
 }
 
-std::string crumbsText(const Facts& facts) {
+std::string debrisText(const Facts& facts) {
     char mass[32];
-    std::snprintf(mass, sizeof mass, "%.3g kg", double{facts.crumbMass});
-    return grouped(facts.crumbs) + ": " + grouped(facts.crumbParticles) + " particles, " + mass;
+    std::snprintf(mass, sizeof mass, "%.3g kg", double{facts.debrisMass});
+    return grouped(facts.debris) + ": " + grouped(facts.debrisParticles) + " particles, " + mass;
 }
 
 void cuts(const SceneFacts&, const Facts& facts, Wishes& wishes) {
@@ -36,7 +36,7 @@ void cuts(const SceneFacts&, const Facts& facts, Wishes& wishes) {
          facts.pieces.isCounted ? grouped(facts.pieces.pieces) : "not counted",
          ImGui::GetStyleColorVec4(ImGuiCol_Text));
     if (facts.pieces.fragments > 0) row("fragments", grouped(facts.pieces.fragments) + " without a surface");
-    if (facts.crumbs > 0) row("crumbs removed", crumbsText(facts));
+    if (facts.debris > 0) row("debris removed", debrisText(facts));
     const float width = buttonWidth(2);
     ImGui::BeginDisabled(facts.undos == 0);
     button(Action::undo, wishes, width);

@@ -1,6 +1,6 @@
 #version 460
 // Interlocked bodies, first pass: counts the contacts with partner bodies that push a particle, by which its mass is
-// divided. Removes these contacts from the ordinary passes, records their depth for close_interlocks, and copies
+// divided. Removes these contacts from the ordinary passes, records their depth for update_interlocks, and copies
 // velocities.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"

@@ -1,5 +1,5 @@
 // Narrow phase of two edges in a substep: their contact, and their sides. Requires the names and buffers of
-// touch_edges.
+// find_edge_contacts.
 const float leastSine = 1e-3; // squared sine; edges at a smaller angle count as parallel
 
 // Two edges at one time of the substep.

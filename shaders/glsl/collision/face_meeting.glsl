@@ -1,5 +1,5 @@
 // Geometry of a point and a face at the start and at the end of a substep. Requires the names and buffers of
-// touch_faces.
+// find_face_contacts.
 
 // True if a point that has crossed the plane of a face went through the face: tests the position on straight paths at
 // the time of the crossing. A rotating face was not exactly there; a point that was never within reach may be in no

@@ -1,5 +1,5 @@
 // Narrow phase of a point and a face in a substep: their contact, and the side of the point. Requires the names and
-// buffers of touch_faces.
+// buffers of find_face_contacts.
 #include "collision/face_meeting.glsl"
 
 struct Touch {

@@ -1,6 +1,6 @@
 #version 460
 // Every edge searches for others near it, in the cells around it and among the edges outside of the grid, and lists
-// each pair once, in any order: sort_lists and link_rows sort. A pair is listed if its distance, and that of the
+// each pair once, in any order: sort_lists and index_rows_by_owner sort. A pair is listed if its distance, and that of the
 // balls around both edges, is below the reach, plus a margin, plus the motion of both in this substep.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

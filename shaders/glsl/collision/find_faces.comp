@@ -1,6 +1,6 @@
 #version 460
 // Every small face searches for points near it, in the cells around it and among the points outside of the grid, and
-// lists the pairs in any order: sort_lists and link_rows sort. A face with too many points around it is left to
+// lists the pairs in any order: sort_lists and index_rows_by_owner sort. A face with too many points around it is left to
 // find_wide_faces.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

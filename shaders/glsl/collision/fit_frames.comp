@@ -2,7 +2,7 @@
 // Frames of bodies, third pass: fits by least squares the affine motion that takes each body's particles from their
 // positions when lists were made to their present ones, and continues at their present rate. Bodies whose boxes,
 // swept over the step, come near each other share a frame: only then do differences between their particles follow
-// from it. Any frame is correct, for lists are checked against it in every substep (watch_motion); one that fits
+// from it. Any frame is correct, for lists are checked against it in every substep (check_pair_lists); one that fits
 // keeps the lists valid for longer.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"

@@ -2,7 +2,7 @@
 // deeper. Their rest distance is below 0. It belongs to the point and the body, not to one face: the nearest face of
 // the body holds the point. A point that has come out in front of the surface becomes an ordinary one. A point that
 // is pressed through the surface is held at the rest distance that it had in front. At most four bodies hold a point.
-// Requires the names and buffers of touch_faces.
+// Requires the names and buffers of find_face_contacts.
 struct Held {
     uint body;
     uint element; // element of the face that holds the point; ~0 = none

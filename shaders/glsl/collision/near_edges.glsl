@@ -4,7 +4,7 @@ struct Searched {
     ContactEdge edge;
     vec3 middle;
     vec3 a, ab;
-    float way, thickness; // motion of the faster end in this substep; thickness with stretch (place_edges) [m]
+    float way, thickness; // motion of the faster end in this substep; thickness with stretch (compute_edge_bounds) [m]
 };
 
 float wayOf(uint e) { return sizeOf(0.0, step.h, SPEED(e).xyz); }
@@ -15,7 +15,7 @@ Searched searchedOf(uint e) {
     return Searched(e, edge, middles[e].xyz, a, POSITION(edge.b).xyz - a, wayOf(e), THICKNESS(e));
 }
 
-bool isApart(ContactEdge edge, float way) { // see part_points
+bool isApart(ContactEdge edge, float way) { // see list_large_points
     const float size = edge.radius + way;
     return !(size <= push.most);
 }

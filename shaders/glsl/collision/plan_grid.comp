@@ -79,7 +79,7 @@ void planFrame(uint b, uint moved, bool stands) {
 
 void main() {
     const uint b = gl_LocalInvocationID.x;
-    const uint strayed = bounds.moved; // watch_motion writes only distances that are too large
+    const uint strayed = bounds.moved; // check_pair_lists writes only distances that are too large
     const uint moved = isCalm() ? 0u : strayed;
     const bool stands = bounds.drift < strayOf(moved);
     memoryBarrierBuffer();

@@ -40,7 +40,7 @@ vec3 between(Row row, vec3 a, vec3 b, vec3 c, vec3 d) { return row.beta.x * a + 
 #define BETWEEN(row, of) \
     between(row, of[row.particles[0]].xyz, of[row.particles[1]].xyz, of[row.particles[2]].xyz, of[row.particles[3]].xyz)
 
-// D = sum_k |beta_k| S_k w_k, from the weight sums of the particles (share_rows).
+// D = sum_k |beta_k| S_k w_k, from the weight sums of the particles (sum_row_weights).
 #define SHARED(row, shares) \
     (abs(row.beta.x) * shares[row.particles[0]] + abs(row.beta.y) * shares[row.particles[1]] + \
      abs(row.beta.z) * shares[row.particles[2]] + abs(row.beta.w) * shares[row.particles[3]])

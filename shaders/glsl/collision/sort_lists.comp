@@ -1,7 +1,7 @@
 #version 460
 // Makes the contact list of every particle or, FACES, of every point with faces or, EDGES, of every edge with the
 // edges in rows that it owns, from the pairs that were found: sorted by index, with the contact distance and,
-// HAS_MEMORY, the contact memory. LISTS_OWNERS: lists the groups with a candidate; for edges link_rows does so.
+// HAS_MEMORY, the contact memory. LISTS_OWNERS: lists the groups with a candidate; for edges index_rows_by_owner does so.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/kernel.glsl"

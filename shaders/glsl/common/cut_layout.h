@@ -30,11 +30,11 @@ struct CutCounts {
     uint linksOfStep; // in the newest step with a blade
     uint pieces;
     uint missing;     // SurfaceState::missing
-    uint crumbs, crumbParticles; // fragments: removed pieces, and their particles
-    uint crumbMass;   // mass of fragments, in 1 / CRUMB_MASS of all that may be cut
+    uint debris, debrisParticles; // fragments: removed pieces, and their particles
+    uint debrisMass;   // mass of fragments, in 1 / DEBRIS_MASS of all that may be cut
     uint unused0;
 };
-#define CRUMB_MASS 4294967040.0 // the largest float below 2^32
+#define DEBRIS_MASS 4294967040.0 // the largest float below 2^32
 
 // Positions of the cuts on the links that a node owns, for the seven links that are edges of Kuhn's tetrahedra, in
 // the order (1,0,0) (0,1,0) (1,1,0) (0,0,1) (1,0,1) (0,1,1) (1,1,1): byte k % 4 of word k / 4, in 1/255 of the way
@@ -56,19 +56,19 @@ struct CutPush {
 #define PIECE_CHUNK 32
 
 // A particle that may be cut, where fragments are removed.
-struct CrumbParticle {
-    uint mass;  // in the unit of CutCounts::crumbMass
+struct DebrisParticle {
+    uint mass;  // in the unit of CutCounts::debrisMass
     uint whole; // particles of its uncut body
 };
 
 // Removal of fragments: the slots of a run, and the least number of particles that a piece must have.
-struct CrumbPush {
+struct DebrisPush {
     uint first, count;
     uint least;
 };
 
 // A triangle of an unclipped skin: its corners, its position among the indices, and its list of particles.
-struct CrumbTriangle {
+struct DebrisTriangle {
     uint corners[3];
     uint place;
     uint first, count; // range of its particles in the list
@@ -207,8 +207,8 @@ struct SkinGrid {
 struct PrismPush {
     uint first;  // number of surface items before the prisms: slots
     uint count;  // prisms, or bound vertices
-    uint prisms; // for part_prisms: first prism of a body
-    uint run;    // for part_prisms: index of the run, which selects its lists
+    uint prisms; // for partition_prisms: first prism of a body
+    uint run;    // for partition_prisms: index of the run, which selects its lists
 };
 
 // Lists of a body with a clipped skin: prisms near the blade, prisms near dead links, vertices near the blade, and

@@ -106,8 +106,8 @@ struct AttachedParticle {
 };
 
 // A grab, as the host sets it for a step: the motion of the held point, and the properties of the hold.
-#define GRAB_HANDS 8
-struct GrabHand {
+#define MOST_GRABS 8
+struct GrabRequest {
     vec4 from, to;         // held point at the start and at the end of the step [m]
     vec4 velocity;         // velocity of the held point [m/s]
     uint serial;           // 0 = holds nothing; a value that differs from that of the step before starts a new grab
@@ -146,7 +146,7 @@ struct Grip {
 struct GrabPush {
     uint count;  // number of particles
     uint groups; // work groups for that many particles
-    uint hands;
+    uint grabs;
     float fraction; // part of the step that is over at the end of this substep
     float lateKick; // part of h g that is in v and has not moved x
 };
@@ -226,7 +226,7 @@ struct StatusWords {
     uint invertedFirstBad; // ~index of the first of them
     uint frame;
     uint candidates;       // entries per particle that contacts would need, if they do not fit; else 0
-    uint slowed;           // particles slowed down by cap_speeds, in all substeps
+    uint slowed;           // particles slowed down by clamp_speeds, in all substeps
     uint sleeping;         // number of sleeping particles
     uint laterLists;       // times that lists had to be rebuilt, or particles slowed down, in substeps after the first
     uint lacksLists;       // 1 = one of those was needed in a calm step, or in one before it that was not repeated
@@ -421,7 +421,7 @@ struct ContactEdge {
     float radius;  // radius of the ball around its midpoint that contains it; below 0 in padding [m]
 };
 
-struct PlaceEdgesPush { uint items, edges, members; }; // the larger number, in whole work groups; edges; watched ends
+struct ComputeEdgeBoundsPush { uint items, edges, members; }; // the larger number, in whole work groups; edges; watched ends
 
 struct FacePush {
     uint count;   // number of particles, or edges; whole work groups
@@ -498,9 +498,9 @@ struct ColliderPush {
 };
 
 // Indices into the arguments of passes for kinematic colliders.
-#define POKES_PLACED 0
-#define POKES_TOUCHING 1 // once a substep
-#define POKE_ARGUMENTS 2
+#define HOST_COLLIDERS_PLACED 0
+#define HOST_COLLIDERS_TOUCHING 1 // once a substep
+#define HOST_COLLIDER_ARGUMENTS 2
 
 struct PlacePush {
     uint count; // colliders x (substeps + 1)
@@ -510,7 +510,7 @@ struct PlacePush {
 // A particle that has moved no faster than SLEEP_SPEED for SLEEP_TIME rests, and may sleep.
 #define SLEEP_TIME 0.5   // [s]
 #define SLEEP_SPEED 0.03 // [m/s]
-#define SLEEP_MOST_SPEED 0.1 // [m/s], of large particles (watch_rest)
+#define SLEEP_MOST_SPEED 0.1 // [m/s], of large particles (measure_rest_times)
 #define SLEEP_DRIVEN -1.0f // replaces the inverse mass of driven particles
 
 // Indices into the arguments of sleep passes: all particles, or one group, at the start of a step; the same in a

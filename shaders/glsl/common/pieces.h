@@ -3,6 +3,6 @@
 #define SINEW_PIECES_H
 
 #define NO_PARTICLE 0xffffffffu   // the slot belongs to no body that may be cut
-#define REMOVED_PIECE 0xfffffffeu // a removed fragment: Scene::crumbs
+#define REMOVED_PIECE 0xfffffffeu // a removed fragment: Scene::debris
 
 #endif

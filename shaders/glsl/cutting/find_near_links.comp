@@ -1,6 +1,6 @@
 #version 460
 // First pass of a cut: lists the nodes that own a link whose box meets that of the blade, with those links. They are
-// few, and later passes process only these. The order of the list does not matter: links are cut one by one. CRUMBS:
+// few, and later passes process only these. The order of the list does not matter: links are cut one by one. DEBRIS:
 // leaves out links of removed fragments, which are invisible.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -19,7 +19,7 @@ layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
 layout(std430, binding = 3) readonly buffer Work { CutWork work; };
 layout(std430, binding = 4) buffer Counts { uint counts[]; };      // number of nodes, by run
 layout(std430, binding = 5) writeonly buffer Nears { uvec2 nears[]; }; // slot, links; each run begins at its first slot
-#ifdef CRUMBS
+#ifdef DEBRIS
 layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
 bool isThere(uint i) { return particles[i] != NO_PARTICLE && pieces[particles[i]] != REMOVED_PIECE; }

@@ -1,13 +1,13 @@
 #version 460
 // Tearing, second pass: lists cells that are stretched beyond the limit and more than all cells around them, in any
-// order: no two of them share a link. CRUMBS: leaves out cells of removed fragments, which are invisible.
+// order: no two of them share a link. DEBRIS: leaves out cells of removed fragments, which are invisible.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Strains { CellStrain strains[]; };
 layout(std430, binding = 1) writeonly buffer Found { uint found[]; };
 layout(std430, binding = 2) buffer Tears { TearCount tears; };
-#ifdef CRUMBS
+#ifdef DEBRIS
 layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 4) readonly buffer Pieces { uint pieces[]; };
 bool isThere(uint cell) { return pieces[particles[cell]] != REMOVED_PIECE; } // its corners are connected

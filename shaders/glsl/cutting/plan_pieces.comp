@@ -1,6 +1,6 @@
 #version 460
 // Writes the group counts of the passes that find pieces, which run only if links were cut. The first round always
-// runs then, each later one if the round before requests it (hook_pieces).
+// runs then, each later one if the round before requests it (union_pieces).
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 
@@ -31,5 +31,5 @@ void main() {
     if (i > 0u) return;
     counts.linksOfStep = work.cut;
     counts.links += work.cut;
-    if (work.cut > 0u) counts.pieces = counts.crumbs = counts.crumbParticles = counts.crumbMass = 0u;
+    if (work.cut > 0u) counts.pieces = counts.debris = counts.debrisParticles = counts.debrisMass = 0u;
 }

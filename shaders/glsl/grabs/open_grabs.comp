@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Hands { GrabHand hands[]; };
+layout(std430, binding = 0) readonly buffer Requests { GrabRequest requests[]; };
 layout(std430, binding = 1) buffer States { GrabState states[]; };
 layout(std430, binding = 2) writeonly buffer Holding { DispatchArguments holding; };
 layout(std430, binding = 3) buffer Pulling { DispatchArguments pulling; }; // unused0: number of held particles
@@ -16,14 +16,14 @@ void main() {
     const uint lane = gl_LocalInvocationID.x;
     if (lane == 0u) changes = 0u;
     barrier();
-    const bool isHand = lane < push.hands;
-    const bool isNew = isHand && hands[lane].serial != states[lane].serial;
+    const bool isGrab = lane < push.grabs;
+    const bool isNew = isGrab && requests[lane].serial != states[lane].serial;
     if (isNew) atomicOr(changes, 1u);
     barrier();
     const bool isChanged = changes != 0u;
-    if (isHand) {
+    if (isGrab) {
         const uint total = isChanged ? 0u : states[lane].total; // summed again
-        states[lane] = GrabState(hands[lane].serial, isNew ? 1u : 0u, total, 0u);
+        states[lane] = GrabState(requests[lane].serial, isNew ? 1u : 0u, total, 0u);
     }
     if (lane > 0u) return;
     holding = DispatchArguments(isChanged ? push.groups : 0u, 1u, 1u, 0u);

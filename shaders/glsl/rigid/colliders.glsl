@@ -8,7 +8,7 @@
 
 layout(constant_id = 2) const uint colliderCount = 1;
 layout(constant_id = 3) const bool isMoving = false; // any of them
-layout(constant_id = 4) const uint pokeCount = 0;    // number of kinematic colliders, which come first and may be absent
+layout(constant_id = 4) const uint hostColliderCount = 0;    // number of kinematic colliders, which come first and may be absent
 
 // Speed at which a particle inside a collider is moved out [m/s]; the motion adds nothing to its velocity.
 const float leavingSpeed = 1.0;

@@ -26,7 +26,7 @@ layout(std140, binding = 5) uniform Step { StepParams step; };
 #ifdef OPEN
 layout(std430, binding = 6) buffer Corrections { vec4 corrections[]; }; // ParticleCorrection
 #elif defined HAS_REBOUND
-layout(std430, binding = 6) readonly buffer Before { vec4 before[]; }; // x, v of each particle (open_colliders)
+layout(std430, binding = 6) readonly buffer Before { vec4 before[]; }; // x, v of each particle (save_substep_start)
 #elif defined HAS_CONTACTS
 layout(std430, binding = 6) readonly buffer Predicted { vec4 predicted[]; }; // before contacts
 layout(std430, binding = 7) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; };
@@ -70,7 +70,7 @@ Start startOf(uint i) {
 #endif
 }
 
-bool isAbsent(uint c) { return c < pokeCount && colliders[c].isAbsent != 0u; }
+bool isAbsent(uint c) { return c < hostColliderCount && colliders[c].isAbsent != 0u; }
 
 // Whether a particle can have come near a collider in the substep.
 bool hasWork(uint i) {

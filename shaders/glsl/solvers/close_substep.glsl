@@ -1,6 +1,6 @@
 // Part of advance_substep: ends the substep of a particle after the sweeps.
 
-layout(constant_id = 11) const bool hasColliders = false; // with colliders, touch_planes handles the planes before them
+layout(constant_id = 11) const bool hasColliders = false; // with colliders, project_onto_planes handles the planes before them
 
 // Turns the end of a sweep into the velocity after the substep, and returns the displacement from p to the position
 // after it. `remainder` is the part of the corrections that the substep began with.

@@ -70,7 +70,7 @@ layout(std430, binding = STEP_BINDING + 2) readonly buffer ContactOffsets { floa
 #define BEND_BINDING (LINK_BINDING + 1)
 #endif
 
-// If true, a static particle stores the impulse of its links [N s] in place of its velocity, where take_pulls reads
+// If true, a static particle stores the impulse of its links [N s] in place of its velocity, where extract_hold_impulses reads
 // it.
 layout(constant_id = 22) const bool keepsPulls = false;
 

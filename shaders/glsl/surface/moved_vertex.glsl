@@ -1,4 +1,4 @@
-// Rest positions to which bound vertices have moved beside a cut (move_rims), from MOVED_BINDING: valid if w =
+// Rest positions to which bound vertices have moved beside a cut (snap_rims_to_blade), from MOVED_BINDING: valid if w =
 // VERTEX_MOVED.
 #ifdef TEXELS
 layout(binding = MOVED_BINDING) uniform samplerBuffer moved;

@@ -1,5 +1,5 @@
 // The normal of a vertex beside a cut: triangles around it are in pieces or collapsed, so it is the normal at rest,
-// rotated with the material like points of the cut (skin_cut).
+// rotated with the material like points of the cut (place_cut_points).
 //
 //   NEAR(i), LINKS(i), HOME(i), TURN(i), AT(i)   as for nearby.glsl
 //   grids                                        of each skin

@@ -12,10 +12,10 @@ layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // the co
 layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 2) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 3) readonly buffer Hits { LinkHits hits[]; };
-layout(std430, binding = 4) readonly buffer Rest { vec4 rest[]; }; // particles as blades see them (pull_places); w = index of the body's skin
+layout(std430, binding = 4) readonly buffer Rest { vec4 rest[]; }; // particles as blades see them (move_places_below_skin); w = index of the body's skin
 layout(std430, binding = 5) writeonly buffer Vertices { CutVertex vertices[]; };
 
-// Position of the cut on a link; the midpoint for a link cut only by settle_links, which stores no position.
+// Position of the cut on a link; the midpoint for a link cut only by remove_loose_links, which stores no position.
 float shareOf(uint slot, uint d) {
     const uint k = d - 1u, value = bitfieldExtract(k < 4u ? hits[slot].low : hits[slot].high, int(8u * (k & 3u)), 8);
     return value == 0u ? 0.5 : float(value) / 255.0;

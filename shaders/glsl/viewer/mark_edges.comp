@@ -17,7 +17,7 @@ layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; }; // one pe
 layout(push_constant) uniform Push { MarkPush push; };
 #include "viewer/marks.glsl"
 
-const float leastSine = 1e-3; // squared, as in touch_edges.comp
+const float leastSine = 1e-3; // squared, as in find_edge_contacts.comp
 
 bool isWanted(ContactEdge edge) {
     return push.only == NO_PARTICLE || bySlot[edge.a] == push.only || bySlot[edge.b] == push.only;

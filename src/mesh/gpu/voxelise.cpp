@@ -126,7 +126,7 @@ void Stages::vote() {
     const Samples centers = makeSamples(kernels::judgeCenters, kernels::windCenters, 1, cellCount_,
                                         inBlocks(cellCount_, wordBits));
     const Samples fill =
-        makeSamples(kernels::judgeVotes, kernels::windSamples, linesOfColumn,
+        makeSamples(kernels::countVotes, kernels::computeWinding, linesOfColumn,
                     std::uint64_t{hullCount_} * linesOfColumn, std::uint64_t{hullCount_} * wordsOfCell);
     const BufferId links =
         job_.scratch<std::uint32_t>("links", std::ranges::max(columns_) + std::uint64_t{hullCount_});
@@ -134,7 +134,7 @@ void Stages::vote() {
         job_.dispatch(kernels::voteCenters, columns_[push_.axis],
                       {vertices_, triangles_, cells_, touching_, centers.votes, centers.totals, links},
                       push_);
-        job_.dispatch(kernels::voteLines, columns_[push_.axis] * linesOfColumn,
+        job_.dispatch(kernels::traceLines, columns_[push_.axis] * linesOfColumn,
                       {vertices_, triangles_, cells_, touching_, fill.votes, fill.totals, links, hullCells_},
                       push_);
     }
@@ -177,7 +177,7 @@ void Stages::decide(const PlacedMesh& placed) {
         const Samples& samples = samples_[i];
         const BufferId list = job_.scratch<std::uint32_t>("doubtful_samples", counts[i]);
         job_.fill(samples.count, 0);
-        job_.dispatch(kernels::listDoubtful, samples.words, {samples.doubtful, samples.count, list}, push_);
+        job_.dispatch(kernels::listUndecided, samples.words, {samples.doubtful, samples.count, list}, push_);
         job_.dispatch(*samples.wind, counts[i],
                       {vertices_, triangles_, nodeBuffer, orderBuffer, hullCells_, list, samples.inside},
                       push_);

@@ -1,8 +1,8 @@
 // Voxelisation on a Vulkan device, in three submissions with counts read back in between:
 //   mark_hull, scan_cells, add_blocks           the cells that triangles touch, and their number
-//   mark_hull (lists), list_hull, vote_lines    three axes of lines through centres and fill samples
-//   judge_votes                                 -> core bits, fill bits, doubtful samples
-//   list_doubtful, wind_samples                 the generalised winding number, only for doubtful samples
+//   mark_hull (lists), list_hull, trace_lines    three axes of lines through centres and fill samples
+//   count_votes                                 -> core bits, fill bits, doubtful samples
+//   list_undecided, compute_winding                 the generalised winding number, only for doubtful samples
 #pragma once
 
 #include "mesh/gpu/job.hpp"

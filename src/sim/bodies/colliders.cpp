@@ -109,14 +109,14 @@ Pose poseAt(const DrivenBody& body, double time) noexcept {
     return body.path.empty() ? Pose{} : poseOn(body.path, body.pathEnd, time);
 }
 
-Collider colliderOf(const Poke& poke) noexcept {
-    Collider collider{.shape = poke.shape,
-                      .radius = poke.radius,
-                      .halfLength = poke.halfLength,
-                      .halfExtents = poke.halfExtents,
-                      .friction = poke.friction,
-                      .staticFriction = poke.staticFriction};
-    collider.pose = poke.pose;
+Collider colliderOf(const HostCollider& hostCollider) noexcept {
+    Collider collider{.shape = hostCollider.shape,
+                      .radius = hostCollider.radius,
+                      .halfLength = hostCollider.halfLength,
+                      .halfExtents = hostCollider.halfExtents,
+                      .friction = hostCollider.friction,
+                      .staticFriction = hostCollider.staticFriction};
+    collider.pose = hostCollider.pose;
     return collider;
 }
 

@@ -119,7 +119,7 @@ void addBuild(ProgramBuilder& program, const Lists& lists, const hash_grid::Move
 }
 
 void addUpdate(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved) {
-    hash_grid::addWatch(program, lists.grid, moved);
+    hash_grid::addListCheck(program, lists.grid, moved);
     addBuild(program, lists, moved);
     addLists(program, lists, moved);
 }
@@ -128,7 +128,7 @@ void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Move
     const hash_grid::Grid& grid = lists.grid;
     const pooled_lists::Lists& pooled = lists.pooled;
     if (pooled.memory)
-        program.dispatchIndirect(k::keepLists, grid.particles, pooled_lists::keepingBuffers(pooled),
+        program.dispatchIndirect(k::saveContactMemory, grid.particles, pooled_lists::keepingBuffers(pooled),
                                  layout::CountPush{grid.push.count});
     std::vector<BufferId> buffers{grid.sorted, grid.starts,   moved.positions, grid.radii,
                                   grid.bounds, pooled.chains, pooled.pairs,    lists.large};

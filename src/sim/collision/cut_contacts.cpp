@@ -53,7 +53,7 @@ void addContactFilter(ProgramBuilder& program, const Contacts& contacts) {
     if (std::ranges::find(cutting.contactsSeen, seen) == cutting.contactsSeen.end()) // fragments leave it too
         cutting.contactsSeen.push_back(seen);
     cutting.topology.push_back(contacts.lists.excluded);
-    program.carry(contacts.lists.excluded, contacts.lists.excluded);
+    program.addToState(contacts.lists.excluded, contacts.lists.excluded);
     addFilter(program, contacts);
     program.atEnd([&program, contacts] { addFilter(program, contacts); }); // after links were restored
 }
@@ -63,7 +63,7 @@ void addContactOpening(ProgramBuilder& program, const Contacts& contacts) {
     const CuttingBuffers cutting = program.program().cutting;
     program.beginCut();
     for (const CutRun& run : cutting.runs)
-        program.dispatch(k::openCutContacts, run.count,
+        program.dispatch(k::recordCutOverlaps, run.count,
                          {cutting.links, cutting.savedLinks, cutting.places, contacts.lists.pooled.contacts,
                           contacts.lists.pooled.ranges, contacts.lists.pooled.memory->memory},
                          pushOf(run));

@@ -111,7 +111,7 @@ void makeTopology(ProgramBuilder& program, BufferId seen, const std::vector<Buff
     if (!has(cutting.contactsSeen, seen)) cutting.contactsSeen.push_back(seen); // else fragments leave it too
     for (const BufferId buffer : buffers) {
         cutting.topology.push_back(buffer);
-        program.carry(buffer, buffer);
+        program.addToState(buffer, buffer);
     }
 }
 
@@ -154,14 +154,14 @@ void addFaceFilter(ProgramBuilder& program, const face_contacts::Contacts& conta
     const std::vector<CutRun> runs = program.program().cutting.runs;
     for (const CutRun& run : runs)
         if (run.rowStride > 0)
-            addFilter<layout::CutSolidFace>(program, contacts, run, k::partSolidFaces,
+            addFilter<layout::CutSolidFace>(program, contacts, run, k::updateSolidFaces,
                                             [&](std::uint32_t f, const layout::ContactFace& face) {
                                                 return contacts.isOfCells[f] ? solidOf(run, face)
                                                                              : std::nullopt;
                                             });
         else
             addFilter<layout::CutFace>(
-                program, contacts, run, k::partFaces,
+                program, contacts, run, k::disableCutFaces,
                 [&](std::uint32_t, const layout::ContactFace& face) { return halfOf(run, face); });
     hideInner(program, contacts);
 }
@@ -171,7 +171,7 @@ void addFaceOpening(ProgramBuilder& program, const face_contacts::Contacts& cont
     if (!contacts.hasInner()) return;
     const face_lists::Lists& lists = contacts.lists;
     program.beginCut();
-    program.dispatch(k::openCutFaces, contacts.rows.push.count,
+    program.dispatch(k::recordCutFaceOverlaps, contacts.rows.push.count,
                      {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
                       lists.pooled.ranges, lists.pooled.memory->memory, predicted.step, contacts.opened,
                       contacts.rows.marks},
@@ -190,7 +190,7 @@ void addEdgeFilter(ProgramBuilder& program, const edge_contacts::Contacts& conta
         const BufferId uploaded = program.upload("cut.edges", edges);
         const layout::CutFacesPush push{static_cast<std::uint32_t>(edges.size()), run.sliceStride, 0};
         addTwice(program, [&program, cutting, lists, uploaded, push] {
-            program.dispatch(k::partEdges, push.count,
+            program.dispatch(k::disableCutEdges, push.count,
                              {cutting.links, cutting.savedLinks, uploaded, lists.radii, lists.edges,
                               lists.grid.bounds, cutting.particles, cutting.pieces},
                              push);

@@ -2,7 +2,7 @@
 #include "sim/collision/edge_contacts.hpp"
 
 #include "common/rest_slack.h"
-#include "sim/collision/crumb_contacts.hpp"
+#include "sim/collision/debris_contacts.hpp"
 #include "sim/model/inverse_masses.hpp"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ edge_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .particles = layout.count,
                                                         .bodies = &bodies,
                                                         .substeps = settings.substeps});
-    collision::letCrumbsLeave(program, lists.grid.watched, lists.grid);
+    collision::letDebrisLeave(program, lists.grid.watched, lists.grid);
     return lists;
 }
 
@@ -115,7 +115,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                bool isFirst) {
     if (isFirst) edge_lists::addFit(program, contacts.lists, predicted);
-    edge_lists::addWatch(program, contacts.lists, predicted);
+    edge_lists::addListCheck(program, contacts.lists, predicted);
     edge_lists::addLists(program, contacts.lists, predicted);
     row_contacts::addPasses(program, contacts.rows, predicted,
                             row_contacts::restConstants(contacts.rows.keepsRest, isFirst));

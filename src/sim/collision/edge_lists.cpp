@@ -100,14 +100,15 @@ void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& 
     hash_grid::addFit(program, lists.grid, {particles.positions, particles.velocities, particles.step});
 }
 
-void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
+void addListCheck(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Grid& grid = lists.grid;
-    hash_grid::addWatchOfMembers(program, grid, {particles.positions, particles.velocities, particles.step});
+    hash_grid::addListCheckOfMembers(program, grid,
+                                     {particles.positions, particles.velocities, particles.step});
     program.dispatchIndirect(
-        k::placeEdges, grid.others,
+        k::computeEdgeBounds, grid.others,
         {particles.positions, particles.velocities, lists.edges, lists.thickness, lists.middles, lists.speeds,
          grid.detected, grid.frames.ofSlots, grid.watched, grid.frames.members, particles.step},
-        layout::PlaceEdgesPush{grid.push.others, grid.push.count, grid.frames.memberCount});
+        layout::ComputeEdgeBoundsPush{grid.push.others, grid.push.count, grid.frames.memberCount});
     hash_grid::addCells(program, grid, lists.middles);
 }
 
@@ -116,7 +117,7 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     std::vector<BufferId> buffers{lists.speeds, lists.radii, lists.points, lists.apart, particles.step};
     const std::vector<BufferId> keeping = pooled_lists::keepingBuffers(lists.pooled);
     buffers.insert(buffers.end(), keeping.begin(), keeping.end());
-    program.dispatchIndirect(k::partPoints, grid.particles, buffers, lists.push);
+    program.dispatchIndirect(k::listLargePoints, grid.particles, buffers, lists.push);
     program.dispatchIndirect(grid.usesTexels ? k::findEdges : k::findEdgesLoads, grid.particles,
                              {particles.positions, lists.edges, lists.speeds, lists.thickness, grid.sorted,
                               grid.starts, lists.excluded, grid.bounds, lists.points, lists.apart,

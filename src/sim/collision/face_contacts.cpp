@@ -4,9 +4,9 @@
 #include "common/rest_slack.h"
 #include "kernels.hpp"
 #include "sim/collision/contact_lists.hpp"
-#include "sim/collision/crumb_contacts.hpp"
 #include "sim/collision/cut_contacts.hpp"
 #include "sim/collision/cut_faces.hpp"
+#include "sim/collision/debris_contacts.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/lattice/squares.hpp"
 #include "sim/model/inverse_masses.hpp"
@@ -199,9 +199,9 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .usesTexels = settings.forms.usesTexels,
                                                         .bodies = &bodies,
                                                         .substeps = settings.substeps});
-    collision::letCrumbsLeave(program, lists.grid.radii, lists.grid);
-    collision::letCrumbsLeave(program, lists.grid.watched, lists.grid);
-    collision::letCrumbsLeave(program, lists.radii, lists.grid);
+    collision::letDebrisLeave(program, lists.grid.radii, lists.grid);
+    collision::letDebrisLeave(program, lists.grid.watched, lists.grid);
+    collision::letDebrisLeave(program, lists.radii, lists.grid);
     return lists;
 }
 
@@ -209,7 +209,7 @@ void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const Part
                    bool isFirst) {
     const face_lists::Lists& lists = contacts.lists;
     if (isFirst) face_lists::addFit(program, lists, predicted);
-    face_lists::addWatch(program, lists, predicted);
+    face_lists::addListCheck(program, lists, predicted);
     face_lists::addLists(program, lists, predicted);
 }
 
@@ -235,7 +235,7 @@ std::vector<std::array<std::uint32_t, 2>> stopRowsOf(const Faces& faces, const f
 }
 
 ProgramBuilder::Constants touchConstants(const Contacts& contacts, bool isFirst) {
-    constexpr std::uint32_t firstInnerId = 3; // constant_id in touch_faces.comp
+    constexpr std::uint32_t firstInnerId = 3; // constant_id in find_face_contacts.comp
     ProgramBuilder::Constants constants = row_contacts::restConstants(contacts.rows.keepsRest, isFirst);
     if (contacts.hasInner()) constants[firstInnerId] = contacts.firstInner;
     return constants;

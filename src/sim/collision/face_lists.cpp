@@ -111,9 +111,9 @@ void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& 
     hash_grid::addFit(program, lists.grid, {particles.positions, particles.velocities, particles.step});
 }
 
-void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
-    hash_grid::addWatchOfMembers(program, lists.grid,
-                                 {particles.positions, particles.velocities, particles.step});
+void addListCheck(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
+    hash_grid::addListCheckOfMembers(program, lists.grid,
+                                     {particles.positions, particles.velocities, particles.step});
     hash_grid::addCells(program, lists.grid, particles.positions);
 }
 
@@ -123,7 +123,7 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
                                   particles.step};
     const std::vector<BufferId> keeping = pooled_lists::keepingBuffers(lists.pooled);
     parting.insert(parting.end(), keeping.begin(), keeping.end());
-    program.dispatchIndirect(k::partPoints, grid.particles, parting, lists.push);
+    program.dispatchIndirect(k::listLargePoints, grid.particles, parting, lists.push);
     std::vector<BufferId> buffers = searchBuffers(lists, particles);
     const bool hasLinks = lists.liveLinks != BufferId{};
     buffers.insert(buffers.end(), {grid.sorted, grid.starts, lists.points, lists.apart, lists.searched,

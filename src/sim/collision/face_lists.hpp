@@ -52,12 +52,12 @@ struct Lists {
 
 Lists add(ProgramBuilder& program, const Request& request);
 
-/// Appends the fit of frames: once a step, at the end of its first substep, before addWatch().
+/// Appends the fit of frames: once a step, at the end of its first substep, before addListCheck().
 void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles);
 
 /// Appends the check of the motion of `particles`, and builds their grid if lists are no longer complete. The
 /// old lists stay until addLists().
-void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles);
+void addListCheck(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles);
 
 /// Appends the rebuild of lists if the grid was built. If they exceed their capacity the status says so
 /// (StatusWords::candidates): pairs are lost, so the step must be undone.

@@ -123,9 +123,9 @@ Grid add(ProgramBuilder& program, const Request& request) {
     return grid;
 }
 
-void addWatch(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
+void addListCheck(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     namespace k = kernels;
-    program.dispatch(form(grid, k::watchMotion, k::watchMotionLoads), grid.push.count,
+    program.dispatch(form(grid, k::checkPairLists, k::checkPairListsLoads), grid.push.count,
                      {moved.positions, grid.detected, moved.velocities, grid.bounds, grid.radii, grid.fast,
                       moved.step, grid.frames.frames},
                      grid.push, grid.frames.constants());
@@ -134,7 +134,7 @@ void addWatch(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
 void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved, bool isLast) {
     addPlan(program, grid, moved.step, isLast);
     program.dispatchIndirect(
-        kernels::capSpeeds, grid.slowed,
+        kernels::clampSpeeds, grid.slowed,
         {moved.positions, moved.velocities, grid.radii, program.program().status, moved.step}, grid.push);
     addCells(program, grid, moved.positions);
 }
@@ -145,10 +145,10 @@ void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
         {moved.positions, moved.velocities, grid.detected, grid.watched, grid.bounds, moved.step});
 }
 
-void addWatchOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
+void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     layout::GridPush push = pushOf(program, grid);
     push.count = grid.frames.memberCount;
-    program.dispatch(kernels::watchParticles, push.count,
+    program.dispatch(kernels::checkSurfaceLists, push.count,
                      {moved.positions, moved.velocities, grid.detected, grid.bounds, moved.step,
                       grid.frames.frames, grid.frames.members},
                      push, grid.frames.constants());

@@ -75,15 +75,15 @@ Grid add(ProgramBuilder& program, const Request& request);
 void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 
 /// Appends the check of all members of frames, which decides whether the grid is built.
-void addWatchOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved);
+void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 
 /// Appends, after the check: builds the grid of items at `positions`, if it is needed.
 void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions);
 
 /// Appends the check of particles.
-void addWatch(ProgramBuilder& program, const Grid& grid, const Moved& moved);
+void addListCheck(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 
-/// Appends, after the check by addWatch() or another pass: builds the grid of particles if it is needed.
+/// Appends, after the check by addListCheck() or another pass: builds the grid of particles if it is needed.
 /// Particles too fast for cells are listed, up to MOST_FAST; if there are more, all of them are slowed down
 /// first, which the status counts. `isLast`: no other addBuild() of this substep follows.
 void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved, bool isLast = true);

@@ -157,15 +157,15 @@ std::optional<Interlocks> add(ProgramBuilder& program, const Plan& plan, std::si
                                       std::vector<layout::InterlockPair>(plan.pairs, {INTERLOCK_PARTING, 0}));
     const layout::DispatchArguments all{interlocks.push.count / GROUP_ITEMS, 1, 1, 0};
     interlocks.arguments = program.upload("interlocks.arguments", std::vector{all});
-    program.carry(interlocks.pairs, interlocks.pairs);
-    program.carry(interlocks.arguments, interlocks.arguments);
+    program.addToState(interlocks.pairs, interlocks.pairs);
+    program.addToState(interlocks.arguments, interlocks.arguments);
     return interlocks;
 }
 
 void addPasses(ProgramBuilder& program, const Interlocks& interlocks, const Shared& shared,
                const ParticleBuffers& predicted) {
     const IndirectItems items{interlocks.arguments, 0, interlocks.push.count};
-    program.dispatchIndirect(k::turnNormals, items,
+    program.dispatchIndirect(k::rotateOutwardNormals, items,
                              {predicted.positions, interlocks.nodes, interlocks.depths, interlocks.normals},
                              interlocks.push);
     std::vector<BufferId> buffers = sharedBuffers(interlocks, shared, predicted.step);
@@ -175,13 +175,14 @@ void addPasses(ProgramBuilder& program, const Interlocks& interlocks, const Shar
     buffers = sharedBuffers(interlocks, shared, predicted.step);
     buffers.insert(buffers.end(), {interlocks.moving, predicted.positions, predicted.velocities});
     ProgramBuilder::Constants constants;
-    const vk::ShaderCode& code = forces::formFor(predicted, {&k::partInterlocked, &k::partInterlockedForces},
-                                                 &forces::Forces::ofContacts, buffers, constants);
+    const vk::ShaderCode& code =
+        forces::formFor(predicted, {&k::separateInterlocked, &k::separateInterlockedForces},
+                        &forces::Forces::ofContacts, buffers, constants);
     program.dispatchIndirect(code, items, buffers, interlocks.push, constants);
 }
 
 void addClosing(ProgramBuilder& program, const Interlocks& interlocks) {
-    program.dispatch(k::closeInterlocks, GROUP_ITEMS,
+    program.dispatch(k::updateInterlocks, GROUP_ITEMS,
                      {program.program().status, interlocks.pairs, interlocks.arguments}, interlocks.push);
 }
 

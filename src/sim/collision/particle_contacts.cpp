@@ -3,8 +3,8 @@
 
 #include "common/rest_slack.h"
 #include "kernels.hpp"
-#include "sim/collision/crumb_contacts.hpp"
 #include "sim/collision/cut_contacts.hpp"
+#include "sim/collision/debris_contacts.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/overlaps.hpp"
 #include "sim/forces/forces.hpp"
@@ -46,7 +46,7 @@ constexpr Forms forcesForms{
       &k::gatherContactsSlipsReboundForces},
      {&k::gatherContactsSurfacesForces, &k::gatherContactsSurfacesPlanesForces,
       &k::gatherContactsSurfacesReboundForces}}};
-constexpr std::uint32_t watchesId = 3;                        // constant_id in settle_free.comp
+constexpr std::uint32_t checksListsId = 3;                    // constant_id in finish_without_contacts.comp
 constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in gather_contacts.comp
 constexpr std::uint32_t keepsRestId = 5; // also in count_contacts.comp and in those of bounces
 constexpr std::uint32_t canOpenId = 6;   // in count_contacts.comp
@@ -148,8 +148,8 @@ pooled_lists::Initial firstLists(const overlaps::Overlaps& found, std::span<cons
 
 // Ends the substep for all particles as if they touched nothing, and checks them; or does only the first for
 // particles that were slowed down since.
-void addSettling(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-                 const ParticleBuffers& next, bool watches) {
+void addUncontactedEnd(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                       const ParticleBuffers& next, bool checksLists) {
     const hash_grid::Grid& grid = contacts.lists.grid;
     std::vector<BufferId> buffers{predicted.positions, grid.detected,      predicted.velocities,
                                   grid.bounds,         grid.radii,         grid.fast,
@@ -161,16 +161,18 @@ void addSettling(ProgramBuilder& program, const Contacts& contacts, const Partic
         buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
         constants.merge(contacts.planes.constants());
     }
-    constants.insert({watchesId, watches});
+    constants.insert({checksListsId, checksLists});
     constants.merge(grid.frames.constants());
     const vk::ShaderCode& code =
-        contacts.hasRebound         ? form(contacts, {&k::settleFreeReboundLoads, &k::settleFreeRebound})
-        : contacts.planes.count > 0 ? form(contacts, {&k::settleFreePlanesLoads, &k::settleFreePlanes})
-                                    : form(contacts, {&k::settleFreeLoads, &k::settleFree});
+        contacts.hasRebound
+            ? form(contacts, {&k::finishWithoutContactsReboundLoads, &k::finishWithoutContactsRebound})
+        : contacts.planes.count > 0
+            ? form(contacts, {&k::finishWithoutContactsPlanesLoads, &k::finishWithoutContactsPlanes})
+            : form(contacts, {&k::finishWithoutContactsLoads, &k::finishWithoutContacts});
     layout::GridPush push = grid.push;
     push.count = contacts.particleCount;
     buffers.push_back(contacts.particles);
-    if (watches)
+    if (checksLists)
         program.dispatch(code, push.count, buffers, push, constants);
     else
         program.dispatchIndirect(code, grid.slowed, buffers, push, constants);
@@ -179,7 +181,7 @@ void addSettling(ProgramBuilder& program, const Contacts& contacts, const Partic
 // Appends a pass over all particles, or over the groups with a candidate.
 void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
                      std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
-    if (!contacts.settles) {
+    if (!contacts.solvesListedGroups) {
         program.dispatch(code, contacts.push.count, buffers, contacts.push, constants);
         return;
     }
@@ -192,12 +194,12 @@ void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const Part
                    const ParticleBuffers& next, bool isFirst, bool isLast) {
     const hash_grid::Moved moved{predicted.positions, predicted.velocities, predicted.step};
     if (isFirst) hash_grid::addFit(program, contacts.lists.grid, moved);
-    if (contacts.settles)
-        addSettling(program, contacts, predicted, next, true);
+    if (contacts.solvesListedGroups)
+        addUncontactedEnd(program, contacts, predicted, next, true);
     else
-        hash_grid::addWatch(program, contacts.lists.grid, moved);
+        hash_grid::addListCheck(program, contacts.lists.grid, moved);
     contact_lists::addBuild(program, contacts.lists, moved, isLast);
-    if (contacts.settles) addSettling(program, contacts, predicted, next, false);
+    if (contacts.solvesListedGroups) addUncontactedEnd(program, contacts, predicted, next, false);
     contact_lists::addLists(program, contacts.lists, moved);
 }
 
@@ -290,7 +292,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const std::uint32_t room = std::max(settings.contactRoom, roomFor(overlaps, layout.count));
     overlaps::forget(overlaps, leastOverlap(scene, settings));
     surfaces::Surfaces surfaces = surfaces::add(program, scene, layout);
-    const bool settles = // keeping forces requires one end of the substep
+    const bool solvesListedGroups = // keeping forces requires one end of the substep
         !settings.sleeps && !settings.keepsForces && areMostlyLinked(scene) && !surfaces.hasRestitution &&
         !overlaps::haveParting(overlaps);
     const bool isCuttable = !exclusions.empty() && collision::canMeet(program.program(), scene);
@@ -314,17 +316,17 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                                               .substeps = settings.substeps,
                                               .hasMemory = surfaces.hasFriction || hasRecovery,
                                               .initial = first,
-                                              .listsGroups = settles}),
+                                              .listsGroups = solvesListedGroups}),
         .planes = rigid::planes::add(program, scene, layout),
         .surfaces = std::move(surfaces),
-        .settles = settles,
+        .solvesListedGroups = solvesListedGroups,
         .hasRebound =
             std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
         .hasRecovery = hasRecovery,
         .hasKept = overlaps::haveKept(overlaps),
         .allExcluded = allExcluded,
         .marks = marks};
-    collision::letCrumbsLeave(program, contacts.lists.grid.radii, contacts.lists.grid);
+    collision::letDebrisLeave(program, contacts.lists.grid.radii, contacts.lists.grid);
     contacts.push = {.count = contacts.lists.push.count,
                      .friction = contacts.surfaces.friction,
                      .staticFriction = contacts.surfaces.staticFriction,
@@ -334,7 +336,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     ContactBuffers& shown = program.program().contacts;
     shown.pairs = contacts.lists.pooled.contacts;
     shown.pairLists = contacts.lists.pooled.ranges;
-    if (settles) {
+    if (solvesListedGroups) {
         const std::vector<std::uint32_t> slots = slotsInOrder(layout);
         contacts.particles = program.upload("contacts.particles", slots);
         contacts.particleCount = static_cast<std::uint32_t>(slots.size());
@@ -384,14 +386,14 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     shared.push_back(next.velocities);
     shared.push_back(contacts.bouncing);
     ProgramBuilder::Constants constants{{keepsRestId, contacts.hasKept}};
-    program.dispatch(isTable ? form(contacts, {&k::countBouncesSurfacesLoads, &k::countBouncesSurfaces})
-                             : form(contacts, {&k::countBouncesLoads, &k::countBounces}),
+    program.dispatch(isTable ? form(contacts, {&k::countReboundsSurfacesLoads, &k::countReboundsSurfaces})
+                             : form(contacts, {&k::countReboundsLoads, &k::countRebounds}),
                      contacts.push.count, shared, contacts.push, constants);
     shared.insert(shared.end(), {next.positions, contacts.rebounding});
-    const forces::Forms tabled{&form(contacts, {&k::bounceContactsSurfacesLoads, &k::bounceContactsSurfaces}),
-                               &k::bounceContactsSurfacesForces};
-    const forces::Forms plain{&form(contacts, {&k::bounceContactsLoads, &k::bounceContacts}),
-                              &k::bounceContactsForces};
+    const forces::Forms tabled{&form(contacts, {&k::solveReboundsSurfacesLoads, &k::solveReboundsSurfaces}),
+                               &k::solveReboundsSurfacesForces};
+    const forces::Forms plain{&form(contacts, {&k::solveReboundsLoads, &k::solveRebounds}),
+                              &k::solveReboundsForces};
     const vk::ShaderCode& code =
         forces::formFor(next, isTable ? tabled : plain, &forces::Forces::ofContacts, shared, constants);
     program.dispatch(code, contacts.push.count, shared, contacts.push, constants);

@@ -22,7 +22,7 @@ struct Contacts {
     layout::ContactPush push{};
     /// Whether the substep ends for all particles as if they touched nothing, and then again for groups with
     /// a candidate; otherwise one pass ends it for all.
-    bool settles = false;
+    bool solvesListedGroups = false;
     BufferId particles;              ///< slots that hold a particle; only if it settles
     std::uint32_t particleCount = 0; ///< their number
     bool hasRebound = false;         ///< of a plane

@@ -59,7 +59,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     const Kept& saved = lists.memory->saved;
     for (const BufferId buffer :
          {lists.contacts, lists.ranges, lists.memory->memory, saved.ranges, saved.memory, saved.others})
-        program.carry(buffer, buffer);
+        program.addToState(buffer, buffer);
     return lists;
 }
 

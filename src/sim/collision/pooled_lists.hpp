@@ -73,7 +73,7 @@ std::vector<BufferId> keepingBuffers(const Lists& lists);
 std::vector<BufferId> sortingBuffers(ProgramBuilder& program, const Lists& lists, const hash_grid::Grid& grid,
                                      BufferId radii);
 
-/// The used entries of a pool, as items of a pass; plan_grid and link_rows write their number.
+/// The used entries of a pool, as items of a pass; plan_grid and index_rows_by_owner write their number.
 IndirectItems entriesInUse(const Lists& lists, const hash_grid::Grid& grid);
 
 /// Appends the end of a step. Lists of an undone step are made again; no lists are made while everything

@@ -59,7 +59,7 @@ sleep::SeenRows seenOf(const Rows& rows) {
 } // namespace
 
 constinit const Kind faces{.name = "faces",
-                           .touch = &k::touchFaces,
+                           .touch = &k::findFaceContacts,
                            .touchesLists = true,
                            .share = &k::shareFaces,
                            .press = &k::pressFaces,
@@ -72,7 +72,7 @@ constinit const Kind faces{.name = "faces",
                            .join = &k::joinFaces};
 
 constinit const Kind edges{.name = "edges",
-                           .touch = &k::touchEdges,
+                           .touch = &k::findEdgeContacts,
                            .share = &k::shareEdges,
                            .press = &k::pressEdges,
                            .bounce = &k::bounceEdges,

@@ -71,13 +71,13 @@ void addWeights(ProgramBuilder& program, const ParticleBuffers& particles) {
     const auto count = static_cast<std::uint32_t>(particles.layout.count);
     const BufferId initial = program.initialOf("state.initial", particles.positions);
     std::vector<BufferId> targets{particles.positions};
-    for (const Carried& carried : program.program().carried)
-        if (carried.to == particles.positions && carried.from != particles.positions)
-            targets.push_back(carried.from);
-    program.beginSettling();
+    for (const StateBuffer& stateBuffer : program.program().stateBuffers)
+        if (stateBuffer.to == particles.positions && stateBuffer.from != particles.positions)
+            targets.push_back(stateBuffer.from);
+    program.beginRefreshing();
     for (const BufferId target : targets)
         program.dispatch(kernels::setWeights, count, {target, initial}, layout::CountPush{count});
-    program.endSettling();
+    program.endRefreshing();
 }
 
 void skipContacts(ProgramBuilder& program, const Scene& scene) {

@@ -30,10 +30,10 @@ BufferId addMemory(ProgramBuilder& program, BufferId memory) {
 
 // Runs after the check, and before publishing, which uses the values that this restores.
 void addKept(ProgramBuilder& program) {
-    for (const BufferId buffer : program.kept()) {
+    for (const BufferId buffer : program.keptForRepeat()) {
         const BufferId saved = addMemory(program, buffer);
-        program.carry(buffer, saved);
-        program.carry(saved, saved);
+        program.addToState(buffer, saved);
+        program.addToState(saved, saved);
     }
 }
 
@@ -44,18 +44,18 @@ struct Kernels {
 
 // Initialises the saved copies from the adopted state.
 template <typename Push>
-void addAdopting(ProgramBuilder& program, const ParticleBuffers& particles, const vk::ShaderCode& take,
-                 std::span<const BufferId> slots, const Push& push) {
+void addInitialising(ProgramBuilder& program, const ParticleBuffers& particles, const vk::ShaderCode& take,
+                     std::span<const BufferId> slots, const Push& push) {
     const StepProgram& built = program.program();
     std::vector<BufferId> buffers{particles.positions, particles.velocities, built.positions,
                                   built.velocities};
     buffers.insert(buffers.end(), slots.begin(), slots.end());
-    program.beginAdopting();
+    program.beginInitialising();
     program.dispatch(take, particles.count, buffers, push, remainderConstants(particles.layout));
-    for (const Carried& carried : std::vector(built.carried))
+    for (const StateBuffer& stateBuffer : std::vector(built.stateBuffers))
         for (const BufferId state : {particles.positions, particles.velocities})
-            if (carried.to == state && carried.from != state) program.copy(state, carried.from);
-    program.endAdopting();
+            if (stateBuffer.to == state && stateBuffer.from != state) program.copy(state, stateBuffer.from);
+    program.endInitialising();
 }
 
 template <typename Push>
@@ -74,26 +74,29 @@ void addKernels(ProgramBuilder& program, const ParticleBuffers& particles, const
     addKept(program);
     program.dispatch(hasVelocities ? kernels.publish : kernels.publishPositions, particles.count, published,
                      push, remainderConstants(particles.layout));
-    if (hasVelocities) addAdopting(program, particles, kernels.take, slots, push);
+    if (hasVelocities) addInitialising(program, particles, kernels.take, slots, push);
 }
 
 void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
     const StateLayout& layout = particles.layout;
     if (layout.isInOrder) {
-        addKernels(program, particles, {k::measureState, k::publishState, k::publishPositions, k::takeState},
-                   {}, layout::CountPush{particles.count});
+        addKernels(program, particles,
+                   {k::measureState, k::publishState, k::publishPositions, k::initialiseState}, {},
+                   layout::CountPush{particles.count});
     } else if (layout.boxes) {
         const EqualBoxes& boxes = *layout.boxes;
         const layout::BoxesPush push{particles.count, boxes.particles, boxes.nodesX,      boxes.nodesY,
                                      boxes.origin,    boxes.rowStride, boxes.sliceStride, boxes.boxStride};
-        addKernels(program, particles,
-                   {k::measureStateBoxes, k::publishStateBoxes, k::publishPositionsBoxes, k::takeStateBoxes},
-                   {}, push);
+        addKernels(
+            program, particles,
+            {k::measureStateBoxes, k::publishStateBoxes, k::publishPositionsBoxes, k::initialiseStateBoxes},
+            {}, push);
     } else {
         const BufferId slots = program.upload("state.slots", layout.slot);
-        addKernels(program, particles,
-                   {k::measureStateSlots, k::publishStateSlots, k::publishPositionsSlots, k::takeStateSlots},
-                   std::span(&slots, 1), layout::CountPush{particles.count});
+        addKernels(
+            program, particles,
+            {k::measureStateSlots, k::publishStateSlots, k::publishPositionsSlots, k::initialiseStateSlots},
+            std::span(&slots, 1), layout::CountPush{particles.count});
     }
 }
 
@@ -101,13 +104,13 @@ void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
 
 void addPublishing(ProgramBuilder& program, const ParticleBuffers& particles) {
     addState(program, particles);
-    if (program.kept().empty())
+    if (program.keptForRepeat().empty())
         for (const BufferId buffer : {particles.positions, particles.velocities})
-            program.carry(buffer, buffer);
-    for (const BufferId memory : program.remembered()) {
+            program.addToState(buffer, buffer);
+    for (const BufferId memory : program.restoredOnUndo()) {
         const BufferId saved = addMemory(program, memory);
-        program.carry(memory, saved);
-        program.carry(saved, saved);
+        program.addToState(memory, saved);
+        program.addToState(saved, saved);
     }
     for (const auto& addEnding : program.endings()) addEnding();
 }

@@ -75,13 +75,14 @@ void checkSweeps(const Settings& settings, Complaints& complaints) {
                                        number(ranges::mostSweeps));
 }
 
-void checkHands(const Settings& settings, Complaints& complaints) {
+void checkGrabs(const Settings& settings, Complaints& complaints) {
     if (settings.grabs > ranges::mostGrabs)
         complaints.add("settings.grabs",
                        "is " + number(settings.grabs) + ", must be at most " + number(ranges::mostGrabs));
-    if (settings.pokes > ranges::mostPokes)
-        complaints.add("settings.pokes",
-                       "is " + number(settings.pokes) + ", must be at most " + number(ranges::mostPokes));
+    if (settings.hostColliders > ranges::mostHostColliders)
+        complaints.add("settings.hostColliders", "is " + number(settings.hostColliders) +
+                                                     ", must be at most " +
+                                                     number(ranges::mostHostColliders));
 }
 
 void checkSleep(const Settings& settings, Complaints& complaints) {
@@ -102,7 +103,7 @@ void checkSettings(const Settings& settings, Complaints& complaints) {
         complaints.add("settings.omega", "is " + number(settings.omega) +
                                              ", but split is stable only below 4 / (1 + 2 theta) = " +
                                              number(static_cast<float>(bound)));
-    checkHands(settings, complaints);
+    checkGrabs(settings, complaints);
     checkSleep(settings, complaints);
     if (complaints.isEmpty()) checkSweeps(settings, complaints);
 }
@@ -545,7 +546,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkSettings(settings, complaints);
     complaints.check(double{scene.dt}, ranges::dt, [] { return "scene.dt"; });
     complaints.check(double{scene.damping}, ranges::damping, [] { return "scene.damping"; });
-    complaints.check(static_cast<double>(scene.crumbs), ranges::crumbs, [] { return "scene.crumbs"; });
+    complaints.check(static_cast<double>(scene.debris), ranges::debris, [] { return "scene.debris"; });
     complaints.check(double{scene.dampingTime}, ranges::dampingTime, [] { return "scene.dampingTime"; });
     complaints.checkFinite(scene.gravity, [] { return "scene.gravity"; });
     checkParticles(scene, complaints);

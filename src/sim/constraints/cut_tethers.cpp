@@ -25,12 +25,12 @@ void addTetherFilter(ProgramBuilder& program, BufferId list, std::span<const Lis
     }
     if (parted.empty()) return;
     cutting.topology.push_back(list);
-    program.carry(list, list);
+    program.addToState(list, list);
     const BufferId uploaded = program.upload("cut.tethers", parted);
     program.atEnd([&program, uploaded, list, count = static_cast<std::uint32_t>(parted.size())] {
         program.beginCut();
-        program.dispatch(kernels::partTethers, count, {program.program().cutting.labels, uploaded, list},
-                         layout::CountPush{count});
+        program.dispatch(kernels::disableCutTethers, count,
+                         {program.program().cutting.labels, uploaded, list}, layout::CountPush{count});
         program.endCut();
     });
 }

@@ -81,7 +81,7 @@ ColoredEdges uploadColors(ProgramBuilder& program, const Scene& scene, const Set
         result.multipliers = program.scratch<layout::vec4>("distance.multipliers", list.edges.size());
     if (isWarm) {
         uploadWarmLinks(program, scene, coloring, list, layout.count, result);
-        program.remember(result.multipliers);
+        program.restoreOnUndo(result.multipliers);
     }
     return result;
 }

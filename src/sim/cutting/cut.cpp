@@ -2,8 +2,8 @@
 #include "sim/cutting/cut.hpp"
 
 #include "kernels.hpp"
-#include "sim/cutting/crumbs.hpp"
 #include "sim/cutting/cut_plan.hpp"
+#include "sim/cutting/debris.hpp"
 #include "sim/cutting/tearing.hpp"
 #include "sim/grabs/grab.hpp"
 #include "sim/sleep/sleep.hpp"
@@ -45,10 +45,10 @@ void planLists(ProgramBuilder& program, const Cut& cut, BufferId counts, BufferI
 void addNear(ProgramBuilder& program, const Cut& cut) {
     std::vector<BufferId> buffers{cut.bladePlaces, cut.buffers.links, cut.blade,
                                   cut.work,        cut.nearCounts,    cut.nears};
-    const bool hasCrumbs = program.program().cutting.crumbs > 0;
-    if (hasCrumbs) buffers.insert(buffers.end(), {cut.particles, cut.buffers.pieces});
-    const vk::ShaderCode& texels = hasCrumbs ? k::findNearLinksCrumbs : k::findNearLinks;
-    const vk::ShaderCode& loads = hasCrumbs ? k::findNearLinksLoadsCrumbs : k::findNearLinksLoads;
+    const bool hasDebris = program.program().cutting.debris > 0;
+    if (hasDebris) buffers.insert(buffers.end(), {cut.particles, cut.buffers.pieces});
+    const vk::ShaderCode& texels = hasDebris ? k::findNearLinksDebris : k::findNearLinks;
+    const vk::ShaderCode& loads = hasDebris ? k::findNearLinksLoadsDebris : k::findNearLinksLoads;
     for (const Run& run : cut.runs)
         program.dispatch(cut.usesTexels ? texels : loads, run.push.count, buffers, run.push);
 }
@@ -94,7 +94,7 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
     if (cut.tearing) addTearingPasses(program, *cut.tearing, cut);
     addListing(program, cut);
     for (const Run& run : cut.runs)
-        program.dispatchIndirect(k::settleLinks, {buffers.listedArguments, run.push.run, run.push.count},
+        program.dispatchIndirect(k::removeLooseLinks, {buffers.listedArguments, run.push.run, run.push.count},
                                  {buffers.links, buffers.dirty, buffers.listedCounts, buffers.listed},
                                  run.push);
     addWholeCells(program, cut);
@@ -115,13 +115,13 @@ void addParting(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
     const auto slots = [](const Run& run) { return run.push.count; };
     const auto first = 2 * static_cast<std::uint32_t>(cut.runs.size()); // arguments
     if (particles.sleep)
-        addIndirect(program, cut, k::partIslands, first,
+        addIndirect(program, cut, k::updateSleepComponents, first,
                     {cut.labels, cut.particles, particles.sleep->components}, slots);
     if (!particles.grabs) return;
     program.fill(cut.weights, 0);
-    addIndirect(program, cut, k::weighPieces, first,
+    addIndirect(program, cut, k::sumPieceMasses, first,
                 {cut.particles, cut.buffers.pieces, cut.uncutBodies, cut.weights}, slots);
-    addIndirect(program, cut, k::partBodies, first,
+    addIndirect(program, cut, k::updateGrabMasses, first,
                 {cut.particles, cut.buffers.pieces, cut.uncutBodies, cut.weights, particles.grabs->bodies},
                 slots);
 }
@@ -133,7 +133,7 @@ void addRound(ProgramBuilder& program, const Cut& cut, std::uint32_t round) {
     const std::uint32_t first = round / 2 * runs;
     for (std::uint32_t r = 0; r < runs; ++r) {
         const layout::CutPush& push = cut.runs[r].push;
-        program.dispatchIndirect(k::hookPieces, {own, first + r, push.count},
+        program.dispatchIndirect(k::unionPieces, {own, first + r, push.count},
                                  {cut.buffers.links, cut.labels, others},
                                  layout::RoundPush{.first = push.first,
                                                    .count = push.count,
@@ -144,7 +144,7 @@ void addRound(ProgramBuilder& program, const Cut& cut, std::uint32_t round) {
                                                    .groups = groupsOf(push.count)});
     }
     for (std::uint32_t r = 0; r < runs; ++r)
-        program.dispatchIndirect(k::jumpPieces, {own, first + r, cut.runs[r].push.count}, {cut.labels},
+        program.dispatchIndirect(k::shortenPieces, {own, first + r, cut.runs[r].push.count}, {cut.labels},
                                  cut.runs[r].push);
 }
 
@@ -156,14 +156,14 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuf
                      {cut.work, buffers.counts, cut.groups, cut.arguments, buffers.listedCounts,
                       cut.roundArguments[0], cut.roundArguments[1]},
                      layout::PiecesPush{runs, cut.rounds});
-    addIndirect(program, cut, k::startPieces, 0,
+    addIndirect(program, cut, k::initialisePieces, 0,
                 {cut.labels, cut.particles, buffers.pieceSizes, buffers.links}, slots);
-    addIndirect(program, cut, k::jumpPieces, 0, {cut.labels}, slots);
+    addIndirect(program, cut, k::shortenPieces, 0, {cut.labels}, slots);
     for (std::uint32_t round = 0; round < cut.rounds; ++round) addRound(program, cut, round);
     addIndirect(program, cut, k::countPieces, runs,
                 {cut.labels, cut.particles, buffers.pieces, buffers.pieceSizes, buffers.counts}, chunksOf);
     addParting(program, cut, particles);
-    addCrumbRemoval(program, cut, particles);
+    addDebrisRemoval(program, cut, particles);
 }
 
 void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
@@ -191,7 +191,7 @@ void add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
     Cut cut = addBuffers(program, scene, settings, particles);
     if (cut.runs.empty()) return;
     cut.bladePlaces = cut.buffers.places;
-    addCrumbs(program, scene, cut, particles);
+    addDebris(program, scene, cut, particles);
     program.beginPhase("cut");
     program.beginCut();
     addOpening(program, cut, particles);

@@ -3,7 +3,7 @@
 // before its substeps, and gathers read them. A step without a blade records none of these passes.
 //
 //   cut      save links and positions; clear the bits of links that the blade meets (cut_links), and of links
-//            that nothing holds any more (settle_links); find the cells that lost an edge
+//            that nothing holds any more (remove_loose_links); find the cells that lost an edge
 //   publish  undo all that if the step is undone; find the pieces again if links were cut
 #pragma once
 

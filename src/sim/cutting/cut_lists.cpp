@@ -118,12 +118,12 @@ void addListFilter(ProgramBuilder& program, BufferId list, std::span<const Liste
         if (const auto tie = tieOf(cutting, one)) ties.push_back(*tie);
     if (ties.empty()) return;
     cutting.topology.push_back(list);
-    program.carry(list, list);
+    program.addToState(list, list);
     const BufferId uploaded = program.upload(areBends ? "cut.bends" : "cut.listed", ties),
                    links = cutting.links;
     cutting.lists.push_back(list);
     const auto addDispatch = [&program, links, uploaded, list, areBends, count = ties.size()] {
-        program.dispatch(areBends ? k::partBends : k::partLinks, static_cast<std::uint32_t>(count),
+        program.dispatch(areBends ? k::partBends : k::disableCutLinks, static_cast<std::uint32_t>(count),
                          {links, uploaded, list}, layout::CountPush{static_cast<std::uint32_t>(count)});
     };
     const auto addPass = [&program, addDispatch] {
@@ -131,9 +131,9 @@ void addListFilter(ProgramBuilder& program, BufferId list, std::span<const Liste
         addDispatch();
         program.endCut();
     };
-    program.beginSettling();
+    program.beginRefreshing();
     addDispatch();
-    program.endSettling();
+    program.endRefreshing();
     addPass();
     program.atEnd(addPass); // after links were restored
 }

@@ -143,9 +143,9 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
                                                                                     .linksOfStep = 0,
                                                                                     .pieces = pieces.count,
                                                                                     .missing = 0,
-                                                                                    .crumbs = 0,
-                                                                                    .crumbParticles = 0,
-                                                                                    .crumbMass = 0,
+                                                                                    .debris = 0,
+                                                                                    .debrisParticles = 0,
+                                                                                    .debrisMass = 0,
                                                                                     .unused0 = 0}});
 }
 
@@ -171,7 +171,7 @@ void addSurface(ProgramBuilder& program, const Scene& scene, const surface::CutB
     cut.surface = surface::addCutSurface(program, scene, bodies, source, cut.usesTexels);
 }
 
-void addHands(ProgramBuilder& program, Cut& cut, const grabs::Grabs& grabs) {
+void addGrabMasses(ProgramBuilder& program, Cut& cut, const grabs::Grabs& grabs) {
     const BufferSpec spec = program.program().buffers[grabs.bodies.index]; // copied: adding moves the list
     std::vector<layout::GrabBody> bodies(spec.count);
     std::memcpy(bodies.data(), spec.initial.data(), spec.initial.size());
@@ -211,8 +211,8 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
                         buffers.counts, buffers.pieces, buffers.pieceSizes};
     if (buffers.wholeCells != BufferId{}) buffers.topology.push_back(buffers.wholeCells);
     if (particles.sleep) buffers.topology.push_back(particles.sleep->components);
-    if (particles.grabs) addHands(program, cut, *particles.grabs);
-    for (const BufferId buffer : buffers.topology) program.carry(buffer, buffer);
+    if (particles.grabs) addGrabMasses(program, cut, *particles.grabs);
+    for (const BufferId buffer : buffers.topology) program.addToState(buffer, buffer);
     program.program().cutting = buffers;
     cut.sheets = surface::addSheetPieces(program, scene, layout, cut.particles, settings.cutSurfaceRoom);
     if (hasTears) cut.tearing = addTearing(program, cut, layout.count);

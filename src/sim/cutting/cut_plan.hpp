@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/cutting/crumb_skins.hpp"
+#include "sim/cutting/debris_skins.hpp"
 #include "sim/model/state.hpp"
 
 #include <array>
@@ -33,8 +33,8 @@ struct Cut {
     BufferId labels, particles, arguments, groups; // of pieces
     std::array<BufferId, 2> roundArguments; // of even and of odd rounds, by run: no pass writes its own
     BufferId uncutBodies, weights;          // of pieces, if grabs may hold some
-    BufferId crumbParticles;                // layout::CrumbParticle; if fragments are removed
-    CrumbTriangles stretched;
+    BufferId debrisParticles;               // layout::DebrisParticle; if fragments are removed
+    DebrisTriangles stretched;
     std::shared_ptr<surface::CutSurface> surface; // null if no skin is clipped
     std::shared_ptr<surface::SheetPieces> sheets; // null if there are none
     std::shared_ptr<Tearing> tearing;             // null if nothing tears

@@ -30,9 +30,9 @@ namespace {
 
 void addFinding(ProgramBuilder& program, const Tearing& tearing, const TearingBody& body, const Cut& cut) {
     std::vector<BufferId> buffers{tearing.strains, body.found, body.count};
-    const bool hasCrumbs = program.program().cutting.crumbs > 0;
-    if (hasCrumbs) buffers.insert(buffers.end(), {cut.particles, cut.buffers.pieces});
-    program.dispatch(hasCrumbs ? k::findTearsCrumbs : k::findTears, body.push.count, buffers, body.push);
+    const bool hasDebris = program.program().cutting.debris > 0;
+    if (hasDebris) buffers.insert(buffers.end(), {cut.particles, cut.buffers.pieces});
+    program.dispatch(hasDebris ? k::findTearsDebris : k::findTears, body.push.count, buffers, body.push);
 }
 
 } // namespace

@@ -87,7 +87,7 @@ struct SetPlan {
 SetPlan planSets(const StepProgram& program) {
     SetPlan plan;
     for (const std::vector<Pass>* list :
-         {&program.step, &program.skin, &program.wholeSkin, &program.settle, &program.adopt}) {
+         {&program.step, &program.skin, &program.wholeSkin, &program.refresh, &program.initialise}) {
         for (const Pass& pass : *list) {
             if (pass.kind != PassKind::dispatch) continue;
             const auto isSame = [&](const Pass* other) { return isSameDispatch(*other, pass); };
@@ -119,13 +119,13 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     step_ = resolve(program.step, nextSet);
     skin_ = resolve(program.skin, nextSet);
     wholeSkin_ = resolve(program.wholeSkin, nextSet);
-    settle_ = resolve(program.settle, nextSet);
-    adopt_ = resolve(program.adopt, nextSet);
+    refresh_ = resolve(program.refresh, nextSet);
+    initialise_ = resolve(program.initialise, nextSet);
     checkGroups(step_, device.limits().maxGroupCount);
     checkGroups(skin_, device.limits().maxGroupCount);
     checkGroups(wholeSkin_, device.limits().maxGroupCount);
-    checkGroups(settle_, device.limits().maxGroupCount);
-    checkGroups(adopt_, device.limits().maxGroupCount);
+    checkGroups(refresh_, device.limits().maxGroupCount);
+    checkGroups(initialise_, device.limits().maxGroupCount);
     for (const Recorded& pass : step_) {
         if (timedPhases_.empty() || timedPhases_.back() != pass.phase) timedPhases_.push_back(pass.phase);
     }
@@ -199,12 +199,12 @@ void GpuExecutor::wholeSkin(vk::Commands& commands) noexcept {
     record(commands, wholeSkin_, {}, nullptr);
 }
 
-void GpuExecutor::settle(vk::Commands& commands) noexcept {
-    record(commands, settle_, {}, nullptr);
+void GpuExecutor::refresh(vk::Commands& commands) noexcept {
+    record(commands, refresh_, {}, nullptr);
 }
 
-void GpuExecutor::adopt(vk::Commands& commands) noexcept {
-    record(commands, adopt_, {}, nullptr);
+void GpuExecutor::initialise(vk::Commands& commands) noexcept {
+    record(commands, initialise_, {}, nullptr);
 }
 
 const vk::Buffer* GpuExecutor::stagingOf(BufferId buffer) const noexcept {

@@ -27,10 +27,11 @@ public:
               Recording recording = {}) noexcept;
     void skin(vk::Commands& commands) noexcept;
     void wholeSkin(vk::Commands& commands) noexcept;
-    /// Records the passes that recompute what follows from the scene alone (StepProgram::settle).
-    void settle(vk::Commands& commands) noexcept;
-    /// Records the passes that initialise this program's state from the public state (StepProgram::adopt).
-    void adopt(vk::Commands& commands) noexcept;
+    /// Records the passes that recompute what follows from the scene alone (StepProgram::refresh).
+    void refresh(vk::Commands& commands) noexcept;
+    /// Records the passes that initialise this program's state from the public state
+    /// (StepProgram::initialise).
+    void initialise(vk::Commands& commands) noexcept;
     /// Copies a buffer's initial contents into it, if it has some.
     void restore(vk::Commands& commands, BufferId buffer) noexcept;
     /// Replaces a buffer's initial contents by `contents`, of equal size; the buffer itself changes too
@@ -69,7 +70,7 @@ private:
     std::vector<std::shared_ptr<const vk::Kernel>> kernels_;
     std::vector<vk::BindingSets> sets_;
     std::vector<std::size_t> setOfPass_;
-    std::vector<Recorded> step_, skin_, wholeSkin_, settle_, adopt_;
+    std::vector<Recorded> step_, skin_, wholeSkin_, refresh_, initialise_;
     std::vector<std::uint32_t> timedPhases_;
 };
 

@@ -165,7 +165,7 @@ Forces placesOf(const Scene& scene, const Settings& settings, const StateLayout&
     return {.slots = static_cast<std::uint32_t>(layout.count),
             .grabs = settings.grabs,
             .planes = static_cast<std::uint32_t>(scene.planes.size()),
-            .colliders = settings.pokes + static_cast<std::uint32_t>(scene.colliders.size()),
+            .colliders = settings.hostColliders + static_cast<std::uint32_t>(scene.colliders.size()),
             .tethers = static_cast<std::uint32_t>(tethersInOrder(scene).size()),
             .attachments = static_cast<std::uint32_t>(scene.attachments.size()),
             .stops = stopsOf(scene, settings)};
@@ -197,12 +197,12 @@ void checkRoom(const Scene& scene, const Settings& settings, const StateLayout& 
                Complaints& complaints) {
     const std::uint64_t elements = placesOf(scene, settings, layout).elements();
     if (elements <= mostElements) return;
-    complaints.add(
-        "settings.keepsForces",
-        "is set, but " + number(elements) + " impulses of particles do not fit in one buffer, at most " +
-            number(mostElements) +
-            " do: leave out planes, colliders, bodies with static or driven faces, grabs or pokes, or take "
-            "fewer particles");
+    complaints.add("settings.keepsForces", "is set, but " + number(elements) +
+                                               " impulses of particles do not fit in one buffer, at most " +
+                                               number(mostElements) +
+                                               " do: leave out planes, colliders, bodies with static or "
+                                               "driven faces, grabs or host colliders, or take "
+                                               "fewer particles");
 }
 
 Stops stopsOf(const Scene& scene, const Settings& settings) {
@@ -265,7 +265,7 @@ const vk::ShaderCode& formFor(const ParticleBuffers& particles, const Forms& for
 
 void addPulls(ProgramBuilder& program, const ParticleBuffers& particles) {
     const Forces& forces = *particles.forces;
-    program.dispatch(k::takePulls, forces.slots, {particles.velocities, forces.terms},
+    program.dispatch(k::extractHoldImpulses, forces.slots, {particles.velocities, forces.terms},
                      layout::CountPush{forces.slots}, forces.ofContacts());
 }
 
@@ -276,7 +276,7 @@ void addSums(ProgramBuilder& program, const Scene& scene, const ParticleBuffers&
     built.grabs = forces.grabs;
     built.planes = forces.planes;
     built.colliders = static_cast<std::uint32_t>(scene.colliders.size());
-    built.pokes = forces.colliders - built.colliders;
+    built.hostColliders = forces.colliders - built.colliders;
     built.stops = static_cast<std::uint32_t>(forces.stops.rows.size());
     built.attachments = forces.attachments;
     built.holds = static_cast<std::uint32_t>(scene.holds.size());

@@ -6,8 +6,9 @@
 //
 //   contacts | holds | rows: an impulse section and a moment section each | entries: tethers, attachments
 //
-// with a row for each grab, plane, poke and collider, and rows for bodies with static faces. Static faces
-// have no list of the points near them: each point adds its impulse on them to its own element in a row.
+// with a row for each grab, plane, host collider and collider, and rows for bodies with static faces. Static
+// faces have no list of the points near them: each point adds its impulse on them to its own element in a
+// row.
 #pragma once
 
 #include "common/layout.h"
@@ -45,9 +46,10 @@ Stops stopsOf(const Scene& scene, const Settings& settings);
 /// Layout of the buffer of elements.
 struct Forces {
     BufferId terms;
-    std::uint32_t slots = 0;                            ///< elements of a section
-    std::uint32_t grabs = 0, planes = 0, colliders = 0; ///< rows; pokes are the first of the colliders
-    std::uint32_t tethers = 0;                          ///< entries before those of attachments
+    std::uint32_t slots = 0; ///< elements of a section
+    std::uint32_t grabs = 0, planes = 0,
+                  colliders = 0; ///< rows; host colliders are the first of the colliders
+    std::uint32_t tethers = 0;   ///< entries before those of attachments
     std::uint32_t attachments = 0;
     Stops stops;
 

@@ -15,7 +15,7 @@ namespace sinew::sim::grabs {
 
 namespace {
 
-static_assert(GRAB_HANDS == ranges::mostGrabs);
+static_assert(MOST_GRABS == ranges::mostGrabs);
 
 constexpr float mostGain = 1e8f; // the largest useful value in float32
 
@@ -67,7 +67,7 @@ std::shared_ptr<Grabs> add(ProgramBuilder& program, const Scene& scene, const Se
     const std::vector<layout::DispatchArguments> none{{0, 1, 1, 0}};
     auto grabs = std::make_shared<Grabs>(
         Grabs{.push = push,
-              .hands = program.scratch<layout::GrabHand>("grab.hands", settings.grabs),
+              .requests = program.scratch<layout::GrabRequest>("grab.requests", settings.grabs),
               .states = program.scratch<layout::GrabState>("grab.states", settings.grabs),
               .bodies = program.upload("grab.bodies", bodiesOf(scene, layout)),
               .grips = program.scratch<layout::Grip>("grab.grips", count),
@@ -75,12 +75,12 @@ std::shared_ptr<Grabs> add(ProgramBuilder& program, const Scene& scene, const Se
               .holding = program.upload("grab.holding", none),
               .pulling = program.upload("grab.pulling", none)});
     for (const BufferId buffer : {grabs->states, grabs->grips, grabs->held, grabs->pulling})
-        program.carry(buffer, buffer);
-    program.updateGrabs(grabs->hands);
+        program.addToState(buffer, buffer);
+    program.updateGrabs(grabs->requests);
     program.dispatch(kernels::openGrabs, settings.grabs,
-                     {grabs->hands, grabs->states, grabs->holding, grabs->pulling}, push);
-    program.dispatchIndirect(kernels::holdParticles, {grabs->holding, 0, count},
-                             {grabs->hands, grabs->states, grabs->bodies, program.program().positions,
+                     {grabs->requests, grabs->states, grabs->holding, grabs->pulling}, push);
+    program.dispatchIndirect(kernels::selectGrabbed, {grabs->holding, 0, count},
+                             {grabs->requests, grabs->states, grabs->bodies, program.program().positions,
                               grabs->grips, grabs->held, grabs->pulling},
                              push);
     return grabs;
@@ -90,13 +90,14 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uin
              std::uint32_t substeps, Kick kick) {
     if (!particles.grabs) return;
     const Grabs& grabs = *particles.grabs;
-    std::vector<BufferId> buffers{grabs.hands,         grabs.states,         grabs.bodies,
+    std::vector<BufferId> buffers{grabs.requests,      grabs.states,         grabs.bodies,
                                   grabs.grips,         grabs.held,           grabs.pulling,
                                   particles.positions, particles.velocities, particles.step};
     const layout::GrabPush push = pushOf(grabs, substep, substeps, kick);
     ProgramBuilder::Constants constants;
-    const vk::ShaderCode& code = forces::formFor(particles, {&kernels::pullHeld, &kernels::pullHeldForces},
-                                                 &forces::Forces::ofGrabs, buffers, constants);
+    const vk::ShaderCode& code =
+        forces::formFor(particles, {&kernels::solveGrabs, &kernels::solveGrabsForces},
+                        &forces::Forces::ofGrabs, buffers, constants);
     program.dispatchIndirect(code, itemsOf(grabs), buffers, push, constants);
 }
 
@@ -104,45 +105,46 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
                  std::uint32_t substep, std::uint32_t substeps) {
     if (!particles.grabs) return;
     const Grabs& grabs = *particles.grabs;
-    std::vector<BufferId> buffers{grabs.hands,    grabs.states,  grabs.bodies,        grabs.grips,
+    std::vector<BufferId> buffers{grabs.requests, grabs.states,  grabs.bodies,        grabs.grips,
                                   grabs.held,     grabs.pulling, particles.positions, particles.velocities,
                                   particles.step, corrections};
     const layout::GrabPush push = pushOf(grabs, substep, substeps, Kick::half);
     ProgramBuilder::Constants constants;
     const vk::ShaderCode& code =
-        forces::formFor(particles, {&kernels::pullHeldOpen, &kernels::pullHeldOpenForces},
+        forces::formFor(particles, {&kernels::solveGrabsOpen, &kernels::solveGrabsOpenForces},
                         &forces::Forces::ofGrabs, buffers, constants);
     program.dispatchIndirect(code, itemsOf(grabs), buffers, push, constants);
 }
 
-bool Hands::areFree() const noexcept {
-    return std::ranges::all_of(values(), [](const layout::GrabHand& hand) { return hand.serial == 0; });
+bool GrabRequests::areFree() const noexcept {
+    return std::ranges::all_of(values(),
+                               [](const layout::GrabRequest& request) { return request.serial == 0; });
 }
 
-void Hands::advance(std::span<const Grab> grabs, float dt) noexcept {
+void GrabRequests::advance(std::span<const Grab> grabs, float dt) noexcept {
     for (std::size_t k = 0; k < count_; ++k) {
-        layout::GrabHand& hand = hands_[k];
+        layout::GrabRequest& request = requests_[k];
         if (k >= grabs.size() || !isNumber(grabs[k]) || grabs[k].particle >= particles_) {
-            hand = {};
+            request = {};
             continue;
         }
         const Grab& grab = grabs[k];
-        const bool isHeld = hand.serial > 0 && hand.particle == grab.particle;
+        const bool isHeld = request.serial > 0 && request.particle == grab.particle;
         const Vec3& target = grab.target;
-        const layout::vec4 from = isHeld ? hand.to : layout::vec4{target.x, target.y, target.z, 0};
+        const layout::vec4 from = isHeld ? request.to : layout::vec4{target.x, target.y, target.z, 0};
         const layout::vec4 to =
             constraints::movedTowards(from, target, double{std::max(grab.maxSpeed, 0.0f)} * double{dt});
-        hand = {.from = from,
-                .to = to,
-                .velocity = {(to.x - from.x) / dt, (to.y - from.y) / dt, (to.z - from.z) / dt, 0},
-                .serial = isHeld ? hand.serial : ++serial_,
-                .particle = grab.particle,
-                .radius = std::max(grab.radius, 0.0f),
-                .stiffness = std::clamp(grab.stiffness, 0.0f, mostGain),
-                .damping = std::clamp(grab.damping, 0.0f, mostGain),
-                .maxAcceleration = std::clamp(grab.maxAcceleration, 0.0f, mostGain),
-                .unused0 = 0,
-                .unused1 = 0};
+        request = {.from = from,
+                   .to = to,
+                   .velocity = {(to.x - from.x) / dt, (to.y - from.y) / dt, (to.z - from.z) / dt, 0},
+                   .serial = isHeld ? request.serial : ++serial_,
+                   .particle = grab.particle,
+                   .radius = std::max(grab.radius, 0.0f),
+                   .stiffness = std::clamp(grab.stiffness, 0.0f, mostGain),
+                   .damping = std::clamp(grab.damping, 0.0f, mostGain),
+                   .maxAcceleration = std::clamp(grab.maxAcceleration, 0.0f, mostGain),
+                   .unused0 = 0,
+                   .unused1 = 0};
     }
 }
 

@@ -1,7 +1,8 @@
 // Grabs on the device: temporary constraints that the host requests in each step. A step in which a grab
-// begins or ends determines the held particles (open_grabs, hold_particles, the second with no groups
-// otherwise). A pass after the links of a substep pulls the held particles (pull_held, with groups for these
-// alone), the same for every solver. A program without grabs (Settings::grabs) has none of these passes.
+// begins or ends determines the held particles (open_grabs, select_grabbed, the second with no groups
+// otherwise). A pass after the links of a substep pulls the held particles (solve_grabs, with groups for
+// these alone), the same for every solver. A program without grabs (Settings::grabs) has none of these
+// passes.
 #pragma once
 
 #include "common/layout.h"
@@ -14,7 +15,7 @@ namespace sinew::sim::grabs {
 
 struct Grabs {
     layout::GrabPush push{};
-    BufferId hands, states, bodies, grips, held, holding, pulling;
+    BufferId requests, states, bodies, grips, held, holding, pulling;
 };
 
 /// Appends the passes at the start of a step: call it before the substeps. Null without Settings::grabs.
@@ -28,26 +29,28 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uin
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  std::uint32_t substep, std::uint32_t substeps);
 
-/// The grabs on the host: contents of the hands buffer of a step.
-class Hands {
+/// The grabs on the host: contents of the grabs buffer of a step.
+class GrabRequests {
 public:
     /// For at most `count` grabs in a scene of `particles` particles.
-    Hands(std::uint32_t count, std::size_t particles) : count_(count), particles_(particles) {}
+    GrabRequests(std::uint32_t count, std::size_t particles) : count_(count), particles_(particles) {}
 
     /// Restores earlier grabs. A grab that begins later still has a serial number of its own.
-    void restore(const Hands& before) noexcept { hands_ = before.hands_; }
+    void restore(const GrabRequests& before) noexcept { requests_ = before.requests_; }
     /// Ends all grabs.
-    void reset() noexcept { hands_ = {}; }
+    void reset() noexcept { requests_ = {}; }
     /// Advances by a step of `dt` [s].
     void advance(std::span<const Grab> grabs, float dt) noexcept;
     bool areFree() const noexcept; ///< no grab holds anything
-    std::span<const layout::GrabHand> values() const noexcept { return std::span(hands_).first(count_); }
+    std::span<const layout::GrabRequest> values() const noexcept {
+        return std::span(requests_).first(count_);
+    }
 
 private:
     std::uint32_t count_;
     std::size_t particles_;
     std::uint32_t serial_ = 0; // of the newest grab
-    std::array<layout::GrabHand, GRAB_HANDS> hands_{};
+    std::array<layout::GrabRequest, MOST_GRABS> requests_{};
 };
 
 } // namespace sinew::sim::grabs

@@ -41,7 +41,7 @@ void addOfSplit(Key& key, const Scene& scene) {
         key.addAll(face.particles[0], face.particles[1], face.particles[2], face.thickness, face.isSolid);
     });
     key.each(scene.grids, [&](const Grid& grid) { key.addAll(grid.isCuttable, grid.tearStrain); });
-    key.add(scene.crumbs);
+    key.add(scene.debris);
 }
 
 void addLinks(Key& key, const Scene& scene) {

@@ -91,11 +91,11 @@ std::string sleepText(const StepProgram& program) {
     std::size_t all = 0, listed = 0, whole = 0, always = 0;
     for (const Pass& pass : program.step) {
         if (pass.isOfCut || pass.kind != PassKind::dispatch) continue;
-        const bool isGated = pass.isIndirect && pass.uses.back().buffer == program.sleep.arguments;
-        const bool isListed = isGated && boundUses(pass).back().buffer == program.sleep.listed;
+        const bool isOfSleep = pass.isIndirect && pass.uses.back().buffer == program.sleep.arguments;
+        const bool isListed = isOfSleep && boundUses(pass).back().buffer == program.sleep.listed;
         ++all;
         listed += isListed ? 1 : 0;
-        whole += isGated && !isListed ? 1 : 0;
+        whole += isOfSleep && !isListed ? 1 : 0;
         always += pass.isIndirect ? 0 : 1;
     }
     std::ostringstream text;

@@ -89,13 +89,13 @@ void ProgramBuilder::append(Pass pass) {
 void ProgramBuilder::dispatchDirect(const vk::ShaderCode& code, std::uint32_t items,
                                     std::span<const BufferId> buffers, std::span<const std::byte> push,
                                     const Constants& constants) {
-    if (!gate_ || skinList_ || isCut_ || isSettling_ || isAdopting_)
+    if (!indirection_ || skinList_ || isCut_ || isRefreshing_ || isInitialising_)
         return dispatchBytes(code, items, buffers, push, constants);
-    const GatedDispatch gated = gate_(code, items);
+    const IndirectForm form = indirection_(code, items);
     std::vector<BufferId> all(buffers.begin(), buffers.end());
-    if (gated.last != BufferId{}) all.push_back(gated.last);
-    dispatchBytes(*gated.code, gated.items.most, all, push, constants);
-    makeLastIndirect(gated.items);
+    if (form.last != BufferId{}) all.push_back(form.last);
+    dispatchBytes(*form.code, form.items.most, all, push, constants);
+    makeLastIndirect(form.items);
 }
 
 void ProgramBuilder::dispatchBytes(const vk::ShaderCode& code, std::uint32_t items,
@@ -185,8 +185,8 @@ StepProgram ProgramBuilder::finish() {
         planBarriers(program_.step, program_.buffers.size(), recording);
     planBarriers(program_.skin, program_.buffers.size());
     planBarriers(program_.wholeSkin, program_.buffers.size());
-    planBarriers(program_.settle, program_.buffers.size());
-    planBarriers(program_.adopt, program_.buffers.size());
+    planBarriers(program_.refresh, program_.buffers.size());
+    planBarriers(program_.initialise, program_.buffers.size());
     return std::move(program_);
 }
 

@@ -62,8 +62,8 @@ enum class HostData : std::uint32_t {
     parameters,
     anchors,
     colliders,
-    pokes,
-    pokeArguments,
+    hostColliders,
+    hostColliderArguments,
     grabs,
     blade,
     bladePoints
@@ -126,7 +126,7 @@ struct IndirectItems {
 
 /// Replacement of a direct dispatch by an indirect one: the form of the kernel, its groups, and the buffer
 /// that this form binds in addition.
-struct GatedDispatch {
+struct IndirectForm {
     const vk::ShaderCode* code = nullptr;
     IndirectItems items;
     BufferId last; ///< bound last; invalid = none
@@ -134,7 +134,7 @@ struct GatedDispatch {
 
 /// A buffer of the state between steps: a take-over copies `from` of the other program, which is valid also
 /// after an undone step, into `to`.
-struct Carried {
+struct StateBuffer {
     BufferId to, from;
 };
 
@@ -177,8 +177,8 @@ struct CuttingBuffers {
     std::vector<BufferId> lists;
     /// Positions at the last rebuild of contact lists that depend on cuts.
     std::vector<BufferId> contactsSeen;
-    std::uint32_t crumbs = 0;              ///< Scene::crumbs, if a cut can make some; 0 = none are removed
-    double crumbUnit = 0;                  ///< unit of layout::CutCounts::crumbMass [kg]
+    std::uint32_t debris = 0;              ///< Scene::debris, if a cut can make some; 0 = none are removed
+    double debrisUnit = 0;                 ///< unit of layout::CutCounts::debrisMass [kg]
     std::vector<ContactGrid> contactGrids; ///< grids that fragments are removed from
 };
 
@@ -222,8 +222,8 @@ struct PieceVertices {
     std::uint32_t first = 0; ///< index in skinVertices
 };
 
-/// Group counts of passes that run only while a poke is present.
-struct PokeGroups {
+/// Group counts of passes that run only while a host collider is present.
+struct HostColliderGroups {
     std::uint32_t placed = 0, touching = 0; ///< once a step, once a substep
 };
 
@@ -238,7 +238,8 @@ struct ForceBuffers {
     BufferId terms; ///< impulses by particle, section by section
     BufferId parts, rowParts;
     BufferId sums; ///< layout::ForceSum: FORCE_KINDS for each body, then the rows
-    std::uint32_t bodies = 0, grabs = 0, planes = 0, pokes = 0, colliders = 0, stops = 0, attachments = 0,
+    std::uint32_t bodies = 0, grabs = 0, planes = 0, hostColliders = 0, colliders = 0, stops = 0,
+                  attachments = 0,
                   holds = 0; ///< number of each
 };
 
@@ -253,20 +254,20 @@ struct StepProgram {
     std::vector<Pass> wholeSkin;
     /// Recorded after a state of another material, or of other substeps, was put into the buffers: recomputes
     /// the values that follow from the scene alone. May be empty.
-    std::vector<Pass> settle;
+    std::vector<Pass> refresh;
     /// Recorded after another solver's public state was put into the public buffers: initialises this
     /// solver's state from it. Empty without public velocities.
-    std::vector<Pass> adopt;
+    std::vector<Pass> initialise;
     std::uint64_t order = 0; ///< hash of the order of particles: programs with equal order exchange states
-    std::vector<std::string> skipped; ///< features that this scene does not need, for reports
-    std::vector<Carried> carried;     ///< buffers copied when a simulation takes over another's state
+    std::vector<std::string> skipped;      ///< features that this scene does not need, for reports
+    std::vector<StateBuffer> stateBuffers; ///< buffers copied when a simulation takes over another's state
     BufferId parameters, status, positions, velocities; ///< public buffers; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
     BufferId wholeIndices;                              ///< of all skins: wholeTriangles, else triangles
     ContactBuffers contacts;
     std::vector<GridBuffers> grids; ///< one for each contact search that uses a grid
     SleepBuffers sleep;
-    PokeGroups pokes;
+    HostColliderGroups hostColliders;
     ForceBuffers forces;
     CuttingBuffers cutting;
     CutSurfaceBuffers cutSurface;
@@ -360,27 +361,27 @@ public:
     }
     /// A function that replaces the direct dispatches that follow, by kernel and number of items; none = they
     /// stay direct.
-    using Gate = std::function<GatedDispatch(const vk::ShaderCode& code, std::uint32_t items)>;
-    void setGate(Gate gate) { gate_ = std::move(gate); }
+    using Indirection = std::function<IndirectForm(const vk::ShaderCode& code, std::uint32_t items)>;
+    void setIndirection(Indirection indirection) { indirection_ = std::move(indirection); }
     /// Adds [index] to the label of the last pass, for passes that differ only in their range.
     void numberLast(std::uint32_t index);
     /// Registers a buffer of vec4 that a solver carries from step to step: restored when a step with a
     /// non-finite state is undone.
-    void remember(BufferId buffer) { remembered_.push_back(buffer); }
+    void restoreOnUndo(BufferId buffer) { restoredOnUndo_.push_back(buffer); }
     /// Registers a part of the state that another program for the same scene can take over; it may be longer
     /// there.
-    void carry(BufferId to, BufferId from) { program_.carried.push_back({to, from}); }
+    void addToState(BufferId to, BufferId from) { program_.stateBuffers.push_back({to, from}); }
     /// Registers a buffer of vec4 of which a copy from the last finite step is kept, so that a step can be
     /// repeated with the same bits: the state that publishing restores after an undone step is rounded.
-    void keep(BufferId buffer) { kept_.push_back(buffer); }
-    const std::vector<BufferId>& kept() const { return kept_; }
+    void keepForRepeat(BufferId buffer) { keptForRepeat_.push_back(buffer); }
+    const std::vector<BufferId>& keptForRepeat() const { return keptForRepeat_; }
     /// Registers passes between the check of a step's state and the publishing that depends on it.
     void afterCheck(std::function<void()> addPasses) { checked_.push_back(std::move(addPasses)); }
     const std::vector<std::function<void()>>& checked() const { return checked_; }
     /// Registers passes at the end of the step, after the check of its state.
     void atEnd(std::function<void()> addPasses) { endings_.push_back(std::move(addPasses)); }
     const std::vector<std::function<void()>>& endings() const { return endings_; }
-    const std::vector<BufferId>& remembered() const { return remembered_; }
+    const std::vector<BufferId>& restoredOnUndo() const { return restoredOnUndo_; }
     /// Registers passes of the list of skins between positions and normals of vertices.
     void beforeNormals(std::function<void()> addPasses) { skinMiddles_.push_back(std::move(addPasses)); }
     const std::vector<std::function<void()>>& skinMiddles() const { return skinMiddles_; }
@@ -392,12 +393,12 @@ public:
     void updateParameters(BufferId parameters) { update(parameters, HostData::parameters); }
     void updateAnchors(BufferId anchors) { update(anchors, HostData::anchors); }
     void updateColliders(BufferId ways) { update(ways, HostData::colliders); }
-    /// The `shapes` of pokes precede those of colliders.
-    void updatePokes(BufferId shapes, BufferId arguments) {
-        update(shapes, HostData::pokes);
-        update(arguments, HostData::pokeArguments);
+    /// The `shapes` of host colliders precede those of colliders.
+    void updateHostColliders(BufferId shapes, BufferId arguments) {
+        update(shapes, HostData::hostColliders);
+        update(arguments, HostData::hostColliderArguments);
     }
-    void updateGrabs(BufferId hands) { update(hands, HostData::grabs); }
+    void updateGrabs(BufferId requests) { update(requests, HostData::grabs); }
     void updateBlade(BufferId blade, BufferId points) {
         update(blade, HostData::blade);
         update(points, HostData::bladePoints);
@@ -412,12 +413,12 @@ public:
     /// them.
     void beginSkin() { skinList_ = &StepProgram::skin; }
     void beginWholeSkin() { skinList_ = &StepProgram::wholeSkin; }
-    /// Passes from here to endSettling() belong to StepProgram::settle; gates do not change them.
-    void beginSettling() { isSettling_ = true; }
-    void endSettling() { isSettling_ = false; }
-    /// Passes from here to endAdopting() belong to StepProgram::adopt; gates do not change them.
-    void beginAdopting() { isAdopting_ = true; }
-    void endAdopting() { isAdopting_ = false; }
+    /// Passes from here to endRefreshing() belong to StepProgram::refresh; gates do not change them.
+    void beginRefreshing() { isRefreshing_ = true; }
+    void endRefreshing() { isRefreshing_ = false; }
+    /// Passes from here to endInitialising() belong to StepProgram::initialise; gates do not change them.
+    void beginInitialising() { isInitialising_ = true; }
+    void endInitialising() { isInitialising_ = false; }
     void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
 
     StepProgram& program() { return program_; }
@@ -428,8 +429,8 @@ private:
     void update(BufferId buffer, HostData data);
     void append(Pass pass);
     std::vector<Pass>& list() {
-        if (isSettling_) return program_.settle;
-        if (isAdopting_) return program_.adopt;
+        if (isRefreshing_) return program_.refresh;
+        if (isInitialising_) return program_.initialise;
         return skinList_ ? program_.*skinList_ : program_.step;
     }
     Pass& last() { return list().back(); }
@@ -441,11 +442,12 @@ private:
                        std::span<const std::byte> push, const Constants& constants);
 
     StepProgram program_;
-    std::vector<BufferId> remembered_, kept_;
+    std::vector<BufferId> restoredOnUndo_, keptForRepeat_;
     std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
-    Gate gate_;
+    Indirection indirection_;
     std::vector<Pass> StepProgram::*skinList_ = nullptr; // null: passes belong to the step
-    bool isReversed_ = false, isSettling_ = false, isAdopting_ = false, isCut_ = false, isSurface_ = false;
+    bool isReversed_ = false, isRefreshing_ = false, isInitialising_ = false, isCut_ = false,
+         isSurface_ = false;
     std::uint32_t substep_ = 0;
 };
 

@@ -34,7 +34,7 @@ bool haveOneShape(const StepProgram& a, const StepProgram& b) {
            std::ranges::equal(a.buffers, b.buffers, isSameBuffer) &&
            std::ranges::equal(a.step, b.step, isSamePass) && std::ranges::equal(a.skin, b.skin, isSamePass) &&
            std::ranges::equal(a.wholeSkin, b.wholeSkin, isSamePass) &&
-           std::ranges::equal(a.settle, b.settle, isSamePass);
+           std::ranges::equal(a.refresh, b.refresh, isSamePass);
 }
 
 std::vector<ProgramValues::Push> pushesOf(const std::vector<Pass>& from, const std::vector<Pass>& to) {
@@ -54,7 +54,7 @@ void markWritten(const std::vector<Pass>& passes, std::vector<bool>& isWritten) 
 
 std::vector<bool> areWritten(const StepProgram& program) {
     std::vector<bool> isWritten(program.buffers.size());
-    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin, &program.settle})
+    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin, &program.refresh})
         markWritten(*list, isWritten);
     return isWritten;
 }
@@ -62,16 +62,16 @@ std::vector<bool> areWritten(const StepProgram& program) {
 std::optional<ProgramValues> valuesOf(const StepProgram& from, const StepProgram& to) {
     if (!haveOneShape(from, to)) return std::nullopt;
     const std::vector<bool> isWritten = areWritten(from);
-    std::vector<bool> isSettled(from.buffers.size());
-    markWritten(from.settle, isSettled);
+    std::vector<bool> isRefreshed(from.buffers.size());
+    markWritten(from.refresh, isRefreshed);
     ProgramValues values{.buffers = {},
                          .step = pushesOf(from.step, to.step),
                          .skin = pushesOf(from.skin, to.skin),
                          .wholeSkin = pushesOf(from.wholeSkin, to.wholeSkin),
-                         .settle = pushesOf(from.settle, to.settle)};
+                         .refresh = pushesOf(from.refresh, to.refresh)};
     for (std::uint32_t b = 0; b < from.buffers.size(); ++b) {
         if (from.buffers[b].initial == to.buffers[b].initial) continue;
-        if (isWritten[b] && !isSettled[b]) return std::nullopt;
+        if (isWritten[b] && !isRefreshed[b]) return std::nullopt;
         values.buffers.push_back({{b}, to.buffers[b].initial, isWritten[b]});
     }
     return values;
@@ -86,7 +86,7 @@ void take(StepProgram& program, ProgramValues values) noexcept {
     setPushes(program.step, values.step);
     setPushes(program.skin, values.skin);
     setPushes(program.wholeSkin, values.wholeSkin);
-    setPushes(program.settle, values.settle);
+    setPushes(program.refresh, values.refresh);
 }
 
 void requireSameParticles(const StepProgram& from, const StepProgram& to) {

@@ -14,14 +14,14 @@ struct ProgramValues {
     struct Contents {
         BufferId buffer;
         std::vector<std::byte> initial; ///< as BufferSpec::initial
-        bool isOfState = false;         ///< steps write it; `settle` recomputes what follows from the scene
+        bool isOfState = false;         ///< steps write it; `refresh` recomputes what follows from the scene
     };
     struct Push {
         std::size_t pass = 0; ///< index in the list
         std::vector<std::byte> bytes;
     };
     std::vector<Contents> buffers;
-    std::vector<Push> step, skin, wholeSkin, settle;
+    std::vector<Push> step, skin, wholeSkin, refresh;
 };
 
 /// The differences from `from` to `to`. Empty if the programs have different buffers, kernels or passes, or

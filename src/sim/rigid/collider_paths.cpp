@@ -25,12 +25,12 @@ layout::Collider shapeOf(const Collider& collider) noexcept {
 }
 
 ColliderPaths::ColliderPaths(std::vector<Collider> colliders, std::vector<DrivenBody> driven,
-                             std::uint32_t pokes)
-    : colliders_(std::move(colliders)), driven_(std::move(driven)), pokes_(pokes),
+                             std::uint32_t hostColliders)
+    : colliders_(std::move(colliders)), driven_(std::move(driven)), hostColliders_(hostColliders),
       poses_(colliders_.size() + driven_.size()) {
     const auto moves = [](const auto& item) { return isMoving(item); };
-    if (pokes > 0 || std::ranges::any_of(colliders_, moves) || std::ranges::any_of(driven_, moves))
-        ways_.resize(2 * (pokes + poses_.size()));
+    if (hostColliders > 0 || std::ranges::any_of(colliders_, moves) || std::ranges::any_of(driven_, moves))
+        ways_.resize(2 * (hostColliders + poses_.size()));
     moveTo(0);
 }
 
@@ -38,27 +38,27 @@ void ColliderPaths::place() noexcept {
     for (std::size_t c = 0; c < colliders_.size(); ++c) poses_[c] = poseAt(colliders_[c], time_);
     for (std::size_t d = 0; d < driven_.size(); ++d)
         poses_[colliders_.size() + d] = poseAt(driven_[d], time_);
-    std::ranges::copy(pokes_.ways(), ways_.begin());
+    std::ranges::copy(hostColliders_.ways(), ways_.begin());
 }
 
-void ColliderPaths::moveTo(double time, const PokeStates& pokes) noexcept {
+void ColliderPaths::moveTo(double time, const HostColliderStates& hostColliders) noexcept {
     time_ = time;
-    pokes_.moveTo(pokes);
+    hostColliders_.moveTo(hostColliders);
     place();
     if (ways_.empty()) return;
-    layout::ColliderPose* way = ways_.data() + pokes_.ways().size();
+    layout::ColliderPose* way = ways_.data() + hostColliders_.ways().size();
     for (const Pose& pose : poses_) {
         *way++ = onDevice(pose, 1);
         *way++ = onDevice(pose, 1);
     }
 }
 
-void ColliderPaths::advance(float dt, std::span<const Poke> pokes) noexcept {
+void ColliderPaths::advance(float dt, std::span<const HostCollider> hostColliders) noexcept {
     time_ += double{dt};
     if (ways_.empty()) return;
-    pokes_.advance(pokes, dt);
+    hostColliders_.advance(hostColliders, dt);
     place();
-    layout::ColliderPose* way = ways_.data() + pokes_.ways().size();
+    layout::ColliderPose* way = ways_.data() + hostColliders_.ways().size();
     for (const Pose& pose : poses_) {
         layout::ColliderPose &from = way[0], &to = way[1];
         from = to;

@@ -15,19 +15,20 @@ namespace sinew::sim::rigid::colliders {
 
 namespace {
 
-constexpr std::uint32_t colliderCountId = 2, isMovingId = 3, pokeCountId = 4; // constant_id in colliders.glsl
+constexpr std::uint32_t colliderCountId = 2, isMovingId = 3,
+                        hostColliderCountId = 4; // constant_id in colliders.glsl
 
 std::uint32_t groupsOf(std::uint32_t items) {
     return (items - 1) / GROUP_ITEMS + 1;
 }
 
-// Appends a pass that runs only with pokes, unless something else `needsIt`: `element` is the group count
-// that the host sets.
+// Appends a pass that runs only with host colliders, unless something else `needsIt`: `element` is the group
+// count that the host sets.
 template <typename Push>
 void dispatch(ProgramBuilder& program, const Colliders& colliders, bool needsIt, IndirectItems items,
               const vk::ShaderCode& code, std::span<const BufferId> buffers, const Push& push,
               const ProgramBuilder::Constants& constants = {}) {
-    items.arguments = colliders.pokeArguments;
+    items.arguments = colliders.hostColliderArguments;
     if (needsIt)
         program.dispatch(code, items.most, buffers, push, constants);
     else
@@ -49,9 +50,9 @@ void addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t substep
         program.scratch<layout::ColliderPose>("colliders.poses", std::uint64_t{count} * (substeps + 1));
     program.updateColliders(colliders.ways);
     const std::array buffers{colliders.ways, colliders.poses};
-    dispatch(program, colliders, count > colliders.pokes, {{}, POKES_PLACED, items}, kernels::placeColliders,
-             buffers, layout::PlacePush{items, count, substeps});
-    program.program().pokes.placed = groupsOf(items);
+    dispatch(program, colliders, count > colliders.hostColliders, {{}, HOST_COLLIDERS_PLACED, items},
+             kernels::placeColliders, buffers, layout::PlacePush{items, count, substeps});
+    program.program().hostColliders.placed = groupsOf(items);
 }
 
 constexpr float mostStretch = 2; // of a link from a driven particle to one that rests on it
@@ -81,15 +82,15 @@ layout::Collider ballAround(const DrivenBody& body, const Scene& scene) {
 }
 
 void addShapes(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, Colliders& colliders) {
-    std::vector<layout::Collider> shapes(colliders.pokes);
+    std::vector<layout::Collider> shapes(colliders.hostColliders);
     for (const Collider& collider : scene.colliders) shapes.push_back(shapeOf(collider));
     for (const DrivenBody& body : scene.driven) shapes.push_back(ballAround(body, scene));
     colliders.shapes = program.upload("colliders", shapes);
-    if (colliders.pokes > 0) {
-        colliders.pokeArguments =
-            program.scratch<layout::DispatchArguments>("pokes.arguments", POKE_ARGUMENTS);
-        program.updatePokes(colliders.shapes, colliders.pokeArguments);
-        program.program().pokes.touching = groupsOf(colliders.particles);
+    if (colliders.hostColliders > 0) {
+        colliders.hostColliderArguments =
+            program.scratch<layout::DispatchArguments>("host_colliders.arguments", HOST_COLLIDER_ARGUMENTS);
+        program.updateHostColliders(colliders.shapes, colliders.hostColliderArguments);
+        program.program().hostColliders.touching = groupsOf(colliders.particles);
     }
     if (colliders.count == 0) return;
     std::vector<float> offsets(layout.count, 0);
@@ -104,8 +105,8 @@ void dispatchTouching(ProgramBuilder& program, const Colliders& colliders, std::
                       const vk::ShaderCode& code, std::span<const BufferId> buffers, const Push& push,
                       const ProgramBuilder::Constants& constants = {}) {
     const std::uint32_t invocations = many_items::invocationsFor(colliders.particles, each);
-    dispatch(program, colliders, colliders.count > colliders.pokes, {{}, POKES_TOUCHING, invocations}, code,
-             buffers, push, constants);
+    dispatch(program, colliders, colliders.count > colliders.hostColliders,
+             {{}, HOST_COLLIDERS_TOUCHING, invocations}, code, buffers, push, constants);
 }
 
 layout::ColliderPush pushOf(const Colliders& colliders, std::uint32_t substep, Kick kick) {
@@ -117,14 +118,14 @@ ProgramBuilder::Constants constantsOf(const Colliders& colliders) {
     ProgramBuilder::Constants constants = many_items::constantsFor(colliders.itemsEach);
     constants.insert({{colliderCountId, colliders.count},
                       {isMovingId, colliders.areMoving},
-                      {pokeCountId, colliders.pokes}});
+                      {hostColliderCountId, colliders.hostColliders}});
     return constants;
 }
 
-// One where passes run for groups in which somebody is awake, and where all passes of pokes have one number
-// of groups.
+// One where passes run for groups in which somebody is awake, and where all passes of host colliders have one
+// number of groups.
 std::uint32_t itemsEachOf(const Colliders& colliders, const Settings& settings) {
-    if (settings.sleeps || colliders.count == colliders.pokes) return 1;
+    if (settings.sleeps || colliders.count == colliders.hostColliders) return 1;
     constexpr std::uint32_t turnsOfOne =
         12; // loops of a particle and a collider: those of `entered`, and more
     return many_items::fitting(settings.forms.items, turnsOfOne * (colliders.count + 1));
@@ -134,15 +135,16 @@ std::uint32_t itemsEachOf(const Colliders& colliders, const Settings& settings) 
 
 Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
               const StateLayout& layout) {
-    const auto count = static_cast<std::uint32_t>(scene.colliders.size()) + settings.pokes;
+    const auto count = static_cast<std::uint32_t>(scene.colliders.size()) + settings.hostColliders;
     if (count == 0 && scene.driven.empty()) return {};
     const auto moves = [](const auto& item) { return isMoving(item); };
     const auto rebounds = [](const auto& item) { return item.restitution > 0; };
     Colliders colliders{.count = count,
-                        .pokes = settings.pokes,
+                        .hostColliders = settings.hostColliders,
                         .particles = static_cast<std::uint32_t>(layout.count),
                         .placed = count + static_cast<std::uint32_t>(scene.driven.size()),
-                        .areMoving = settings.pokes > 0 || std::ranges::any_of(scene.colliders, moves) ||
+                        .areMoving = settings.hostColliders > 0 ||
+                                     std::ranges::any_of(scene.colliders, moves) ||
                                      std::ranges::any_of(scene.driven, moves)};
     colliders.hasRebound =
         colliders.count > 0 &&
@@ -165,7 +167,7 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const
                 bool isFirst) {
     if (!colliders.hasRebound) return;
     const std::array buffers{particles.positions, particles.velocities, colliders.before, particles.step};
-    dispatchTouching(program, colliders, 1, kernels::openColliders, buffers,
+    dispatchTouching(program, colliders, 1, kernels::saveSubstepStart, buffers,
                      layout::SubstepPush{colliders.particles, isFirst});
 }
 

@@ -48,7 +48,7 @@ Planes add(ProgramBuilder& program, const Scene& scene, const StateLayout& layou
 void addTouch(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
               const Planes& planes) {
     if (planes.count == 0) return;
-    addPass(program, particles, {&kernels::touchPlanes, &kernels::touchPlanesForces},
+    addPass(program, particles, {&kernels::projectOntoPlanes, &kernels::projectOntoPlanesForces},
             {particles.positions, particles.velocities, corrections, planes.planes, planes.contactOffsets,
              particles.step},
             planes.constants());

@@ -28,8 +28,8 @@ std::string sentenceOf(Misuse kind, std::uint64_t given, std::uint64_t allowed) 
                "that are in flight at a time";
     case Misuse::tooManyGrabs:
         return listed(given, "grabs", allowed, "grabs", ranges::mostGrabs);
-    case Misuse::tooManyPokes:
-        return listed(given, "pokes", allowed, "pokes", ranges::mostPokes);
+    case Misuse::tooManyHostColliders:
+        return listed(given, "host_colliders", allowed, "host_colliders", ranges::mostHostColliders);
     case Misuse::tooManyAnchors:
         return number(given) + " anchors are given, the scene has " + number(allowed) +
                " attachments: the further ones are ignored: give one for each attachment, in their order";

@@ -11,16 +11,16 @@
 namespace sinew::sim {
 
 enum class Misuse {
-    noReset,         ///< a step or a skin before recordReset() or recordTakeOver()
-    tooManyInFlight, ///< `frame` took the slot of step `given`, which had not finished
-    tooManyGrabs,    ///< `given` listed, `allowed` by Settings
-    tooManyPokes,    ///< `given` listed, `allowed` by Settings
-    tooManyAnchors,  ///< more than the scene's attachments
-    badBlade,        ///< `given` points in `from` and `allowed` points in `to`, or not finite
-    nothingToCut,    ///< a blade or a ray, but no cuttable body
-    contactRoom,     ///< undone: `given` candidates a particle need room, `allowed` have it
-    notRepeated,     ///< recorded after step `given`, which lacked lists and was not repeated
-    mayBeRepeated,   ///< in flight while the topology or the material changed
+    noReset,              ///< a step or a skin before recordReset() or recordTakeOver()
+    tooManyInFlight,      ///< `frame` took the slot of step `given`, which had not finished
+    tooManyGrabs,         ///< `given` listed, `allowed` by Settings
+    tooManyHostColliders, ///< `given` listed, `allowed` by Settings
+    tooManyAnchors,       ///< more than the scene's attachments
+    badBlade,             ///< `given` points in `from` and `allowed` points in `to`, or not finite
+    nothingToCut,         ///< a blade or a ray, but no cuttable body
+    contactRoom,          ///< undone: `given` candidates a particle need room, `allowed` have it
+    notRepeated,          ///< recorded after step `given`, which lacked lists and was not repeated
+    mayBeRepeated,        ///< in flight while the topology or the material changed
     count
 };
 

@@ -47,7 +47,7 @@ Simulation::~Simulation() {
 // it is repeated. There must be passes to leave out. An undone step must leave the state as it was before, in
 // bits, which it does not with a substep of another length.
 bool Simulation::State::mayBeCalm(float h) const noexcept {
-    return isKeptWhereUndone && h == previousH && calmSteps.areCalm() && hands.areFree() &&
+    return isKeptWhereUndone && h == previousH && calmSteps.areCalm() && grabs.areFree() &&
            !program.grids.empty();
 }
 
@@ -69,12 +69,12 @@ void Simulation::State::readSteps() noexcept {
 
 void Simulation::State::noteBefore(std::uint64_t frame) noexcept {
     Before& slot = befores[ring.slotOf(frame)];
-    const rigid::Pokes& pokes = colliders.pokes();
+    const rigid::HostColliders& hostColliders = colliders.hostColliders();
     slot.h = previousH;
     slot.time = colliders.time();
-    slot.pokes = pokes.states();
+    slot.hostColliders = hostColliders.states();
     std::ranges::copy(anchors.values(), slot.anchors.begin());
-    slot.hands = hands;
+    slot.grabs = grabs;
     slot.isUncut = isUncut;
     slot.hasNewTopology = hasNewTopology;
     slot.isChanged = isChanged;
@@ -91,9 +91,9 @@ void Simulation::State::goBack() noexcept {
     isBack = true;
     undoneH = previousH;
     previousH = slot.h;
-    colliders.moveTo(slot.time, slot.pokes);
+    colliders.moveTo(slot.time, slot.hostColliders);
     anchors.restore(slot.anchors);
-    hands.restore(*slot.hands);
+    grabs.restore(*slot.grabs);
     isUncut = slot.isUncut && topologies == slot.topologies;
     hasNewTopology = slot.hasNewTopology || topologies != slot.topologies;
     isChanged = slot.isChanged || changes != slot.changes;
@@ -107,7 +107,7 @@ void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
     state_->forgetUnsettled();
     state_->hasState = true;
     state_->anchors.reset();
-    state_->hands.reset();
+    state_->grabs.reset();
     state_->colliders.moveTo(0);
     state_->isUncut = true;
 }
@@ -132,7 +132,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->settledEnd = state_->settled(step.frame, state_->settledEnd); // before its slot is reused
     state_->nextFrame = step.frame + 1;
     state_->anchors.advance(step.anchors, dt);
-    state_->hands.advance(step.grabs, dt);
+    state_->grabs.advance(step.grabs, dt);
     const bool isCalm =
         step.repeats && !isAgain && !isBlade && state_->mayBeCalm(dt / static_cast<float>(state_->substeps));
     const std::uint32_t lists = (step.repeats ? LISTS_REPEATS : 0) | (isCalm ? LISTS_CALM : 0) |
@@ -145,20 +145,21 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
                        .isCalm = isCalm,
                        .repeats = step.repeats,
                        .generation = state_->generation});
-    state_->colliders.advance(dt, step.pokes);
+    state_->colliders.advance(dt, step.hostColliders);
     const rigid::ColliderPaths& colliders = state_->colliders;
-    const auto pokeArguments = state_->pokeArguments();
+    const auto hostColliderArguments = state_->hostColliderArguments();
     state_->unsettled[state_->ring.slotOf(step.frame)] = {
-        true, {parameters.h, colliders.time(), colliders.pokes().states()}};
+        true, {parameters.h, colliders.time(), colliders.hostColliders().states()}};
     state_->isUncut = state_->isUncut && !hasBlade;
     vk::Commands commands(state_->device, buffer);
     if (timestamps) timestamps->reset(commands);
     commands.beginStep();
     state_->executor.step(commands,
                           {std::as_bytes(std::span(&parameters, 1)), std::as_bytes(state_->anchors.values()),
-                           std::as_bytes(colliders.ways()), std::as_bytes(colliders.pokes().shapes()),
-                           std::as_bytes(std::span(pokeArguments)), std::as_bytes(state_->hands.values()),
-                           state_->blade.head(), state_->blade.points()},
+                           std::as_bytes(colliders.ways()), std::as_bytes(colliders.hostColliders().shapes()),
+                           std::as_bytes(std::span(hostColliderArguments)),
+                           std::as_bytes(state_->grabs.values()), state_->blade.head(),
+                           state_->blade.points()},
                           timestamps, {.hasBlade = hasBlade, .isCalm = isCalm});
     commands.barrier();
     state_->recordStatus(commands, step.frame);
@@ -219,10 +220,10 @@ std::span<const Pose> Simulation::colliderPoses() const noexcept {
     state_->goBack();
     return state_->colliders.poses();
 }
-std::span<const PokeState> Simulation::pokes() const noexcept {
+std::span<const HostColliderState> Simulation::hostColliders() const noexcept {
     state_->goBack();
-    const rigid::Pokes& pokes = state_->colliders.pokes();
-    return std::span(pokes.states()).first(pokes.count());
+    const rigid::HostColliders& hostColliders = state_->colliders.hostColliders();
+    return std::span(hostColliders.states()).first(hostColliders.count());
 }
 vk::BufferView Simulation::view(BufferId buffer) const noexcept {
     return state_->executor.view(buffer);
@@ -254,9 +255,9 @@ Status Simulation::status(std::uint64_t frame) const noexcept {
             .linksCut = step.hasBlade ? counts.linksOfStep : 0,
             .linksCutInAll = counts.links,
             .pieces = counts.pieces,
-            .crumbs = counts.crumbs,
-            .crumbParticles = counts.crumbParticles,
-            .crumbMass = static_cast<float>(state_->program.cutting.crumbUnit * counts.crumbMass),
+            .debris = counts.debris,
+            .debrisParticles = counts.debrisParticles,
+            .debrisMass = static_cast<float>(state_->program.cutting.debrisUnit * counts.debrisMass),
             .cutSurfaceMissing = counts.missing};
 }
 
@@ -290,7 +291,7 @@ Impulses Simulation::forces(std::uint64_t frame) const {
     };
     impulses.grabs = take(buffers.grabs);
     impulses.planes = take(buffers.planes);
-    impulses.pokes = take(buffers.pokes);
+    impulses.hostColliders = take(buffers.hostColliders);
     impulses.colliders = take(buffers.colliders);
     next += buffers.stops; // already part of the bodies
     impulses.attachments = take(buffers.attachments);

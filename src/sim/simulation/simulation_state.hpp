@@ -57,7 +57,7 @@ struct Simulation::State {
     bool hasState = false; // after a reset or take-over
     std::vector<SkinRange> skins, wholeSkins;
     constraints::attachment::Anchors anchors;
-    grabs::Hands hands;
+    grabs::GrabRequests grabs;
     rigid::ColliderPaths colliders;
     cutting::BladeWords blade;
     bool hasNewTopology = false; // loaded since the last step
@@ -71,11 +71,11 @@ struct Simulation::State {
                          // kept
     bool hasContacts;    // of particles or faces
     float previousH = 0; // 0 before the first step: the leapfrog starts with a half kick
-    // A finished step: its h, and the poses of colliders and pokes at its end.
+    // A finished step: its h, and the poses of colliders and host colliders at its end.
     struct Settled {
         float h = 0;
         double time = 0;
-        rigid::PokeStates pokes{};
+        rigid::HostColliderStates hostColliders{};
     };
     // A step whose result the host has not read yet, and the state of the host at its end.
     struct Unsettled {
@@ -90,9 +90,9 @@ struct Simulation::State {
     struct Before {
         float h = 0;
         double time = 0;
-        rigid::PokeStates pokes{};
+        rigid::HostColliderStates hostColliders{};
         std::vector<layout::vec4> anchors;
-        std::optional<grabs::Hands> hands;
+        std::optional<grabs::GrabRequests> grabs;
         bool isUncut = false, hasNewTopology = false, isChanged = false;
         std::uint32_t changes = 0, topologies = 0;
         std::optional<std::uint64_t> frame; // of that step
@@ -117,10 +117,10 @@ struct Simulation::State {
           executor(d, program), written(writtenByStep(program)), sceneKey(sim::sceneKey(scene)),
           ring(d, settings.framesInFlight, program.cutting.counts != BufferId{}, forceCount(program)),
           skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
-          anchors(scene.attachments), hands(settings.grabs, scene.particles.size()),
-          colliders(scene.colliders, scene.driven, settings.pokes), budget(dampedBudget(scene, settings)),
-          theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
-          damping(scene.damping), substeps(settings.substeps),
+          anchors(scene.attachments), grabs(settings.grabs, scene.particles.size()),
+          colliders(scene.colliders, scene.driven, settings.hostColliders),
+          budget(dampedBudget(scene, settings)), theta(settings.solver == Solver::split ? settings.theta : 0),
+          omega(settings.omega), damping(scene.damping), substeps(settings.substeps),
           storesPlaces(solvers::split::contactsFollow(scene, settings)),
           hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)),
           unsettled(settings.framesInFlight), untold(warnings(scene)), befores(settings.framesInFlight),
@@ -164,14 +164,14 @@ struct Simulation::State {
         return ring.isFinished(recorded) && !ring.isUndone(recorded) ? step.end : end;
     }
 
-    // Dispatch arguments of the passes that run only for pokes: 0 groups without one.
-    std::array<layout::DispatchArguments, POKE_ARGUMENTS> pokeArguments() const {
-        const std::uint32_t one = colliders.pokes().areAny() ? 1 : 0;
+    // Dispatch arguments of the passes that run only for host colliders: 0 groups without one.
+    std::array<layout::DispatchArguments, HOST_COLLIDER_ARGUMENTS> hostColliderArguments() const {
+        const std::uint32_t one = colliders.hostColliders().areAny() ? 1 : 0;
         const auto arguments = [one](std::uint32_t groups) {
             return layout::DispatchArguments{one * groups, 1, 1, 0};
         };
-        static_assert(POKES_PLACED == 0 && POKES_TOUCHING == 1);
-        return {arguments(program.pokes.placed), arguments(program.pokes.touching)};
+        static_assert(HOST_COLLIDERS_PLACED == 0 && HOST_COLLIDERS_TOUCHING == 1);
+        return {arguments(program.hostColliders.placed), arguments(program.hostColliders.touching)};
     }
 
     // Notes the parts of `step` that are ignored.
@@ -185,7 +185,7 @@ struct Simulation::State {
             if (given > allowed) misuse.note(kind, frame, given, allowed);
         };
         noteMore(Misuse::tooManyGrabs, step.grabs.size(), chosen.grabs);
-        noteMore(Misuse::tooManyPokes, step.pokes.size(), chosen.pokes);
+        noteMore(Misuse::tooManyHostColliders, step.hostColliders.size(), chosen.hostColliders);
         noteMore(Misuse::tooManyAnchors, step.anchors.size(), anchors.count());
         const bool asksForBlade = !step.blade.from.empty() || !step.blade.to.empty();
         if ((asksForBlade || step.ray.radius > 0) && !mayBeCut())
@@ -256,11 +256,11 @@ struct Simulation::State {
     // Records the passes that recompute values which follow from the scene alone, after a state was put into
     // the buffers.
     void recordSettling(vk::Commands& commands) noexcept {
-        if (program.settle.empty()) return;
+        if (program.refresh.empty()) return;
         commands.barrier(); // the state was copied
         for (const BufferId list : program.cutting.lists) executor.restore(commands, list);
         commands.barrier();
-        executor.settle(commands);
+        executor.refresh(commands);
     }
 
     // Calls use(index, buffer) for public positions and velocities, then for all carried buffers.
@@ -268,7 +268,7 @@ struct Simulation::State {
         std::size_t index = 0;
         use(index++, program.positions);
         use(index++, program.velocities);
-        for (const Carried& carried : program.carried) use(index++, carried.from);
+        for (const StateBuffer& stateBuffer : program.stateBuffers) use(index++, stateBuffer.from);
     }
 
     // Copies the state of `other`, from its buffers or from `copy`. If both are alike, carried buffers are
@@ -279,7 +279,7 @@ struct Simulation::State {
         std::size_t next = 0; // next candidate among own carried buffers
         vk::BufferView place = copy;
         const auto nameOf = [](const StepProgram& of, std::size_t c) -> const std::string& {
-            return of.buffers[of.carried[c].to.index].label;
+            return of.buffers[of.stateBuffers[c].to.index].label;
         };
         other.forEachHanded([&](std::size_t index, BufferId handed) {
             vk::BufferView origin = other.executor.view(handed);
@@ -291,17 +291,17 @@ struct Simulation::State {
             BufferId own = index == 0 ? program.positions : program.velocities, saved;
             if (index > 1) {
                 std::size_t found = next;
-                while (found < program.carried.size() &&
+                while (found < program.stateBuffers.size() &&
                        nameOf(program, found) != nameOf(other.program, index - 2))
                     ++found;
-                if (!isAlike || found == program.carried.size()) return;
-                own = program.carried[found].to;
+                if (!isAlike || found == program.stateBuffers.size()) return;
+                own = program.stateBuffers[found].to;
                 next = found + 1;
                 // a saved copy that only this program has, because it keeps forces, starts as the value taken
                 // over
-                const Carried& theirs = other.program.carried[index - 2];
-                if (theirs.from == theirs.to && program.carried[found].from != own)
-                    saved = program.carried[found].from;
+                const StateBuffer& theirs = other.program.stateBuffers[index - 2];
+                if (theirs.from == theirs.to && program.stateBuffers[found].from != own)
+                    saved = program.stateBuffers[found].from;
             }
             for (const BufferId copied : {own, saved}) {
                 vk::BufferView target = executor.view(copied);
@@ -357,16 +357,17 @@ struct Simulation::State {
     // Sets the host's part of the state.
     void moveTo(const SavedState& saved) noexcept {
         previousH = saved.h;
-        rigid::PokeStates pokes{};
-        std::copy_n(saved.pokes.begin(), std::min(saved.pokes.size(), pokes.size()), pokes.begin());
-        settledEnd = {saved.h, saved.colliderTime, pokes};
+        rigid::HostColliderStates hostColliders{};
+        std::copy_n(saved.hostColliders.begin(), std::min(saved.hostColliders.size(), hostColliders.size()),
+                    hostColliders.begin());
+        settledEnd = {saved.h, saved.colliderTime, hostColliders};
         forgetUnsettled();
         undoneH = saved.undoneH;
         anchors.moveTo(saved.anchors);
         hasNewTopology = saved.hasNewTopology;
         isUncut = saved.isUncut;
-        hands.reset();
-        colliders.moveTo(saved.colliderTime, pokes);
+        grabs.reset();
+        colliders.moveTo(saved.colliderTime, hostColliders);
     }
 
     // Copies buffers into consecutive ranges of `copies`, or back from there.

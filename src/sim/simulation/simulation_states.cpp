@@ -69,7 +69,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
     state_->recordTaking(commands, other, copy, isAlike);
     if (!isAlike) {
         commands.barrier();
-        state_->executor.adopt(commands);
+        state_->executor.initialise(commands);
     }
     state_->recordSettling(commands); // material, or h, may differ
     if (state_->hasMoreRoom(other)) state_->recordSurface(commands);
@@ -87,10 +87,10 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
     state_->settledEnd = end;
     state_->previousH = isAlike ? end.h : 0;
     state_->anchors = other.anchors;
-    if (isAlike) state_->hands = other.hands;
+    if (isAlike) state_->grabs = other.grabs;
     state_->isUncut = other.isUncut;
     state_->hasNewTopology = other.hasNewTopology;
-    state_->colliders.moveTo(end.time, end.pokes);
+    state_->colliders.moveTo(end.time, end.hostColliders);
 }
 
 std::uint64_t Simulation::handOverSize() const noexcept {
@@ -171,9 +171,9 @@ SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferV
     commands.beginStep();
     state_->copy(commands, state_->written, to, State::Way::out);
     commands.endStep();
-    const auto pokes = this->pokes(); // restores the host's part if steps must be repeated
+    const auto hostColliders = this->hostColliders(); // restores the host's part if steps must be repeated
     return {state_->previousH,        state_->colliders.time(),
-            state_->anchors.places(), {pokes.begin(), pokes.end()},
+            state_->anchors.places(), {hostColliders.begin(), hostColliders.end()},
             state_->hasNewTopology,   state_->changes,
             state_->isUncut,          state_->undoneH};
 }

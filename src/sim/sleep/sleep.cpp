@@ -83,7 +83,7 @@ const vk::ShaderCode* awakeForm(const vk::ShaderCode& code) {
 }
 
 // Passes over particles run for listed groups; any other pass runs entirely or not at all.
-GatedDispatch gated(Sleep& sleep, const vk::ShaderCode& code, std::uint32_t items) {
+IndirectForm indirectForm(Sleep& sleep, const vk::ShaderCode& code, std::uint32_t items) {
     const std::uint32_t groupSize = vk::readInterface(code).groupSize[0];
     const vk::ShaderCode* awake = awakeForm(code);
     if (!awake) return {&code, itemsOf(sleep, SLEEP_ALL, items, groupSize), {}};
@@ -112,9 +112,10 @@ void addWakingTouched(ProgramBuilder& program, Sleep& sleep, BufferId velocities
     addWaking(program, sleep, velocities, SLEEP_WAKING, SLEEP_WAKING_ONE);
 }
 
-void closeGate(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) {
-    program.setGate(
-        [sleep](const vk::ShaderCode& code, std::uint32_t items) { return gated(*sleep, code, items); });
+void makeIndirect(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) {
+    program.setIndirection([sleep](const vk::ShaderCode& code, std::uint32_t items) {
+        return indirectForm(*sleep, code, items);
+    });
 }
 
 // Passes after the check of a step: detect rest, and put islands to sleep.
@@ -125,13 +126,13 @@ void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuf
         program.dispatchIndirect(code, wakingItems(sleep, SLEEP_RESTING, sleep.push.count), buffers,
                                  sleep.push);
     };
-    program.setGate({});
+    program.setIndirection({});
     program.dispatch(k::closeSleep, GROUP_ITEMS,
                      {sleep.state, status, sleep.waking, particles.step, sleep.anchors, sleep.seenAnchors,
                       sleep.ways, sleep.seenPoses, sleep.arguments},
                      sleep.push);
-    add(k::watchRest, {sleep.weights, sleep.limits, positions, velocities, particles.step, sleep.rests,
-                       sleep.components, sleep.islands, sleep.least});
+    add(k::measureRestTimes, {sleep.weights, sleep.limits, positions, velocities, particles.step, sleep.rests,
+                              sleep.components, sleep.islands, sleep.least});
     const auto& pairs = sleep.pairs;
     if (pairs.contacts != BufferId{})
         add(k::joinIslands, {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.lists,
@@ -168,8 +169,8 @@ void setMoving(ProgramBuilder& program, Sleep& sleep, const constraints::attachm
                                : program.scratch<float>("sleep.no_offsets", sleep.push.count);
     sleep.ways = areMoving ? colliders.ways : program.scratch<layout::ColliderPose>("sleep.no_ways", 1);
     sleep.seenPoses = program.scratch<layout::ColliderPose>("sleep.poses", poses);
-    program.carry(sleep.seenAnchors, sleep.seenAnchors);
-    program.carry(sleep.seenPoses, sleep.seenPoses);
+    program.addToState(sleep.seenAnchors, sleep.seenAnchors);
+    program.addToState(sleep.seenPoses, sleep.seenPoses);
 }
 
 void setContents(ProgramBuilder& program, BufferId buffer, std::span<const std::byte> bytes) {
@@ -208,7 +209,8 @@ std::shared_ptr<Sleep> add(ProgramBuilder& program, const Scene& scene, const Se
     sleep->arguments = program.scratch<layout::DispatchArguments>("sleep.arguments", mostPasses);
     sleep->waking = program.scratch<layout::DispatchArguments>("sleep.waking", SLEEP_ARGUMENTS);
     program.program().sleep = {sleep->arguments, sleep->listed};
-    for (const BufferId buffer : {sleep->state, sleep->rests, sleep->islands}) program.carry(buffer, buffer);
+    for (const BufferId buffer : {sleep->state, sleep->rests, sleep->islands})
+        program.addToState(buffer, buffer);
     itemsOf(*sleep, SLEEP_ALL, GROUP_ITEMS, GROUP_ITEMS); // element 0: whether anything runs
     return sleep;
 }
@@ -224,7 +226,7 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
                       sleep.seenAnchors, sleep.ways, sleep.seenPoses},
                      sleep.push);
     if (const auto& grabs = particles.grabs)
-        program.dispatchIndirect(k::wakeHeld, {grabs->pulling, 0, sleep.push.count},
+        program.dispatchIndirect(k::wakeGrabbed, {grabs->pulling, 0, sleep.push.count},
                                  {grabs->bodies, grabs->held, grabs->pulling, sleep.weights,
                                   particles.velocities, sleep.islands, sleep.marks, sleep.waking},
                                  sleep.push);
@@ -234,10 +236,10 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
                               sleep.colliders, sleep.contactOffsets, sleep.ways, sleep.seenPoses},
                              sleep.push);
     addWaking(program, sleep, particles.velocities, SLEEP_OPENING, SLEEP_OPENING_ONE);
-    closeGate(program, particles.sleep);
+    makeIndirect(program, particles.sleep);
     program.afterCheck([&program, particles] {
         addJudgement(program, *particles.sleep, particles);
-        closeGate(program, particles.sleep);
+        makeIndirect(program, particles.sleep);
     });
 }
 
@@ -274,7 +276,7 @@ void finish(ProgramBuilder& program, const ParticleBuffers& particles) {
                      {sleep.weights, particles.velocities, program.program().status, sleep.groups,
                       sleep.marks, sleep.state},
                      sleep.push);
-    program.setGate({});
+    program.setIndirection({});
     program.dispatchIndirect(k::listAwake, wakingItems(sleep, SLEEP_CLOSING_ONE, GROUP_ITEMS),
                              {sleep.groups, sleep.listed, sleep.passes, sleep.arguments, sleep.state},
                              sleep.push);

@@ -352,10 +352,11 @@ struct Touching {
             buffers.insert(buffers.end(), {before, planes.planes, planes.contactOffsets});
             constants.merge(planes.constants());
         }
-        const vk::ShaderCode* code = &kernels::finishFree;
+        const vk::ShaderCode* code = &kernels::finishAfterSurfaces;
         if (planes.count > 0)
-            code = &forces::formFor(next, {&kernels::finishFreePlanes, &kernels::finishFreePlanesForces},
-                                    &forces::Forces::ofPlanes, buffers, constants);
+            code = &forces::formFor(
+                next, {&kernels::finishAfterSurfacesPlanes, &kernels::finishAfterSurfacesPlanesForces},
+                &forces::Forces::ofPlanes, buffers, constants);
         buffers.push_back(particles);
         program.dispatch(*code, particleCount, buffers, layout::CountPush{particleCount}, constants);
     }
@@ -442,8 +443,8 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     }
     program.endSubsteps();
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
-    program.keep(particles.positions);
-    program.keep(particles.velocities);
+    program.keepForRepeat(particles.positions);
+    program.keepForRepeat(particles.velocities);
     program.atEnd([&program, contacts] { contacts.addPublishing(program); });
 }
 

@@ -88,10 +88,11 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
     if (isHung)
         buffers.insert(buffers.end(),
                        {built.skinVertices, surface.hung.vertices, surface.hung.moved, surface.hung.grids});
-    program.dispatchIndirect(isHung ? (surface.usesTexels ? k::skinCutHung : k::skinCutHungLoads)
-                                    : (surface.usesTexels ? k::skinCut : k::skinCutLoads),
+    program.dispatchIndirect(isHung
+                                 ? (surface.usesTexels ? k::placeCutPointsHung : k::placeCutPointsHungLoads)
+                                 : (surface.usesTexels ? k::placeCutPoints : k::placeCutPointsLoads),
                              points, buffers, room);
-    program.dispatchIndirect(k::skinPieces, outside,
+    program.dispatchIndirect(k::placePieceCorners, outside,
                              {drawn.state, drawn.rest, built.positions, surface.gradients, drawn.vertices,
                               built.skinVertices, surface.turns},
                              room);
@@ -133,7 +134,7 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
           drawn.rest, drawn.indices, drawn.draws, surface->arguments, built.skinIndices}) {
         if (hasPieces && buffer == built.skinIndices) continue;
         built.cutting.topology.push_back(buffer);
-        program.carry(buffer, buffer);
+        program.addToState(buffer, buffer);
     }
     addHungBuffers(program, *surface, bodies);
     if (surface->hung.prismCount > 0)
@@ -149,7 +150,7 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, Buf
     const CuttingBuffers& cutting = program.program().cutting;
     const CutSurfaceBuffers& drawn = program.program().cutSurface;
     const BufferId complex = surface.complex, partitions = surface.partitions, owned = surface.owned;
-    addRuns(program, surface, k::partTetrahedra,
+    addRuns(program, surface, k::partitionTetrahedra,
             {cutting.links, complex, cutting.listedCounts, partitions, surface.near, cutting.listed});
     addRuns(program, surface, k::markPoints,
             {cutting.links, complex, cutting.listedCounts, partitions, owned, cutting.listed});

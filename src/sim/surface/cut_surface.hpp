@@ -3,7 +3,7 @@
 // marching tetrahedra on dead links, closed and two-sided. The skin of a body is the outer faces of its cells
 // (lattice_faces) or a mesh attached to them (skin_complex); hung_surface contains what differs for meshes.
 //
-// A step with a cut runs, near the blade only: part_tetrahedra (which corners of each tetrahedron are
+// A step with a cut runs, near the blade only: partition_tetrahedra (which corners of each tetrahedron are
 // connected), mark_points (points on edges, on faces and in centres, one for each side or one for both),
 // count_surface (triangles of every cell). It then runs for the whole surface: sum, scan and start (first
 // element of each cell, from the counts in the order of slots; draw arguments), write_points (rest positions,
@@ -12,8 +12,8 @@
 //
 // Items of the surface are slots, followed by prisms. StepProgram::skin runs: find_gradients (rotation and
 // strain of the material around particles near a cut), normals of attached skins and of split ones
-// (hung_surface, split_normals), skin_cut (points and their normals), skin_pieces (corners of pieces, at the
-// points).
+// (hung_surface, split_normals), place_cut_points (points and their normals), place_piece_corners (corners of
+// pieces, at the points).
 //
 // No element is appended by a counter: the same cut gives the same bits in any order of execution.
 #pragma once

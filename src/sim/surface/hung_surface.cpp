@@ -94,11 +94,11 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
         hung.pulledPlaces = program.scratch<layout::vec4>("surface.pulled_places", surface.slots);
         hung.pulls = program.scratch<layout::vec4>("surface.pulls", surface.slots);
         program.program().cutting.topology.push_back(hung.pulls);
-        program.carry(hung.pulls, hung.pulls);
+        program.addToState(hung.pulls, hung.pulls);
     }
     for (const BufferId buffer : {hung.hits, hung.rims, hung.moved, hung.placed, hung.slotFlags}) {
         program.program().cutting.topology.push_back(buffer);
-        program.carry(buffer, buffer);
+        program.addToState(buffer, buffer);
     }
 }
 
@@ -107,7 +107,7 @@ BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId
     const CuttingBuffers& cutting = program.program().cutting;
     if (surface.hung.pulledPlaces == BufferId{}) return cutting.places;
     for (const layout::CutPush& run : surface.source.runs)
-        program.dispatch(k::pullPlaces, run.count,
+        program.dispatch(k::movePlacesBelowSkin, run.count,
                          {cutting.links, surface.rest, surface.bladeRest, cutting.places,
                           surface.hung.pulledPlaces, placesBefore, work, blade, surface.hung.pulls},
                          run);
@@ -129,18 +129,19 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
                                   hung.placed},
                                  range.vertices);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(usesTexels ? k::cutSkin : k::cutSkinLoads,
+        program.dispatchIndirect(usesTexels ? k::intersectSkinEdges : k::intersectSkinEdgesLoads,
                                  listOf(hung, range.prisms, SKIN_NEAR),
                                  {bladePlaces, placesBefore, blade, cutting.savedLinks, points, hung.prisms,
                                   hung.placed, hung.hits, hung.counts, hung.nears},
                                  range.prisms);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(
-            usesTexels ? k::moveRims : k::moveRimsLoads, listOf(hung, range.vertices, SKIN_VERTICES),
-            {bladePlaces, placesBefore, blade, cutting.savedLinks, cutting.places, surface.rest,
-             hung.vertices, points, cutting.links, hung.moved, hung.rims, program.program().status,
-             hung.counts, hung.listed, hung.placed, hung.planes},
-            range.vertices);
+        program.dispatchIndirect(usesTexels ? k::snapRimsToBlade : k::snapRimsToBladeLoads,
+                                 listOf(hung, range.vertices, SKIN_VERTICES),
+                                 {bladePlaces, placesBefore, blade, cutting.savedLinks, cutting.places,
+                                  surface.rest, hung.vertices, points, cutting.links, hung.moved, hung.rims,
+                                  program.program().status, hung.counts, hung.listed, hung.placed,
+                                  hung.planes},
+                                 range.vertices);
 }
 
 void addPrismParting(ProgramBuilder& program, const CutSurface& surface) {
@@ -149,7 +150,7 @@ void addPrismParting(ProgramBuilder& program, const CutSurface& surface) {
         layout::PrismPush push = pushOf(surface, hung.prismCount);
         push.prisms = range.prisms.first;
         push.run = range.prisms.run;
-        program.dispatchIndirect(k::partPrisms, listOf(hung, range.prisms, SKIN_PARTED),
+        program.dispatchIndirect(k::partitionPrisms, listOf(hung, range.prisms, SKIN_PARTED),
                                  {program.program().cutting.links, hung.counts, hung.prisms, surface.near,
                                   surface.owned, surface.counts, hung.rims, hung.parted},
                                  push);
@@ -184,15 +185,16 @@ void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
     program.fill(hung.counts, 0);
     for (const HungRange& range : hung.ranges)
         program.dispatchIndirect(
-            k::listSplit, {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount},
+            k::listSplitVertices, {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount},
             {hung.vertices, surface.partitions, hung.moved, hung.counts, hung.listed}, range.vertices);
     addPlan(program, hung);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(
-            surface.usesTexels ? k::skinSplit : k::skinSplitLoads, listOf(hung, range.vertices, SKIN_SPLIT),
-            {hung.vertices, built.cutting.links, surface.rest, surface.source.particles, built.positions,
-             surface.gradients, surface.near, hung.moved, hung.counts, hung.listed, built.skinVertices},
-            range.vertices);
+        program.dispatchIndirect(surface.usesTexels ? k::placeSplitVertices : k::placeSplitVerticesLoads,
+                                 listOf(hung, range.vertices, SKIN_SPLIT),
+                                 {hung.vertices, built.cutting.links, surface.rest, surface.source.particles,
+                                  built.positions, surface.gradients, surface.near, hung.moved, hung.counts,
+                                  hung.listed, built.skinVertices},
+                                 range.vertices);
 }
 
 void addRimNormals(ProgramBuilder& program, const CutSurface& surface) {
@@ -205,7 +207,7 @@ void addRimNormals(ProgramBuilder& program, const CutSurface& surface) {
         hung.grids,      built.skinVertices};
     const bool isSplit = surface.wholeCount > 0;
     if (isSplit) buffers.push_back(surface.wholeMarks);
-    program.dispatchIndirect(isSplit ? k::turnRimsSplit : k::turnRims,
+    program.dispatchIndirect(isSplit ? k::rotateRimNormalsSplit : k::rotateRimNormals,
                              {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount}, buffers,
                              pushOf(surface, hung.vertexCount));
 }

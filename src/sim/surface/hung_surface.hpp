@@ -2,11 +2,12 @@
 // after all slots, for which the same passes count and scan points and triangles. Nothing if no mesh skin is
 // clipped.
 //
-//   cut    pull_places  moves particles outside of a skin below it for the blade
-//   end    cut_skin     finds where edges of the skin met the blade
-//          move_rims    moves vertices on the wrong side of the blade onto it
-//          part_prisms; write_rims (points), write_prisms (inside), write_pieces (remaining skin)
-//   skin   list_split, skin_split: vertices in divided cells, before normals; turn_rims: normals beside cuts
+//   cut    move_places_below_skin  moves particles outside of a skin below it for the blade
+//   end    intersect_skin_edges     finds where edges of the skin met the blade
+//          snap_rims_to_blade    moves vertices on the wrong side of the blade onto it
+//          partition_prisms; write_rims (points), write_prisms (inside), write_pieces (remaining skin)
+//   skin   list_split_vertices, place_split_vertices: vertices in divided cells, before normals;
+//   rotate_rim_normals: normals beside cuts
 #pragma once
 
 #include "sim/surface/cut_surface.hpp"

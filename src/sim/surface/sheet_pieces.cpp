@@ -131,7 +131,7 @@ void findSkins(ProgramBuilder& program, const Scene& scene, const StateLayout& l
 void addDrawing(ProgramBuilder& program, const SheetPieces& pieces) {
     const StepProgram& built = program.program();
     for (const SheetSkin& skin : pieces.skins)
-        program.dispatchIndirect(k::skinSheet,
+        program.dispatchIndirect(k::placeSheetPieces,
                                  {pieces.arguments, 2 * skin.push.skin + 1, skin.push.vertexRoom},
                                  {skin.state, skin.vertices, built.cutting.links, pieces.particles,
                                   built.positions, built.skinVertices},
@@ -187,7 +187,7 @@ std::shared_ptr<SheetPieces> addSheetPieces(ProgramBuilder& program, const Scene
     }
     for (const BufferId buffer : topology) {
         built.cutting.topology.push_back(buffer);
-        program.carry(buffer, buffer);
+        program.addToState(buffer, buffer);
     }
     program.atSkin([&program, pieces] { addDrawing(program, *pieces); });
     return pieces;

@@ -6,7 +6,7 @@
 // A step with a cut runs: count_sheet (pieces of every triangle), scan_sheet (their first elements, from the
 // counts in the order of triangles; draw arguments), write_sheet (indices, and the particles that vertices
 // depend on; the skin's own triangles that pieces replace collapse to a point). The list of skins runs
-// skin_sheet (vertices, normals).
+// place_sheet_pieces (vertices, normals).
 #pragma once
 
 #include "common/layout.h"

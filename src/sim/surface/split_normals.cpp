@@ -31,7 +31,7 @@ void addSplitNormals(ProgramBuilder& program, CutSurface& surface, const CutBodi
     surface.wholeMarks = program.scratch<std::uint32_t>("surface.whole_marks", bodies.vertices.size());
     for (const BufferId buffer : {surface.wholeStates, surface.wholeMarks}) {
         program.program().cutting.topology.push_back(buffer);
-        program.carry(buffer, buffer);
+        program.addToState(buffer, buffer);
     }
     uploadWholes(program, surface, bodies);
     surface.partCount = static_cast<std::uint32_t>(bodies.parts.size());
@@ -42,14 +42,14 @@ void addWholeMarks(ProgramBuilder& program, const CutSurface& surface) {
     if (surface.wholeCount == 0) return;
     program.fill(surface.wholeStates, 0);
     program.fill(surface.wholeMarks, 0);
-    program.dispatch(surface.usesTexels ? k::openWholes : k::openWholesLoads, surface.faces,
+    program.dispatch(surface.usesTexels ? k::findCutTriangles : k::findCutTrianglesLoads, surface.faces,
                      {surface.counts, program.program().cutSurface.state, surface.skinFaces,
                       surface.hung.prisms, surface.hung.vertices, surface.hung.moved, surface.partitions,
                       surface.wholeStates},
                      layout::PrismPush{.first = surface.slots, .count = surface.faces});
     const layout::CountPush wholes{surface.wholeCount};
-    program.dispatch(k::markWholes, wholes.count, {surface.wholes, surface.wholeStates, surface.wholeMarks},
-                     wholes);
+    program.dispatch(k::markCutCorners, wholes.count,
+                     {surface.wholes, surface.wholeStates, surface.wholeMarks}, wholes);
 }
 
 void addWholeNormals(ProgramBuilder& program, const CutSurface& surface) {
@@ -63,7 +63,7 @@ void addWholeNormals(ProgramBuilder& program, const CutSurface& surface) {
 void addPartNormals(ProgramBuilder& program, const CutSurface& surface) {
     if (surface.partCount == 0) return;
     const StepProgram& built = program.program();
-    program.dispatch(k::lightParts, surface.partCount,
+    program.dispatch(k::interpolatePartNormals, surface.partCount,
                      {surface.partVertices, built.cutting.links, surface.rest, surface.source.particles,
                       built.positions, surface.gradients, surface.near, surface.hung.vertices,
                       surface.hung.grids, built.skinVertices, surface.wholes, surface.wholeStates,

@@ -2,9 +2,10 @@
 // parts of a whole triangle have vertices on its edges and inside of it. These normals light the parts as the
 // whole triangle was lit before the cut, so that a cut changes no color away from it.
 //
-// In a step with a cut: open_wholes (which whole triangles are beside the cut), mark_wholes (their corners).
-// When somebody draws: skin_normals_whole (corners of whole triangles away from cuts, from those triangles),
-// then light_parts (vertices that only parts have, by interpolation between the corners).
+// In a step with a cut: find_cut_triangles (which whole triangles are beside the cut), mark_cut_corners
+// (their corners). When somebody draws: skin_normals_whole (corners of whole triangles away from cuts, from
+// those triangles), then interpolate_part_normals (vertices that only parts have, by interpolation between
+// the corners).
 #pragma once
 
 #include "sim/surface/cut_surface.hpp"

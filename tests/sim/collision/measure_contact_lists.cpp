@@ -63,7 +63,7 @@ Duration shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side
     builder.beginPhase("lists");
     for (const BufferId positions : {here, there}) {
         const collision::hash_grid::Moved moved{positions, velocities, parameters};
-        collision::hash_grid::addWatch(builder, lists.grid, moved);
+        collision::hash_grid::addListCheck(builder, lists.grid, moved);
         collision::contact_lists::addBuild(builder, lists, moved);
         if (part == Part::find) builder.fill(lists.pooled.chains, 0); // sorting clears them, too
         if (part != Part::build) collision::contact_lists::addLists(builder, lists, moved);

@@ -447,11 +447,11 @@ TEST(Colliders, CompileToWhatTheyNeed) {
     Scene scene = test::particleAt({0, 0, 0});
     scene.colliders = {sphere(0.1, {0, -1, 0})};
     EXPECT_TRUE(test::usesKernel(scene, "solve_colliders"));
-    EXPECT_FALSE(test::usesKernel(scene, "open_colliders"));
+    EXPECT_FALSE(test::usesKernel(scene, "save_substep_start"));
     EXPECT_FALSE(test::usesKernel(scene, "place_colliders"));
     scene.colliders[0].restitution = 0.5f;
     EXPECT_TRUE(test::usesKernel(scene, "solve_colliders_rebound"));
-    EXPECT_TRUE(test::usesKernel(scene, "open_colliders"));
+    EXPECT_TRUE(test::usesKernel(scene, "save_substep_start"));
     scene.colliders[0].path = {{0, {}}, {1, {}}};
     EXPECT_TRUE(test::usesKernel(scene, "place_colliders"));
 }

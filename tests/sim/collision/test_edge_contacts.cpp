@@ -265,7 +265,7 @@ TEST(EdgeContacts, AreAbsentWhereNoTwoEdgesCanMeet) {
                             .triangles = {{0, 1, 2}, {0, 2, 3}},
                             .thickness = thickness});
     scene.particles.push_back({.position = {0, 1, 0}, .radius = thickness});
-    EXPECT_FALSE(test::usesKernel(scene, "touch_edges"));
-    EXPECT_TRUE(test::usesKernel(scene, "touch_faces"));
-    EXPECT_TRUE(test::usesKernel(test::crossedSheets(0.15f), "touch_edges"));
+    EXPECT_FALSE(test::usesKernel(scene, "find_edge_contacts"));
+    EXPECT_TRUE(test::usesKernel(scene, "find_face_contacts"));
+    EXPECT_TRUE(test::usesKernel(test::crossedSheets(0.15f), "find_edge_contacts"));
 }

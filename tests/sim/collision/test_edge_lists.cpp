@@ -66,7 +66,7 @@ public:
                                        .particles = count});
         builder_.beginPhase("solve");
         builder_.fill(builder_.program().status, 0);
-        lists::addWatch(builder_, lists_, particles_);
+        lists::addListCheck(builder_, lists_, particles_);
         lists::addLists(builder_, lists_, particles_);
         program_ = builder_.finish();
         executor_.emplace(test::device(), program_);

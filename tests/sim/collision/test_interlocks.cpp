@@ -142,8 +142,8 @@ TEST(Interlocks, CostNothingWhereThereAreNone) {
     for (const float apart : {0.35f, 1.0f})
         for (const BufferSpec& buffer : compile(cubes(apart), {.substeps = 4}).buffers)
             EXPECT_EQ(buffer.label.find("interlocks"), std::string::npos) << apart;
-    EXPECT_FALSE(usesKernel(cubes(0.35f), "part_interlocked", {.substeps = 4}));
-    EXPECT_TRUE(usesKernel(cubes(0.2f), "part_interlocked", {.substeps = 4}));
+    EXPECT_FALSE(usesKernel(cubes(0.35f), "separate_interlocked", {.substeps = 4}));
+    EXPECT_TRUE(usesKernel(cubes(0.2f), "separate_interlocked", {.substeps = 4}));
 }
 
 TEST(Interlocks, PartInTheSameBitsForAnyMarginRoomOrderAndForm) {

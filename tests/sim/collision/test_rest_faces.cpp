@@ -412,7 +412,7 @@ TEST(RestOfEdges, KeepsCrossedSheets) {
         scene.particles[i].position.y -= static_cast<float>(gap) - 0.7f * thick;
     Scene parting = scene;
     for (Particle& particle : scene.particles) particle.keepsRest = true;
-    ASSERT_TRUE(usesKernel(scene, "touch_edges"));
+    ASSERT_TRUE(usesKernel(scene, "find_edge_contacts"));
     expectStill(scene, settings, double{thick} / 2, 100, "crossed sheets");
     Runner runner(parting, settings);
     runner.run(30);

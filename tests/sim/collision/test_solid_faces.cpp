@@ -425,13 +425,13 @@ TEST(SolidFaces, AreGoneWhereABladeHasPartedThem) {
 
 // The faces of a removed corner disappear with it and return with an undo, including faces with all links
 // alive.
-TEST(SolidFaces, OfCrumbsLeaveWithThem) {
+TEST(SolidFaces, OfDebrisLeaveWithIt) {
     for (const bool isUndone : {false, true}) {
         Lattice lattice = cubeLattice();
         lattice.isCuttable = true;
         Scene scene = cube(lattice);
         scene.gravity = {};
-        scene.crumbs = 11; // the corner has ten particles
+        scene.debris = 11; // the corner has ten particles
         const Vec3 start{-0.1f, -0.1f, -0.1f};
         const std::uint32_t ball = addBall(scene, start, {1, 1, 1}, 1e-6f);
         CutBody body(scene, {.substeps = 16, .contactRoom = 64});

@@ -224,27 +224,27 @@ TEST_P(Held, WhatIsNoNumberOrNoParticleIsNotHeld) {
 INSTANTIATE_TEST_SUITE_P(Solvers, Held, ::testing::Values(Solver::split, Solver::jacobi, Solver::gaussSeidel),
                          nameOf);
 
-TEST(Hand, CostsNothingWhereThereIsNone) {
+TEST(Grabs, CostsNothingWhereThereIsNone) {
     const Scene scene = blockOf(1);
-    EXPECT_TRUE(test::usesKernel(scene, "pull_held", settings(Solver::split)));
-    EXPECT_FALSE(test::usesKernel(scene, "pull_held"));
+    EXPECT_TRUE(test::usesKernel(scene, "solve_grabs", settings(Solver::split)));
+    EXPECT_FALSE(test::usesKernel(scene, "solve_grabs"));
     EXPECT_FALSE(test::usesKernel(scene, "open_grabs"));
 }
 
-TEST(Hand, ThatHoldsNothingChangesNoBit) {
+TEST(Grabs, ThatHoldsNothingChangesNoBit) {
     const Scene scene = test::block(4, 0.1f, 1e5f, 0.3f);
     Settings with{.substeps = 8, .grabs = 1}, without{.substeps = 8};
     EXPECT_EQ(test::hashOfRun(scene, with, 20), test::hashOfRun(scene, without, 20));
 }
 
-TEST(Hand, MoreThanThereCanBeAreRefusedByName) {
+TEST(Grabs, MoreThanThereCanBeAreRefusedByName) {
     const auto sentences = validate(blockOf(1), {.grabs = 9});
     ASSERT_EQ(sentences.size(), 1u);
     EXPECT_NE(sentences[0].find("settings.grabs"), std::string::npos) << sentences[0];
 }
 
 // A grab pulls a ball out of a sleeping heap. The balls in contact with it wake too, and fall.
-TEST(Hand, WakesWhatItHolds) {
+TEST(Grabs, WakesWhatItHolds) {
     Scene scene;
     test::addBalls(scene, 4, 2.3f * test::ballRadius, 0.1f * test::ballRadius, {0, 0.3f, 0});
     scene.contacts.friction = 0.5f;
@@ -272,7 +272,7 @@ TEST(Hand, WakesWhatItHolds) {
 }
 
 // The contact capacity is exceeded during a grab; the larger simulation that takes over continues the grab.
-TEST(Hand, HoldsOnWhenASimulationWithMoreRoomTakesOver) {
+TEST(Grabs, HoldsOnWhenASimulationWithMoreRoomTakesOver) {
     Scene scene;
     test::addBalls(scene, 5, 2.6f * test::ballRadius, 0.2f * test::ballRadius, {0, 0.6f, 0});
     scene.planes = {{.friction = 0.5f}};

@@ -353,15 +353,15 @@ TEST(CutFaces, AreThereOnTheEndsOfABarThatTears) {
 }
 
 // The faces of removed fragments are removed.
-TEST(CutFaces, OfCrumbsAreGone) {
+TEST(CutFaces, OfDebrisAreGone) {
     Scene scene{.name = "cube", .gravity = {0, 0, 0}};
     addLattice(scene, latticeOf({4, 4, 4}, 1e5f));
     addSurfaceFaces(scene, scene.grids[0]);
-    scene.crumbs = 60;
+    scene.debris = 60;
     const Settings settings{.substeps = 4, .contactRoom = 64};
     CutBody body(scene, settings);
     const Status status = body.cut(sweepOf({Vector3d(0.1, 2.5 * voxel, 0.1), Vector3d::UnitY()}, 1));
-    EXPECT_EQ(status.crumbs, 1u) << "50 of 125 particles";
+    EXPECT_EQ(status.debris, 1u) << "50 of 125 particles";
     body.runner().run(1);
     const auto pieces = body.pieces();
     std::vector<Triangle> triangles;

@@ -100,7 +100,7 @@ TEST(Stroke, ThroughATurningBodyLeavesNoLinkBetweenTwoLargePieces) {
         std::ranges::sort(sizes, std::greater<>());
         EXPECT_GE(status.pieces, 2u);
         EXPECT_GT(sizes[1], 60u) << "of 343";
-        EXPECT_GE(sizes[0] + sizes[1], 338u) << "and hardly a crumb";
+        EXPECT_GE(sizes[0] + sizes[1], 338u) << "and hardly a piece of debris";
     }
 }
 

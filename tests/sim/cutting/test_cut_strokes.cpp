@@ -124,7 +124,7 @@ struct Case {
     Plane plane;
     std::vector<int> steps;
     bool hangs = false;     // hangs so far that another part of it is below the blade
-    bool hasCrumbs = false; // a mesh: also leaves fragments in one step
+    bool hasDebris = false; // a mesh: also leaves fragments in one step
     double most = 1.5;      // largest number of dead links, over that of one step
 };
 
@@ -151,11 +151,11 @@ TEST(SlowStroke, PartsABodyAsOneStepDoes) {
             const Outcome outcome = strokeDown(each.scene, steps, each.plane);
             ASSERT_GE(outcome.sizes.size(), 2u) << each.name << " in " << steps << " steps";
             if (steps == 1) once = outcome;
-            const std::size_t crumbs = outcome.particles() - outcome.sizes[0] - outcome.sizes[1];
-            std::printf("%s, %d steps: %zu links dead, pieces of %zu and %zu, %zu crumbs of %zu particles\n",
+            const std::size_t debris = outcome.particles() - outcome.sizes[0] - outcome.sizes[1];
+            std::printf("%s, %d steps: %zu links dead, pieces of %zu and %zu, %zu debris of %zu particles\n",
                         each.name, steps, outcome.dead, outcome.sizes[0], outcome.sizes[1],
-                        outcome.sizes.size() - 2, crumbs);
-            EXPECT_LE(crumbs, each.hasCrumbs ? once.particles() / 100 : 0);
+                        outcome.sizes.size() - 2, debris);
+            EXPECT_LE(debris, each.hasDebris ? once.particles() / 100 : 0);
             EXPECT_LE(static_cast<double>(outcome.dead), each.most * static_cast<double>(once.dead));
             EXPECT_EQ(outcome.openEdges, 0u);
             EXPECT_GT(outcome.sizes[1], each.hangs ? 20 : once.sizes[1] * 9 / 10) << "where the blade was";

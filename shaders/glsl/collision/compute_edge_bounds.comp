@@ -1,0 +1,39 @@
+#version 460
+// Runs before lists of edges are made: computes the midpoints of edges, and the speed of each edge's faster end. Also
+// stores the positions and bodies of the ends: lists stay complete until ends have moved from there by more than the
+// slack.
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
+layout(std430, binding = 3) readonly buffer Thickness { float thickness[]; };
+layout(std430, binding = 4) writeonly buffer Middles { vec4 middles[]; };
+layout(std430, binding = 5) writeonly buffer Speeds { vec4 speeds[]; };    // x [m/s]
+layout(std430, binding = 6) writeonly buffer Detected { vec4 detected[]; }; // one per particle
+layout(std430, binding = 7) readonly buffer Bodies { float bodies[]; };     // one per particle
+layout(std430, binding = 8) readonly buffer Watched { float watched[]; };   // one per particle; below 0 = nothing can touch its edges
+layout(std430, binding = 9) readonly buffer Members { uint members[]; };    // particles that are ends
+layout(std140, binding = 10) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { ComputeEdgeBoundsPush push; };
+
+// Widening of the ball around a stretched edge; the search treats it as a motion of the ends. Edges removed by a cut
+// have a radius below 0 and touch nothing.
+float stretchOf(float len, uint e) { return edges[e].radius < 0.0 ? 0.0 : max(0.0, 0.5 * len + thickness[e] - edges[e].radius); }
+
+void placeEdge(uint e) {
+    const ContactEdge edge = edges[e];
+    const vec3 a = positions[edge.a].xyz, b = positions[edge.b].xyz;
+    const vec3 va = velocities[edge.a].xyz, vb = velocities[edge.b].xyz;
+    middles[e] = vec4(0.5 * (a + b), 0.0);
+    speeds[e] = vec4(sqrt(max(dot(va, va), dot(vb, vb))) + stretchOf(distance(a, b), e) / step.h, 0.0, 0.0, 0.0);
+}
+
+void main() {
+    const uint item = itemIndex(push.items);
+    if (item < push.edges) placeEdge(item);
+    if (item >= push.members) return;
+    const uint i = members[item];
+    detected[i] = vec4(positions[i].xyz, watched[i] < 0.0 ? FRAME_NONE : bodies[i]);
+}

@@ -1,0 +1,40 @@
+#version 460
+// Contacts between edges, first pass: finds pairs whose interiors are nearer than the thickness of their faces, over
+// the whole path of the substep; all other contacts of two faces involve a corner (find_face_contacts). Two lines that cross
+// have two sides of each other, and the two stay on those on which they met, like a point and a face. Nearly parallel
+// edges and those that have moved around each other lose this memory.
+//
+//   C = n . (x_1(s) - x_2(t)) - reach,   beta = 1 - s, s, -(1 - t), -t for the four ends.
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+#include "common/segments.glsl"
+
+layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
+layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; };     // ContactCandidate, in one load
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };           // one per edge: first element that it owns, count
+layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };          // w: side and overlap, 0 = no contact so far
+layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n from the other to the owner, depth [m]; 0 = none
+layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; w: new memory
+layout(std140, binding = 8) uniform Step { StepParams step; };
+layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
+#include "collision/row_items.glsl"
+layout(push_constant) uniform Push { FacePush push; };
+#define MARKS_BINDING 9
+#include "collision/keeps_rest.glsl"
+#include "collision/recovery.glsl"
+layout(std430, binding = 10) readonly buffer Owners { uint owners[]; };        // one per element
+layout(std430, binding = 11) readonly buffer Links { uint links[]; };          // elements that others own
+layout(std430, binding = 12) readonly buffer LinkLists { uvec2 linkLists[]; }; // ranges in links, by edge
+#include "collision/edge_touch.glsl"
+
+void main() {
+    FOR_EACH_ROW(row) {
+        const uint element = elementOf(row);
+        const uvec2 candidate = contacts[element];
+        const Touch touch = touchOf(uvec2(owners[element], candidate.x), uintBitsToFloat(candidate.y), memory[element].w);
+        directions[element] = vec4(touch.n, touch.depth);
+        weights[element] = vec4(touch.st, 0.0, touch.remembered);
+    }
+}

@@ -1,0 +1,95 @@
+#version 460
+// Positions and normals of the points of a cut surface: they move with the material around the corners to which each
+// is bound.
+#extension GL_GOOGLE_include_directive : require
+#include "common/kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer State { SurfaceState state; };
+#include "surface/skin_material.glsl"
+#ifdef TEXELS
+layout(binding = 7) uniform usamplerBuffer cutVertices; // CutVertex
+CutVertex vertexAt(uint i) {
+    const int v = int(4u * i);
+    const uvec4 corners = texelFetch(cutVertices, v + 2), last = texelFetch(cutVertices, v + 3);
+    const ivec3 normal = ivec3(last.xyz);
+    return CutVertex(uintBitsToFloat(texelFetch(cutVertices, v)), uintBitsToFloat(texelFetch(cutVertices, v + 1)),
+                     uint[4](corners.x, corners.y, corners.z, corners.w), int[3](normal.x, normal.y, normal.z), last.w);
+}
+#else
+layout(std430, binding = 7) readonly buffer CutVertices { CutVertex cutVertices[]; };
+CutVertex vertexAt(uint i) { return cutVertices[i]; }
+#endif
+layout(std430, binding = 8) writeonly buffer Vertices { SkinVertex vertices[]; };
+layout(std430, binding = 9) writeonly buffer Turns { Gradient turns[]; }; // one per point: rotation of normals, for place_piece_corners
+#ifdef HUNG
+#ifdef TEXELS
+layout(binding = 10) uniform samplerBuffer skinVertices; // SkinVertex
+#define SKIN_PLACE(v) texelFetch(skinVertices, int(2u * (v))).xyz
+#else
+layout(std430, binding = 10) readonly buffer SkinVertices { SkinVertex skinVertices[]; };
+#define SKIN_PLACE(v) skinVertices[v].position.xyz
+#endif
+#define HUNG_BINDING 11
+#include "surface/hung_vertex.glsl"
+#define MOVED_BINDING 12
+#include "surface/moved_vertex.glsl"
+layout(std430, binding = 13) readonly buffer Grids { SkinGrid grids[]; }; // by skin
+#endif
+layout(push_constant) uniform Push { CountPush push; };
+
+#ifdef HUNG
+#include "lattice/link_masks.glsl"
+#include "surface/skin_rest.glsl"
+#include "surface/nearby.glsl"
+
+// Position of a point on an edge of a skin: towards the end that it belongs to it approaches the skin's position of
+// that end.
+vec3 rimPlace(vec3 point, Nearby nearby, uint end, uint other) {
+    const vec3 from = restOf(end).xyz;
+    const float part = min(1.0, length(point - from) / max(length(restOf(other).xyz - from), 1e-30));
+    return nearby.place + (1.0 - part) * (SKIN_PLACE(hungAt(end).vertex) - nearby.end);
+}
+#endif
+
+// Position of a vertex as seen by its corner c, and the gradient there. Inside of a bound skin it is computed as for
+// rims, so that neither penetrates the other.
+vec3 placeAt(CutVertex vertex, int c, out mat3 turn) {
+    const vec3 point = vertex.rest.xyz;
+#ifdef HUNG
+    const bool isRim = (vertex.point & SURFACE_RIM) != 0u;
+    const SkinGrid grid = grids[uint(vertex.rest.w)];
+    if (grid.spacing > 0.0) {
+        const vec3 end = isRim ? restOf(vertex.corners[2 + c]).xyz : point;
+        const Nearby nearby = nearbyOf(vertex.corners[c], point, end, grid);
+        turn = nearby.turn;
+        return isRim ? rimPlace(point, nearby, vertex.corners[2 + c], vertex.corners[3 - c]) : nearby.place;
+    }
+#endif
+    const uint corner = vertex.corners[c];
+    turn = TURN(corner);
+    return AT(corner) + turn * (point - HOME(corner));
+}
+
+void main() {
+    const uint count = min(push.count, state.points), i = itemIndex(count);
+    if (i >= count) return;
+    const CutVertex vertex = vertexAt(i);
+    vec3 x = vec3(0.0);
+    mat3 turn = mat3(0.0); // the cofactor of the gradient
+    float moving = 0.0;
+    // Most have one corner: the loop visits corners with a share only, since on a software device the others cost
+    // time too.
+    const bvec4 isShare = notEqual(vertex.shares, vec4(0.0));
+    uint left = uint(isShare.x) | uint(isShare.y) << 1 | uint(isShare.z) << 2 | uint(isShare.w) << 3;
+    for (; left != 0u; left &= left - 1u) {
+        const int c = findLSB(left);
+        mat3 f;
+        x += vertex.shares[c] * placeAt(vertex, c, f);
+        moving += vertex.shares[c] * POSITION(PARTICLE(vertex.corners[c])).w;
+        turn += vertex.shares[c] * mat3(cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1]));
+    }
+    const vec3 normal = turn * vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / SURFACE_NORMAL;
+    const float size = length(normal);
+    vertices[i] = SkinVertex(vec4(x, moving > 0.0 ? 1.0 : 0.0), vec4(size > 0.0 ? normal / size : vec3(0.0, 1.0, 0.0), 0.0));
+    turns[i] = Gradient(vec4(turn[0], 0.0), vec4(turn[1], 0.0), vec4(turn[2], 0.0));
+}
