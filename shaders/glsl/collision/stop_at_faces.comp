@@ -6,6 +6,8 @@
 // in this substep. All other particles stay unchanged to the bit.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
+#define HAS_WORK mayMeetFaces
+#define WORK_ON stopAtFaces
 #include "common/many_items.glsl"
 #include "common/remainder.glsl"
 #include "common/triangle.glsl"
@@ -85,13 +87,13 @@ struct Given {
 vec3 placeOf(uint i, vec4 velocity) { return positions[i].xyz - step.thetaH * velocity.xyz; }
 
 // Whether something may stop a particle: a face of its list that never gives way, which are the last ones, or one that is in no list.
-bool hasWork(uint i) {
+bool mayMeetFaces(uint i) {
     const uvec2 list = lists[i];
     const bool isListed = list.y > 0u && contacts[list.x + list.y - 1u].other >= push.moving;
     return velocities[i].w != 0.0 && radii[i] >= 0.0 && (isListed || !isNearPredicted(i, placeOf(i, velocities[i])));
 }
 
-void workOn(uint i) {
+void stopAtFaces(uint i) {
     const uint begin = lists[i].x, listEnd = begin + lists[i].y;
     uint first = listEnd;
     for (; first > begin && contacts[first - 1u].other >= push.moving; --first) {}

@@ -16,20 +16,20 @@ uint itemOf(uint k, uint count) {
 #endif
 }
 
-// A kernel says whether an item may have something to do, and what it does with it.
-bool hasWork(uint i);
-void workOn(uint i);
+// The names of two functions of a kernel: whether an item may have something to do, and the work on it.
+bool HAS_WORK(uint i);
+void WORK_ON(uint i);
 
 void forEachItem(uint count) {
     if (itemsEach == 1u) {
         const uint i = itemIndex(count);
-        if (i != noItem) workOn(i);
+        if (i != noItem) WORK_ON(i);
         return;
     }
     uint found = 0u;
     for (uint k = 0u; k < itemsEach; ++k) {
         const uint i = itemOf(k, count);
-        if (i != noItem) found |= uint(hasWork(i)) << k;
+        if (i != noItem) found |= uint(HAS_WORK(i)) << k;
     }
-    for (; found != 0u; found &= found - 1u) workOn(itemOf(findLSB(found), count));
+    for (; found != 0u; found &= found - 1u) WORK_ON(itemOf(findLSB(found), count));
 }

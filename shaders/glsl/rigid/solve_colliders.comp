@@ -8,6 +8,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 #include "rigid/colliders.glsl"
+#define HAS_WORK mayMeetColliders
+#define WORK_ON solveFor
 #include "common/many_items.glsl"
 #ifndef OPEN
 #include "common/remainder.glsl"
@@ -73,7 +75,7 @@ Start startOf(uint i) {
 bool isAbsent(uint c) { return c < hostColliderCount && colliders[c].isAbsent != 0u; }
 
 // Whether a particle can have come near a collider in the substep.
-bool hasWork(uint i) {
+bool mayMeetColliders(uint i) {
     const Start start = startOf(i);
     bool can = false;
     for (uint c = 0u; c < colliderCount; ++c) {
@@ -83,7 +85,7 @@ bool hasWork(uint i) {
     return can && start.velocity.w != 0.0;
 }
 
-void workOn(uint i) {
+void solveFor(uint i) {
     const Start start = startOf(i);
     const vec4 velocity = start.velocity;
     const float h = step.h;
