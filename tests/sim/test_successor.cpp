@@ -114,15 +114,17 @@ TEST(Successor, OfTwoRequestsIsTheLater) {
 
 TEST(Successor, SkipsRequestsThatOthersReplacedBeforeTheyBegan) {
     const Scene scene = test::chain(6);
-    std::latch mayGoOn(1);
+    std::latch hasBegun(1), mayGoOn(1);
     int skipped = 0;
     Successor successor;
     successor.request({test::device(),
                        [&] {
+                           hasBegun.count_down();
                            mayGoOn.wait();
                            return scene;
                        },
                        withSubsteps(4)});
+    hasBegun.wait(); // or it would be skipped as well, and the next one could begin
     for (std::uint32_t substeps = 5; substeps < 9; ++substeps)
         successor.request({test::device(),
                            [&] {
