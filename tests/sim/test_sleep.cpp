@@ -486,7 +486,7 @@ TEST(Sleep, IsSaidWhereAStepIsDescribed) {
     }
     const std::string text = describe(program);
     const std::regex line(
-        "sleep: of (\\d+) dispatches (\\d+) run .* (\\d+) whole .* (\\d+) when .* (\\d+) always");
+        "sleep: of (\\d+) dispatches (\\d+) run .* (\\d+) whole .* (\\d+) at .* (\\d+) always");
     std::smatch said;
     ASSERT_TRUE(std::regex_search(text, said, line)) << text;
     const auto number = [&](std::size_t i) { return std::stoul(said[i]); };
