@@ -399,9 +399,9 @@ TEST(Cuttable, IsRefusedWhereNoLinksAreComputed) {
     tied.particles.push_back({.position = {1, 1, 1}});
     tied.distances.push_back({0, static_cast<std::uint32_t>(tied.particles.size() - 1), 1, 1e-3f});
     EXPECT_EQ(complaint(cube(2), {}), "none");
-    EXPECT_NE(
-        complaint(cube(2), {.solver = Solver::jacobi}).find("may be cut, which solver jacobi has no form"),
-        std::string::npos);
+    EXPECT_NE(complaint(cube(2), {.solver = Solver::jacobi})
+                  .find("may be cut, which solver jacobi does not support"),
+              std::string::npos);
     EXPECT_NE(complaint(cube(2), {.forms = {.usesGrids = false}}).find("usesGrids"), std::string::npos);
     EXPECT_NE(complaint(tied, {}).find("may be cut, but distance[" +
                                        std::to_string(tied.distances.size() - 1) +
