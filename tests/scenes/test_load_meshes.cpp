@@ -140,7 +140,7 @@ TEST_F(Load, RepairsAMeshAndNotesIt) {
                         "mesh m.obj is open: 3 boundary edges around 1 hole, the largest with 3 "
                         "edges and a rim of "),
                   1);
-        EXPECT_EQ(count(left.warnings, "winding numbers, and repair = \"close\" closes small holes"), 1);
+        EXPECT_EQ(count(left.warnings, "inside, and repair = \"close\" closes small holes"), 1);
     }
     const scenes::LoadedScene collider = load(smallCloth + "[[mesh_collider]]\nfile = \"m.obj\"\n");
     EXPECT_EQ(count(collider.notes, "mesh collider m.obj: 1 hole was closed"), 1);
