@@ -190,7 +190,7 @@ TEST(HeldParticle, IsNoPinAndNSaysSo) {
     played.turn({.pointer = {0, 0}});
     EXPECT_EQ(played.tools.pins(), 0u);
     EXPECT_EQ(played.tools.takeNote(),
-              "hold \"clamp\" of the scene holds this: it needs no pin, and N does not let it go");
+              "hold \"clamp\" of the scene holds this: it needs no pin, and N does not release it");
 }
 
 TEST(HeldParticle, StaysHeldAfterACutAndItsUndo) {
