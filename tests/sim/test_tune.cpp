@@ -71,7 +71,7 @@ TEST(Tuning, OfAGpuBeginsWithOneNodeAnInvocation) {
 }
 
 TEST(Tuning, LeavesOpenFormsToTheDevice) {
-    EXPECT_EQ(completed({}, DeviceKind::software), (Forms{.columns = 2, .chunk = 16, .items = 16}));
+    EXPECT_EQ(completed({}, DeviceKind::software), (Forms{.columns = 2, .chunk = 16, .items = 1}));
     EXPECT_EQ(completed({}, DeviceKind::gpu), (Forms{.columns = 1, .chunk = 1, .items = 1}));
     EXPECT_EQ(completed({.chunk = 3}, DeviceKind::gpu), (Forms{.columns = 1, .chunk = 3, .items = 1}));
     EXPECT_EQ(completed({.columns = 2, .chunk = 5, .items = 3}, DeviceKind::gpu),
