@@ -67,7 +67,7 @@ struct Rows {
     BufferId bounds;        ///< of the grid: holds the number of entries
     Groups particles;       ///< work groups with a particle in a row
     surfaces::Surfaces surfaces;
-    BufferId marks;         ///< contact_lists::linkedMarks, or a placeholder
+    BufferId marks;         ///< contact_lists::linkedMarks; another buffer if the kernels read none
     bool keepsRest = false; ///< of any particle
 
     bool sleeps = false;                    ///< whether the scene may sleep

@@ -29,7 +29,7 @@ std::vector<Vector3d> verticesOf(test::Runner& runner) {
 
 using Hashes = std::array<std::uint64_t, 2>;
 
-// Of the triangles that are drawn, and of the vertices of all skins.
+// Hashes of the triangles that are drawn, and of the vertices of all skins.
 Hashes hashesOf(test::Runner& runner) {
     const std::vector<layout::SkinVertex> vertices = drawnBy(runner, SkinDetail::all);
     const std::vector<Triangle> drawn = drawnOf(runner.simulation());
