@@ -106,7 +106,6 @@ inline constexpr Range overRelaxation{.low = 0, .high = 2, .isLowOpen = true, .i
 
 inline constexpr Range columns{0, 2};   // of Settings::forms: kernels exist for these; 0 = by the device
 inline constexpr Range chunk{0, 65535}; // of Settings::forms; 0 = by the device
-inline constexpr Range items{0, 16};    // of Settings::forms; 0 = by the device
 /// Limit of the nodes of all grids of a scene: their padded boxes are counted in 32 bits.
 inline constexpr double mostGridNodes = 1 << 30;
 

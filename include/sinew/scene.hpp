@@ -313,9 +313,6 @@ struct Forms {
     /// Bytes of shared memory in which a work group may keep a small body on a grid through all substeps of a
     /// step, limited by the device; 0 = none. Used only in scenes that consist of such bodies.
     std::uint32_t residentBytes = 0;
-    /// Particles that an invocation tests against colliders and faces that never give way, 1..16; 0 = 1,
-    /// which keeps all threads at work (completed()).
-    std::uint32_t items = 0;
     bool operator==(const Forms&) const = default;
 };
 
@@ -328,7 +325,6 @@ constexpr Forms completed(Forms forms, DeviceKind kind) {
     const bool isGpu = kind == DeviceKind::gpu;
     if (forms.columns == 0) forms.columns = isGpu ? 1 : 2;
     if (forms.chunk == 0) forms.chunk = isGpu ? 1 : 16;
-    if (forms.items == 0) forms.items = 1; // 16 take less processor time, but leave threads without work
     return forms;
 }
 

@@ -84,7 +84,6 @@ const Count counts[] = {
      [](Settings& s) -> std::uint32_t& { return s.forms.columns; },
      {3}}, // 0: by device
     {"settings.forms.chunk", [](Settings& s) -> std::uint32_t& { return s.forms.chunk; }, {65536}},
-    {"settings.forms.items", [](Settings& s) -> std::uint32_t& { return s.forms.items; }, {17}},
 };
 
 Scene sceneOfAll() {

@@ -248,24 +248,6 @@ TEST(Program, OfGaussSeidelKeepsMultipliersOnlyWhereSomethingNeedsThem) {
     EXPECT_FALSE(hasBuffer(compile(test::chain(5), {.solver = Solver::gaussSeidel, .warmStart = 0}), "warm"));
 }
 
-TEST(Program, GivesAnInvocationAsManyParticlesAsAsked) {
-    Scene scene;
-    for (std::uint32_t i = 0; i < 4096; ++i)
-        scene.particles.push_back(
-            {.position = {0.1f * static_cast<float>(i % 64), 0.1f * static_cast<float>(i / 64), 0}});
-    scene.colliders.push_back({.radius = 0.1f});
-    const auto invocations = [&](std::uint32_t items, bool sleeps) {
-        const StepProgram program =
-            compile(scene, {.substeps = 1, .sleeps = sleeps, .forms = {.items = items}});
-        for (const Pass& pass : program.step)
-            if (pass.label.starts_with("solve_colliders")) return pass.items;
-        return 0u;
-    };
-    EXPECT_EQ(invocations(1, false), 4096u);
-    EXPECT_EQ(invocations(16, false), 256u);
-    EXPECT_EQ(invocations(16, true), 4096u) << "work groups sleep as they are";
-}
-
 TEST(Program, OfAnEmptySceneHasNoPass) {
     for (const Solver solver : {Solver::jacobi, Solver::split, Solver::gaussSeidel}) {
         const StepProgram program = compile({}, {.solver = solver});

@@ -59,23 +59,22 @@ TEST(Tuning, OfAGpuBeginsWithOneNodeAnInvocation) {
     Clock clock([](std::size_t) { return 1.0; });
     const Tuning tuning =
         tune(test::device(), test::block(3, 0.05f, 1e5f), {}, clock.submit(), DeviceKind::gpu);
-    EXPECT_EQ(tuning.fastest, (Forms{.columns = 1, .chunk = 1, .items = 1}));
+    EXPECT_EQ(tuning.fastest, (Forms{.columns = 1, .chunk = 1}));
     const auto triesNode = [](const Trial& trial) {
         return trial.forms.columns == 1 && trial.forms.chunk == 1;
     };
     EXPECT_EQ(std::ranges::count_if(tuning.trials, triesNode), 2) << "from global and from shared memory";
     const Tuning given = tune(test::device(), test::block(3, 0.05f, 1e5f),
                               {.forms = {.columns = 2, .chunk = 16}}, clock.submit(), DeviceKind::gpu);
-    EXPECT_EQ(given.fastest, (Forms{.columns = 2, .chunk = 16, .items = 1})) << "what a host gives is kept";
+    EXPECT_EQ(given.fastest, (Forms{.columns = 2, .chunk = 16})) << "what a host gives is kept";
     EXPECT_TRUE(std::ranges::any_of(given.trials, triesNode)) << "and more is tried";
 }
 
 TEST(Tuning, LeavesOpenFormsToTheDevice) {
-    EXPECT_EQ(completed({}, DeviceKind::software), (Forms{.columns = 2, .chunk = 16, .items = 1}));
-    EXPECT_EQ(completed({}, DeviceKind::gpu), (Forms{.columns = 1, .chunk = 1, .items = 1}));
-    EXPECT_EQ(completed({.chunk = 3}, DeviceKind::gpu), (Forms{.columns = 1, .chunk = 3, .items = 1}));
-    EXPECT_EQ(completed({.columns = 2, .chunk = 5, .items = 3}, DeviceKind::gpu),
-              (Forms{.columns = 2, .chunk = 5, .items = 3}));
+    EXPECT_EQ(completed({}, DeviceKind::software), (Forms{.columns = 2, .chunk = 16}));
+    EXPECT_EQ(completed({}, DeviceKind::gpu), (Forms{.columns = 1, .chunk = 1}));
+    EXPECT_EQ(completed({.chunk = 3}, DeviceKind::gpu), (Forms{.columns = 1, .chunk = 3}));
+    EXPECT_EQ(completed({.columns = 2, .chunk = 5}, DeviceKind::gpu), (Forms{.columns = 2, .chunk = 5}));
 }
 
 TEST(Tuning, KeepsWhatWasGivenWithinTheNoise) {

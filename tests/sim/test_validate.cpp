@@ -148,8 +148,6 @@ const Fault faults[] =
         {"settings.forms.chunk: is 65536, must be from 0 to 65535",
          [](Scene&, Settings& s) { s.forms.chunk = 65536; }},
         {"settings.forms.chunk: is 4294967295", [](Scene&, Settings& s) { s.forms.chunk = 0xffffffff; }},
-        {"settings.forms.items: is 17, must be from 0 to 16",
-         [](Scene&, Settings& s) { s.forms.items = 17; }},
         {"settings.solver: is 7, which is no solver",
          [](Scene&, Settings& s) { s.solver = static_cast<Solver>(7); }},
         {"settings: substeps x iterations is 21000, must be at most 20000",

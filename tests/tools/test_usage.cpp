@@ -78,7 +78,7 @@ TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
         {"run", "a.toml", "--forms", "columns=3"},
         {"run", "a.toml", "--forms", "columns"},
         {"run", "a.toml", "--forms", "texels=2"},
-        {"run", "a.toml", "--forms", "items=17"},
+        {"run", "a.toml", "--forms", "items=1"},
         {"describe", "a.toml", "--forms", "rows=1"},
         {"bench", "--contacts", "--only", "heap"},
         {"devices", "extra"},

@@ -46,11 +46,8 @@ void setForm(FormOptions& options, const std::string& text) {
         take(options.chunk, sim::ranges::chunk);
     else if (key == "resident")
         take(options.residentBytes, bytes);
-    else if (key == "items")
-        take(options.items, sim::ranges::items);
     else
-        throw CLI::ValidationError("--forms",
-                                   key + " is none of texels, grids, columns, chunk, resident, items");
+        throw CLI::ValidationError("--forms", key + " is none of texels, grids, columns, chunk, resident");
 }
 
 void sayNews(const scenes::LoadedScene& loaded) {
@@ -72,14 +69,13 @@ sim::Forms FormOptions::in(sim::Forms forms) const {
     forms.columns = columns.value_or(forms.columns);
     forms.chunk = chunk.value_or(forms.chunk);
     forms.residentBytes = residentBytes.value_or(forms.residentBytes);
-    forms.items = items.value_or(forms.items);
     return forms;
 }
 
 std::string toText(const sim::Forms& forms) {
     return "columns=" + std::to_string(forms.columns) + ",chunk=" + std::to_string(forms.chunk) +
            ",texels=" + std::to_string(forms.usesTexels) + ",grids=" + std::to_string(forms.usesGrids) +
-           ",resident=" + std::to_string(forms.residentBytes) + ",items=" + std::to_string(forms.items);
+           ",resident=" + std::to_string(forms.residentBytes);
 }
 
 void addFormOptions(CLI::App& command, FormOptions& options) {
@@ -89,7 +85,7 @@ void addFormOptions(CLI::App& command, FormOptions& options) {
             [&options](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) setForm(options, text);
             },
-            "forms of kernels, as columns=1,chunk=1,texels=0,grids=1,resident=0,items=1, instead of the "
+            "forms of kernels, as columns=1,chunk=1,texels=0,grids=1,resident=0, instead of the "
             "fastest; columns=1 with chunk=1 computes one node an invocation")
         ->delimiter(',')
         ->type_name("KEY=N,...");

@@ -17,7 +17,7 @@ namespace sinew::tools {
 /// Kernel forms requested by the user; empty ones are chosen by defaults or tune().
 struct FormOptions {
     std::optional<bool> usesTexels, usesGrids;
-    std::optional<std::uint32_t> columns, chunk, residentBytes, items;
+    std::optional<std::uint32_t> columns, chunk, residentBytes;
 
     /// Whether any is that tune() chooses.
     bool isGiven() const { return usesTexels || usesGrids || columns || chunk || residentBytes; }

@@ -262,8 +262,7 @@ std::string toJson(const RunRecord& record) {
                      {"grids", settings.forms.usesGrids},
                      {"columns", settings.forms.columns},
                      {"chunk", settings.forms.chunk},
-                     {"resident_bytes", settings.forms.residentBytes},
-                     {"items", settings.forms.items}};
+                     {"resident_bytes", settings.forms.residentBytes}};
     json["dt"] = scene.dt;
     json["velocity_age"] =
         settings.solver == sim::Solver::split ? double{scene.dt} / settings.substeps / 2 : 0.0;

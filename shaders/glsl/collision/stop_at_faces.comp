@@ -6,9 +6,6 @@
 // in this substep. All other particles stay unchanged to the bit.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
-#define HAS_WORK mayMeetFaces
-#define WORK_ON stopAtFaces
-#include "common/many_items.glsl"
 #include "common/remainder.glsl"
 #include "common/triangle.glsl"
 
@@ -84,21 +81,14 @@ struct Given {
 };
 #endif
 
-vec3 placeOf(uint i, vec4 velocity) { return positions[i].xyz - step.thetaH * velocity.xyz; }
-
-// Whether something may stop a particle: a face of its list that never gives way, which are the last ones, or one that is in no list.
-bool mayMeetFaces(uint i) {
-    const uvec2 list = lists[i];
-    const bool isListed = list.y > 0u && contacts[list.x + list.y - 1u].other >= push.moving;
-    return velocities[i].w != 0.0 && radii[i] >= 0.0 && (isListed || !isNearPredicted(i, placeOf(i, velocities[i])));
-}
-
-void stopAtFaces(uint i) {
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i == ~0u) return;
     const uint begin = lists[i].x, listEnd = begin + lists[i].y;
     uint first = listEnd;
     for (; first > begin && contacts[first - 1u].other >= push.moving; --first) {}
     const vec4 velocity = velocities[i];
-    const vec3 x = placeOf(i, velocity), x0 = predicted[i].xyz - step.h * predictedVelocities[i].xyz;
+    const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz, x0 = predicted[i].xyz - step.h * predictedVelocities[i].xyz;
     if (velocity.w == 0.0 || radii[i] < 0.0 || first == listEnd && isNearPredicted(i, x)) return;
     vec3 end = x, v = velocity.xyz;
 #ifdef FORCES
@@ -138,5 +128,3 @@ void stopAtFaces(uint i) {
         positions[i].xyz = end + step.thetaH * v;
     }
 }
-
-void main() { forEachItem(push.count); }

@@ -69,44 +69,20 @@ struct Movement {
     vec3 pushed; // the part of it that added no velocity [m]
 };
 
-// A collider and the way of a particle, as it is seen from there.
-struct Approach {
-    vec3 core; // [m]
-    float radius;
-    vec3 s1, d; // where the way ends, and the way
-    bool moves; // the collider, in this substep
-};
-
-Approach approachOf(Collider collider, float contactOffset, ColliderPose before, ColliderPose after, Movement movement) {
-    const float grown = collider.core.w + contactOffset, radius = max(grown, 0.0);
-    const vec3 core = max(collider.core.xyz + min(grown, 0.0), vec3(0.0));
-    const vec3 s1 = toLocal(after, movement.x);
-    vec3 d = rotated(vec4(-before.rotation.xyz, before.rotation.w), movement.way);
-    // a collider that stands still in this substep gives the same bits as one that never moves
-    const bool moves = isMoving && (before.position.xyz != after.position.xyz || before.rotation != after.rotation);
-    if (moves) d += s1 - toLocal(before, movement.x);
-    return Approach(core, radius, s1, d, moves);
-}
-
-// Whether the particle can have come near. Where it cannot, the first test of contactOf says so as well, for all rounding.
-bool canTouch(Approach approach, float size) {
-    const vec3 s0 = approach.s1 - approach.d, s1 = approach.s1;
-    const float before = length(s0 - clamp(s0, -approach.core, approach.core)) - approach.radius;
-    const float after = length(s1 - clamp(s1, -approach.core, approach.core)) - approach.radius;
-    const float rounding = 1e-5 * (size + largest(s0) + largest(s1) + approach.radius);
-    return !(after > rounding && before + after > 1.001 * length(approach.d) + rounding);
-}
-
 // Keeps a particle out of a collider with pose `before` at the start of the substep and `after` now; true if it
 // touched. Coulomb friction in position form, as at planes: the tangential displacement relative to the moving
 // surface is cancelled entirely if the static bound allows, else up to kinetic friction x the normal correction.
 bool projectOut(Collider collider, float contactOffset, ColliderPose before, ColliderPose after, float h,
                 inout Movement movement, out vec3 n, out vec3 surfaceVelocity) {
-    const Approach approach = approachOf(collider, contactOffset, before, after, movement);
-    const vec3 d = approach.d;
-    const Surface start = surfaceAt(approach.core, approach.radius, approach.s1 - d);
-    const float noise = 1e-6 * (largest(movement.x) + largest(approach.s1));
-    const Surface contact = contactOf(approach.core, approach.radius, approach.s1, d, start, noise);
+    const float grown = collider.core.w + contactOffset, radius = max(grown, 0.0);
+    const vec3 core = max(collider.core.xyz + min(grown, 0.0), vec3(0.0)), s1 = toLocal(after, movement.x);
+    vec3 d = rotated(vec4(-before.rotation.xyz, before.rotation.w), movement.way);
+    // a collider that stands still in this substep gives the same bits as one that never moves
+    const bool moves = isMoving && (before.position.xyz != after.position.xyz || before.rotation != after.rotation);
+    if (moves) d += s1 - toLocal(before, movement.x);
+    const Surface start = surfaceAt(core, radius, s1 - d);
+    const float noise = 1e-6 * (largest(movement.x) + largest(s1));
+    const Surface contact = contactOf(core, radius, s1, d, start, noise);
     const float inside = max(-start.gap, 0.0), leaving = min(inside, leavingSpeed * h);
     const float pressed = max(-contact.gap - inside, 0.0), depth = max(leaving - contact.gap - inside, 0.0);
     if (contact.gap >= 0.0 || depth <= 0.0) return false;
@@ -125,7 +101,7 @@ bool projectOut(Collider collider, float contactOffset, ColliderPose before, Col
     movement.v += (correction - undone) / h;
     movement.pushed += pushed + undone;
     surfaceVelocity = vec3(0.0);
-    if (approach.moves) surfaceVelocity = (movement.x - toWorld(before, toLocal(after, movement.x))) / h;
+    if (moves) surfaceVelocity = (movement.x - toWorld(before, toLocal(after, movement.x))) / h;
     return true;
 }
 

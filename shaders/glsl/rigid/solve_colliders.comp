@@ -8,9 +8,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 #include "rigid/colliders.glsl"
-#define HAS_WORK mayMeetColliders
-#define WORK_ON solveFor
-#include "common/many_items.glsl"
 #ifndef OPEN
 #include "common/remainder.glsl"
 #endif
@@ -74,18 +71,8 @@ Start startOf(uint i) {
 
 bool isAbsent(uint c) { return c < hostColliderCount && colliders[c].isAbsent != 0u; }
 
-// Whether a particle can have come near a collider in the substep.
-bool mayMeetColliders(uint i) {
-    const Start start = startOf(i);
-    bool can = false;
-    for (uint c = 0u; c < colliderCount; ++c) {
-        const Approach approach = approachOf(colliders[c], contactOffsets[i], poses[push.before + c], poses[push.after + c], start.movement);
-        can = can || !isAbsent(c) && canTouch(approach, largest(start.movement.x));
-    }
-    return can && start.velocity.w != 0.0;
-}
-
-void solveFor(uint i) {
+void main() {
+    const uint i = itemIndex(push.count);
     const Start start = startOf(i);
     const vec4 velocity = start.velocity;
     const float h = step.h;
@@ -131,5 +118,3 @@ void solveFor(uint i) {
     }
 #endif
 }
-
-void main() { forEachItem(push.count); }

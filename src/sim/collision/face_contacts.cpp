@@ -10,11 +10,9 @@
 #include "sim/forces/forces.hpp"
 #include "sim/lattice/squares.hpp"
 #include "sim/model/inverse_masses.hpp"
-#include "sim/model/many_items.hpp"
 #include "sim/sleep/sleep.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <set>
 
@@ -267,25 +265,14 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
     return rows;
 }
 
-// Largest number of loop turns of stop_at_faces for one point and one face. A point is stopped at most 4
-// times and looks once more. Each time the face takes a turn of the list, 9 turns that bracket the time of
-// passing (face_stop.glsl), and a bisection in the row of faces that the point never touches. Two more walk
-// the list.
-std::uint32_t turnsOfStop(std::uint32_t mostExcluded) {
-    return 5 * (1 + 9 + static_cast<std::uint32_t>(std::bit_width(mostExcluded))) + 2;
-}
-
 void addStopBuffers(ProgramBuilder& program, const Scene& scene, const ParticleBuffers& particles,
-                    const Faces& faces, std::uint32_t items, Contacts& contacts) {
+                    const Faces& faces, Contacts& contacts) {
     const StateLayout& layout = particles.layout;
     contacts.linkedPositions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
     contacts.linkedVelocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
     const std::vector<std::uint32_t> points = movingPoints(scene, inverseMasses(scene), layout);
     contacts.movingPoints = program.upload("faces.moving_points", points);
     contacts.movingPointCount = static_cast<std::uint32_t>(points.size());
-    const std::uint32_t stills = contacts.faces - faces.moving;
-    contacts.pointsEach =
-        many_items::fitting(items, turnsOfStop(contacts.lists.mostExcluded) * std::max(stills, 1u));
     if (particles.forces && !particles.forces->stops.rows.empty())
         contacts.stopRows =
             program.upload("faces.stop_rows", stopRowsOf(faces, particles.forces->stops, layout));
@@ -331,7 +318,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     shown.faceLists = contacts.lists.pooled.ranges;
     if (std::ranges::find(faces.isOfCells, true) != faces.isOfCells.end())
         contacts.opened = program.scratch<std::uint32_t>("faces.opened", faces.faces.size());
-    if (contacts.hasStops()) addStopBuffers(program, scene, particles, faces, settings.forms.items, contacts);
+    if (contacts.hasStops()) addStopBuffers(program, scene, particles, faces, contacts);
     // Without static or driven faces no kernel reads the first two.
     const bool hasRows = contacts.stopRows != BufferId{};
     contacts.rows.forceRows = {hasRows ? contacts.stopRows : contacts.lists.pooled.ranges,
@@ -367,13 +354,11 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                                   state.step,
                                   lists.pooled.memory->memory};
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
-    constants.merge(many_items::constantsFor(contacts.pointsEach));
     const vk::ShaderCode& code = forces::formFor(state, {&k::stopAtFaces, &k::stopAtFacesForces},
                                                  &forces::Forces::ofStops, buffers, constants);
     if (state.forces) buffers.insert(buffers.end(), {contacts.stopRows, contacts.linkedPositions});
     buffers.push_back(contacts.movingPoints);
-    program.dispatch(code, many_items::invocationsFor(push.count, contacts.pointsEach), buffers, push,
-                     constants);
+    program.dispatch(code, push.count, buffers, push, constants);
 }
 
 } // namespace sinew::sim::collision::face_contacts

@@ -28,7 +28,6 @@ struct Contacts {
     BufferId movingPoints; ///< slots of moving points; only if hasStops()
     BufferId stopRows;     ///< by face (forces::Stops); only if forces are kept and a point moves
     std::uint32_t movingPointCount = 0;
-    std::uint32_t pointsEach = 1; ///< of an invocation of the pass that stops them (many_items.hpp)
 
     bool hasInner() const { return firstInner < rows.push.moving; }
     bool hasSolid() const { return rows.push.sheets < rows.push.moving; }

@@ -95,8 +95,6 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);
     lists.excluded = program.upload("faces.excluded", request.exclusions);
-    for (std::size_t i = 0; i < count; ++i)
-        lists.mostExcluded = std::max(lists.mostExcluded, request.exclusions[i + 1] - request.exclusions[i]);
     lists.points = program.scratch<layout::FacePoints>("faces.points", 1);
     lists.apart = program.scratch<std::uint32_t>("faces.points.apart", count + faces);
     lists.liveLinks = request.liveLinks;

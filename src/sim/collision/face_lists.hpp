@@ -44,10 +44,9 @@ struct Lists {
     pooled_lists::Lists pooled;
     BufferId radii, inverseMasses, faces, excluded;
     BufferId points, searched, large;
-    BufferId apart;                 ///< points that the grid is too fine for, followed by such faces
-    BufferId liveLinks;             ///< as in Request
-    BufferId touching, marks;       ///< work groups with a particle that is a point or corner in a list
-    std::uint32_t mostExcluded = 0; ///< largest number of faces that one point never touches
+    BufferId apart;           ///< points that the grid is too fine for, followed by such faces
+    BufferId liveLinks;       ///< as in Request
+    BufferId touching, marks; ///< work groups with a particle that is a point or corner in a list
 };
 
 Lists add(ProgramBuilder& program, const Request& request);

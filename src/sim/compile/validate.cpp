@@ -53,8 +53,6 @@ constexpr SettingRow settingRows[] = {
      ranges::columns},
     {"settings.forms.chunk", [](const Settings& s) { return static_cast<double>(s.forms.chunk); },
      ranges::chunk},
-    {"settings.forms.items", [](const Settings& s) { return static_cast<double>(s.forms.items); },
-     ranges::items},
 };
 
 void checkSolver(Solver solver, Complaints& complaints) {

@@ -3,7 +3,6 @@
 
 #include "kernels.hpp"
 #include "sim/forces/forces.hpp"
-#include "sim/model/many_items.hpp"
 #include "sim/rigid/collider_paths.hpp"
 
 #include <algorithm>
@@ -99,14 +98,13 @@ void addShapes(ProgramBuilder& program, const Scene& scene, const StateLayout& l
     colliders.contactOffsets = program.upload("colliders.contact_offsets", offsets);
 }
 
-// Over all particles, `each` of them an invocation.
+// Over all particles.
 template <typename Push>
-void dispatchTouching(ProgramBuilder& program, const Colliders& colliders, std::uint32_t each,
-                      const vk::ShaderCode& code, std::span<const BufferId> buffers, const Push& push,
+void dispatchTouching(ProgramBuilder& program, const Colliders& colliders, const vk::ShaderCode& code,
+                      std::span<const BufferId> buffers, const Push& push,
                       const ProgramBuilder::Constants& constants = {}) {
-    const std::uint32_t invocations = many_items::invocationsFor(colliders.particles, each);
     dispatch(program, colliders, colliders.count > colliders.hostColliders,
-             {{}, HOST_COLLIDERS_TOUCHING, invocations}, code, buffers, push, constants);
+             {{}, HOST_COLLIDERS_TOUCHING, colliders.particles}, code, buffers, push, constants);
 }
 
 layout::ColliderPush pushOf(const Colliders& colliders, std::uint32_t substep, Kick kick) {
@@ -115,20 +113,9 @@ layout::ColliderPush pushOf(const Colliders& colliders, std::uint32_t substep, K
 }
 
 ProgramBuilder::Constants constantsOf(const Colliders& colliders) {
-    ProgramBuilder::Constants constants = many_items::constantsFor(colliders.itemsEach);
-    constants.insert({{colliderCountId, colliders.count},
-                      {isMovingId, colliders.areMoving},
-                      {hostColliderCountId, colliders.hostColliders}});
-    return constants;
-}
-
-// One where passes run for groups in which somebody is awake, and where all passes of host colliders have one
-// number of groups.
-std::uint32_t itemsEachOf(const Colliders& colliders, const Settings& settings) {
-    if (settings.sleeps || colliders.count == colliders.hostColliders) return 1;
-    constexpr std::uint32_t turnsOfOne =
-        12; // loops of a particle and a collider: those of `entered`, and more
-    return many_items::fitting(settings.forms.items, turnsOfOne * (colliders.count + 1));
+    return {{colliderCountId, colliders.count},
+            {isMovingId, colliders.areMoving},
+            {hostColliderCountId, colliders.hostColliders}};
 }
 
 } // namespace
@@ -151,7 +138,6 @@ Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& setti
         (std::ranges::any_of(scene.colliders, rebounds) || std::ranges::any_of(scene.planes, rebounds) ||
          rebounds(scene.contacts) ||
          std::ranges::any_of(scene.contacts.surfaces, rebounds)); // the way is then not h v
-    colliders.itemsEach = itemsEachOf(colliders, settings);
     addShapes(program, scene, layout, colliders);
     addPoses(program, scene, settings.substeps, colliders);
     return colliders;
@@ -167,7 +153,7 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const
                 bool isFirst) {
     if (!colliders.hasRebound) return;
     const std::array buffers{particles.positions, particles.velocities, colliders.before, particles.step};
-    dispatchTouching(program, colliders, 1, kernels::saveSubstepStart, buffers,
+    dispatchTouching(program, colliders, kernels::saveSubstepStart, buffers,
                      layout::SubstepPush{colliders.particles, isFirst});
 }
 
@@ -188,8 +174,7 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Co
     constants.merge(remainderConstants(particles.layout));
     const vk::ShaderCode& code =
         forces::formFor(particles, forms, &forces::Forces::ofColliders, buffers, constants);
-    dispatchTouching(program, colliders, colliders.itemsEach, code, buffers, pushOf(colliders, substep, kick),
-                     constants);
+    dispatchTouching(program, colliders, code, buffers, pushOf(colliders, substep, kick), constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
@@ -202,8 +187,7 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
     const vk::ShaderCode& code =
         forces::formFor(particles, {&kernels::solveCollidersOpen, &kernels::solveCollidersOpenForces},
                         &forces::Forces::ofColliders, buffers, constants);
-    dispatchTouching(program, colliders, colliders.itemsEach, code, buffers,
-                     pushOf(colliders, substep, Kick::half), constants);
+    dispatchTouching(program, colliders, code, buffers, pushOf(colliders, substep, Kick::half), constants);
 }
 
 } // namespace sinew::sim::rigid::colliders

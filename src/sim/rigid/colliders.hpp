@@ -15,7 +15,6 @@ struct Colliders {
     std::uint32_t hostColliders = 0; ///< the first of them
     std::uint32_t particles = 0;     ///< slots of the state
     std::uint32_t placed = 0;        ///< poses of a substep: colliders, then driven bodies
-    std::uint32_t itemsEach = 1;     ///< particles of an invocation (many_items.hpp)
     bool areMoving = false;          ///< whether any of these poses can change
     bool hasRebound = false;
     BufferId shapes; ///< of colliders, then spheres around driven bodies

@@ -514,23 +514,16 @@ Scene among(bool touches, float restitution) {
     return scene;
 }
 
-// An invocation with several particles tests them first, by the whole way of the substep.
-TEST_P(Collided, FormsGiveTheSameBits) {
+TEST_P(Collided, GivesTheSameBitsInAnyOrder) {
     for (const bool touches : {false, true}) {
         if (touches && GetParam() != Solver::split) continue;
         for (const float restitution : {0.0f, 0.5f}) {
             const Scene scene = among(touches, restitution);
-            Settings one = settings(3);
-            one.forms.items = 1;
-            const std::uint64_t expected = test::hashOfRun(scene, one, 24);
-            for (const std::uint32_t items : {5u, 16u})
-                for (const bool isReversed : {false, true}) {
-                    Settings several = one;
-                    several.forms.items = items;
-                    several.isReversed = isReversed;
-                    EXPECT_EQ(test::hashOfRun(scene, several, 24), expected)
-                        << items << " items, " << (touches ? "contacts" : "none") << ", " << restitution;
-                }
+            const Settings given = settings(3);
+            Settings reversed = given;
+            reversed.isReversed = true;
+            EXPECT_EQ(test::hashOfRun(scene, reversed, 24), test::hashOfRun(scene, given, 24))
+                << (touches ? "contacts" : "none") << ", " << restitution;
         }
     }
 }

@@ -184,45 +184,19 @@ TEST(HardMeshes, GiveTheSameBitsInAnyOrderAndMargin) {
     for (const char* target : {"aslant", "voxels with faces", "voxels that may be cut"}) {
         const Trial trial{"net", target, 100, 8, target == std::string("aslant")};
         const Scene scene = trial.scene();
-        const auto hashWith = [&](bool isReversed, float margin, std::uint32_t items) {
+        const auto hashWith = [&](bool isReversed, float margin) {
             return test::hashOfRun(scene,
                                    {.substeps = trial.substeps,
                                     .contactMargin = margin,
                                     .contactRoom = 256,
-                                    .forms = {.items = items},
                                     .isReversed = isReversed},
                                    2);
         };
         constexpr float usual = Settings{}.contactMargin;
-        const std::uint64_t hash = hashWith(false, usual, 1);
-        for (const std::uint32_t items : {5u, 16u}) EXPECT_EQ(hashWith(false, usual, items), hash) << items;
-        EXPECT_EQ(hashWith(true, usual, 16), hash) << trial.name();
-        EXPECT_EQ(hashWith(false, 1.3f, 1), hash) << trial.name();
+        const std::uint64_t hash = hashWith(false, usual);
+        EXPECT_EQ(hashWith(true, usual), hash) << trial.name();
+        EXPECT_EQ(hashWith(false, 1.3f), hash) << trial.name();
     }
-}
-
-// Sixteen balls that one invocation would have, each with so many faces near its way that all together have
-// more than 65,535.
-TEST(HardMeshes, LeaveAnInvocationTheTurnsOfItsPoints) {
-    Scene scene;
-    scene.gravity = {0, 0, 0};
-    for (std::uint32_t i = 0; i < 16 * 128; ++i) {
-        const std::uint32_t ball = i / 128;
-        const auto across = [](std::uint32_t k) { return 0.75f * static_cast<float>(k) - 1.125f; };
-        const float aside = 0.01f * static_cast<float>(i % 128),
-                    behind = 3 + 0.01f * static_cast<float>(ball);
-        if (i % 128 == 0)
-            scene.particles.push_back({.position = {0.4f, across(ball % 4), across(ball / 4)},
-                                       .velocity = {-100, 0, 0},
-                                       .radius = 0.34f});
-        else
-            scene.particles.push_back({.position = {behind, aside, 0}, .radius = 0.001f});
-    }
-    addMeshCollider(scene, wall(1.5f, 86));
-    const auto hashWith = [&](std::uint32_t items) {
-        return test::hashOfRun(scene, {.substeps = 8, .contactRoom = 128, .forms = {.items = items}}, 1);
-    };
-    EXPECT_EQ(hashWith(16), hashWith(1));
 }
 
 // Other balls stop a ball on its path, so it is not where its velocity would have brought it.
