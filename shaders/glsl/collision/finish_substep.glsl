@@ -2,7 +2,7 @@
 // nextPositions, nextVelocities and BEFORE of a kernel, PLANE_BINDING, and forces.glsl before it.
 #ifdef HAS_PLANES
 #include "rigid/planes.glsl"
-layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std140, binding = PLANE_BINDING) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
 #endif
 

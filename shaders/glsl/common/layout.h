@@ -190,6 +190,7 @@ struct Incidence {
     float weight; // over-relaxation x averaging weight
 };
 
+#define MOST_PLANES 32
 struct PlaneCollider {
     vec4 normalOffset;    // unit normal, offset [m]
     float friction;       // kinetic

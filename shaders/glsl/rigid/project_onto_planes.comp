@@ -8,7 +8,7 @@
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };   // predicted; w = inverse mass [1/kg]
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; }; // v + h g
 layout(std430, binding = 2) buffer Corrections { uvec4 corrections[]; };       // ParticleCorrection, in one load
-layout(std430, binding = 3) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std140, binding = 3) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = 4) readonly buffer ContactOffsets { float contactOffsets[]; };
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { CountPush push; };

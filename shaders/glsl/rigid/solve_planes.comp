@@ -7,7 +7,7 @@
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; }; // w = inverse mass [1/kg]
 layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) buffer Contacts { PlaneContact contacts[]; };
-layout(std430, binding = 3) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std140, binding = 3) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = 4) readonly buffer ContactOffsets { float contactOffsets[]; };
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { CountPush push; };

@@ -43,7 +43,7 @@ layout(constant_id = 1) const uint degree = 1; // slots per particle, padded
 #endif
 #ifdef HAS_PLANES
 #include "rigid/planes.glsl"
-layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std140, binding = PLANE_BINDING) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
 #endif
 layout(push_constant) uniform Push { SubstepPush push; };

@@ -57,7 +57,7 @@ ALIASED layout(std430, binding = VELOCITY_BINDING + 1) writeonly buffer NextVelo
 layout(std140, binding = STEP_BINDING) uniform Step { StepParams step; };
 #ifdef HAS_PLANES
 #include "rigid/planes.glsl"
-layout(std430, binding = STEP_BINDING + 1) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std140, binding = STEP_BINDING + 1) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = STEP_BINDING + 2) readonly buffer ContactOffsets { float contactOffsets[]; };
 #define LINK_BINDING (STEP_BINDING + 3)
 #else

@@ -6,7 +6,7 @@ layout(std140, binding = 1) uniform Step { StepParams step; };
 #ifdef HAS_PLANES
 #include "rigid/planes.glsl"
 layout(std430, binding = 2) readonly buffer Contacts { PlaneContact contacts[]; };
-layout(std430, binding = 3) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std140, binding = 3) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 #ifdef FORCES
 layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; };
 #endif

@@ -3,14 +3,17 @@
 
 #include "kernels.hpp"
 #include "sim/forces/forces.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace sinew::sim::rigid::planes {
 
 namespace {
 
 constexpr std::uint32_t planeCountId = 2; // constant_id in planes.glsl
+static_assert(ranges::mostPlanes == MOST_PLANES);
 
 // Appends a pass over all particles, in the form that keeps forces if the step does.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const forces::Forms& forms,
@@ -28,20 +31,21 @@ ProgramBuilder::Constants Planes::constants() const {
 
 Planes add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
     if (scene.planes.empty()) return {};
-    std::vector<layout::PlaneCollider> items;
-    for (const Plane& plane : scene.planes) {
+    std::array<layout::PlaneCollider, MOST_PLANES> table{}; // a uniform block
+    for (std::size_t p = 0; p < scene.planes.size(); ++p) {
+        const Plane& plane = scene.planes[p];
         const Vec3& n = plane.normal;
-        items.push_back({{n.x, n.y, n.z, plane.offset},
-                         plane.friction,
-                         plane.restitution,
-                         std::max(plane.friction, plane.staticFriction),
-                         0});
+        table[p] = {{n.x, n.y, n.z, plane.offset},
+                    plane.friction,
+                    plane.restitution,
+                    std::max(plane.friction, plane.staticFriction),
+                    0};
     }
     std::vector<float> offsets(layout.count, 0);
     for (std::size_t i = 0; i < scene.particles.size(); ++i)
         offsets[layout.slot[i]] = scene.particles[i].contactOffset;
-    return {.count = static_cast<std::uint32_t>(items.size()),
-            .planes = program.upload("planes", items),
+    return {.count = static_cast<std::uint32_t>(scene.planes.size()),
+            .planes = program.upload("planes", std::vector{table}),
             .contactOffsets = program.upload("contact_offsets", offsets)};
 }
 
