@@ -2,7 +2,22 @@
 // VELOCITY and DETECTED of a kernel; DETECTED is the position when lists were made, w: its body.
 #include "collision/body_frames.glsl"
 
+#ifdef TEXELS
+layout(binding = FRAMES_BINDING) uniform samplerBuffer frames;
+BodyFrame frameAt(uint b) {
+    BodyFrame frame;
+    const int first = 12 * int(b);
+    for (int row = 0; row < 3; ++row) {
+        frame.map[row] = texelFetch(frames, first + row);
+        frame.before[row] = texelFetch(frames, first + 3 + row);
+    }
+    frame.speed = texelFetch(frames, first + 6);
+    return frame;
+}
+#else
 layout(std140, binding = FRAMES_BINDING) uniform Frames { BodyFrame frames[FRAME_MOST_BODIES]; };
+BodyFrame frameAt(uint b) { return frames[b]; }
+#endif
 layout(constant_id = 4) const bool hasOneBody = false;
 
 // True if the distance exceeds the slack of `frame`, which is the same for all lanes if there is one body.
@@ -16,6 +31,6 @@ bool hasStrayed(uint i, vec3 x, vec3 v, out float farthest) {
     const vec4 r = DETECTED(i);
     farthest = 0.0;
     if (r.w < 0.0) return false; // FRAME_NONE
-    if (hasOneBody) return hasStrayedFrom(frames[0], x, v, r.xyz, farthest);
-    return hasStrayedFrom(frames[uint(min(r.w, float(FRAME_MOST_BODIES - 1)))], x, v, r.xyz, farthest);
+    if (hasOneBody) return hasStrayedFrom(frameAt(0u), x, v, r.xyz, farthest);
+    return hasStrayedFrom(frameAt(uint(min(r.w, float(FRAME_MOST_BODIES - 1)))), x, v, r.xyz, farthest);
 }

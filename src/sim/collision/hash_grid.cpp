@@ -148,7 +148,7 @@ void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
 void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     layout::GridPush push = pushOf(program, grid);
     push.count = grid.frames.memberCount;
-    program.dispatch(kernels::checkSurfaceLists, push.count,
+    program.dispatch(form(grid, kernels::checkSurfaceLists, kernels::checkSurfaceListsLoads), push.count,
                      {moved.positions, moved.velocities, grid.detected, grid.bounds, moved.step,
                       grid.frames.frames, grid.frames.members},
                      push, grid.frames.constants());
