@@ -12,8 +12,20 @@
 #include "common/remainder.glsl"
 #endif
 
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer colliders;
+layout(binding = 1) uniform samplerBuffer poses;
+Collider colliderAt(uint c) {
+    const vec4 core = texelFetch(colliders, 2 * int(c)), more = texelFetch(colliders, 2 * int(c) + 1);
+    return Collider(core, more.x, more.y, more.z, floatBitsToUint(more.w));
+}
+ColliderPose poseAt(uint p) { return ColliderPose(texelFetch(poses, 2 * int(p)), texelFetch(poses, 2 * int(p) + 1)); }
+#else
 layout(std430, binding = 0) readonly buffer Colliders { Collider colliders[]; };
 layout(std430, binding = 1) readonly buffer Poses { ColliderPose poses[]; };
+Collider colliderAt(uint c) { return colliders[c]; }
+ColliderPose poseAt(uint p) { return poses[p]; }
+#endif
 layout(std430, binding = 2) readonly buffer ContactOffsets { float contactOffsets[]; };
 #ifdef OPEN
 layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; }; // predicted; w = inverse mass [1/kg]
@@ -69,8 +81,6 @@ Start startOf(uint i) {
 #endif
 }
 
-bool isAbsent(uint c) { return c < hostColliderCount && colliders[c].isAbsent != 0u; }
-
 void main() {
     const uint i = itemIndex(push.count);
     const Start start = startOf(i);
@@ -83,9 +93,9 @@ void main() {
     bool isTouching = false;
     for (uint c = 0u; c < colliderCount; ++c) {
         vec3 n, surfaceVelocity;
-        const Collider collider = colliders[c];
-        if (isAbsent(c)) continue;
-        const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // equal where nothing moves
+        const Collider collider = colliderAt(c);
+        if (c < hostColliderCount && collider.isAbsent != 0u) continue;
+        const ColliderPose from = poseAt(push.before + c), to = poseAt(push.after + c); // equal where nothing moves
 #ifdef FORCES
         const vec3 unforced = movement.v + rebound;
 #endif

@@ -133,6 +133,7 @@ Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& setti
                         .areMoving = settings.hostColliders > 0 ||
                                      std::ranges::any_of(scene.colliders, moves) ||
                                      std::ranges::any_of(scene.driven, moves)};
+    colliders.usesTexels = settings.forms.usesTexels;
     colliders.hasRebound =
         colliders.count > 0 &&
         (std::ranges::any_of(scene.colliders, rebounds) || std::ranges::any_of(scene.planes, rebounds) ||
@@ -162,13 +163,19 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Co
     if (colliders.count == 0) return;
     std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
                                   particles.positions, particles.velocities, particles.step};
-    forces::Forms forms{&kernels::solveColliders, &kernels::solveCollidersForces};
+    const auto plain = [&](const vk::ShaderCode& texels, const vk::ShaderCode& loads) {
+        return colliders.usesTexels ? &texels : &loads;
+    };
+    forces::Forms forms{plain(kernels::solveColliders, kernels::solveCollidersLoads),
+                        &kernels::solveCollidersForces};
     if (colliders.hasRebound) {
         buffers.push_back(colliders.before);
-        forms = {&kernels::solveCollidersRebound, &kernels::solveCollidersReboundForces};
+        forms = {plain(kernels::solveCollidersRebound, kernels::solveCollidersReboundLoads),
+                 &kernels::solveCollidersReboundForces};
     } else if (predicted) {
         buffers.insert(buffers.end(), {predicted->positions, predicted->velocities});
-        forms = {&kernels::solveCollidersContacts, &kernels::solveCollidersContactsForces};
+        forms = {plain(kernels::solveCollidersContacts, kernels::solveCollidersContactsLoads),
+                 &kernels::solveCollidersContactsForces};
     }
     ProgramBuilder::Constants constants = constantsOf(colliders);
     constants.merge(remainderConstants(particles.layout));
@@ -184,9 +191,11 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
                                   particles.positions, particles.velocities, particles.step,
                                   corrections};
     ProgramBuilder::Constants constants = constantsOf(colliders);
-    const vk::ShaderCode& code =
-        forces::formFor(particles, {&kernels::solveCollidersOpen, &kernels::solveCollidersOpenForces},
-                        &forces::Forces::ofColliders, buffers, constants);
+    const vk::ShaderCode& code = forces::formFor(
+        particles,
+        {colliders.usesTexels ? &kernels::solveCollidersOpen : &kernels::solveCollidersOpenLoads,
+         &kernels::solveCollidersOpenForces},
+        &forces::Forces::ofColliders, buffers, constants);
     dispatchTouching(program, colliders, code, buffers, pushOf(colliders, substep, Kick::half), constants);
 }
 
