@@ -29,16 +29,22 @@ constexpr Kernel inOneForm(const vk::ShaderCode& code, const vk::ShaderCode& pla
 inline constexpr Kernel drift = inOneForm(k::driftSplit, k::driftSplitPlanes);
 inline constexpr Kernel general{&k::gatherSplit, &k::gatherSplitPlanes, &k::gatherSplitLoads,
                                 &k::gatherSplitLoadsPlanes};
-inline constexpr Kernel bending = inOneForm(k::gatherSplitBends, k::gatherSplitBendsPlanes);
-inline constexpr Kernel damped = inOneForm(k::gatherSplitDamped, k::gatherSplitDampedPlanes);
-inline constexpr Kernel bendingDamped = inOneForm(k::gatherSplitBendsDamped, k::gatherSplitBendsDampedPlanes);
+inline constexpr Kernel bending{&k::gatherSplitBends, &k::gatherSplitBendsPlanes, &k::gatherSplitBendsLoads,
+                                &k::gatherSplitBendsLoadsPlanes};
+inline constexpr Kernel damped{&k::gatherSplitDamped, &k::gatherSplitDampedPlanes, &k::gatherSplitDampedLoads,
+                               &k::gatherSplitDampedLoadsPlanes};
+inline constexpr Kernel bendingDamped{&k::gatherSplitBendsDamped, &k::gatherSplitBendsDampedPlanes,
+                                      &k::gatherSplitBendsDampedLoads, &k::gatherSplitBendsDampedLoadsPlanes};
 inline constexpr Kernel ranged{&k::gatherSplitRanged, &k::gatherSplitRangedPlanes, &k::gatherSplitRangedLoads,
                                &k::gatherSplitRangedLoadsPlanes};
-inline constexpr Kernel rangedBending = inOneForm(k::gatherSplitRangedBends, k::gatherSplitRangedBendsPlanes);
-inline constexpr Kernel rangedDamped =
-    inOneForm(k::gatherSplitRangedDamped, k::gatherSplitRangedDampedPlanes);
-inline constexpr Kernel rangedBendingDamped =
-    inOneForm(k::gatherSplitRangedBendsDamped, k::gatherSplitRangedBendsDampedPlanes);
+inline constexpr Kernel rangedBending{&k::gatherSplitRangedBends, &k::gatherSplitRangedBendsPlanes,
+                                      &k::gatherSplitRangedBendsLoads, &k::gatherSplitRangedBendsLoadsPlanes};
+inline constexpr Kernel rangedDamped{&k::gatherSplitRangedDamped, &k::gatherSplitRangedDampedPlanes,
+                                     &k::gatherSplitRangedDampedLoads,
+                                     &k::gatherSplitRangedDampedLoadsPlanes};
+inline constexpr Kernel rangedBendingDamped{
+    &k::gatherSplitRangedBendsDamped, &k::gatherSplitRangedBendsDampedPlanes,
+    &k::gatherSplitRangedBendsDampedLoads, &k::gatherSplitRangedBendsDampedLoadsPlanes};
 inline constexpr Kernel packed{&k::gatherSplitPacked, &k::gatherSplitPackedPlanes, &k::gatherSplitPackedLoads,
                                &k::gatherSplitPackedLoadsPlanes};
 inline constexpr Kernel latticePairs{&k::gatherLattice, &k::gatherLatticePlanes, &k::gatherLatticeLoads,
