@@ -8,7 +8,13 @@
 #include "common/kernel.glsl"
 #include "common/remainder.glsl"
 #include "collision/rows_of.glsl"
+#ifdef TEXELS
+layout(binding = 7) uniform samplerBuffer impulses;
+#define IMPULSE(k) texelFetch(impulses, int(k))
+#else
 layout(std430, binding = 7) readonly buffer Impulses { vec4 impulses[]; };   // [kg m]
+#define IMPULSE(k) impulses[k]
+#endif
 #ifdef REBOUND
 layout(std430, binding = 8) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
 layout(std430, binding = 9) buffer State { vec4 state[]; };       // x + thetaH v
@@ -30,7 +36,7 @@ layout(std430, binding = FORCES_BINDING + 3) readonly buffer Contacts { uvec2 co
 
 vec3 sum = vec3(0.0);
 void visit(uint element, uint place) {
-    if (directions[element].w > 0.0) sum += betaOf(element, place) * impulses[element].xyz;
+    if (DIRECTION(element).w > 0.0) sum += betaOf(element, place) * IMPULSE(element).xyz;
 }
 
 vec3 impulseOn(uint i) {
@@ -44,8 +50,8 @@ void addStopForces(uint i, float scale, vec3 x) {
 #ifdef STOPS
     const uvec2 list = lists[i];
     for (uint element = list.x; element < list.x + list.y; ++element)
-        if (contacts[element].x >= push.moving && directions[element].w > 0.0)
-            addStopForce(contacts[element].x, i, scale * impulses[element].xyz, x);
+        if (contacts[element].x >= push.moving && DIRECTION(element).w > 0.0)
+            addStopForce(contacts[element].x, i, scale * IMPULSE(element).xyz, x);
 #endif
 }
 #endif

@@ -9,15 +9,30 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer velocities;
+layout(binding = 4) uniform samplerBuffer directions;
+layout(binding = 5) uniform samplerBuffer weights;
+layout(binding = 9) uniform samplerBuffer before;
+#define VELOCITY(i) texelFetch(velocities, int(i))
+#define DIRECTION(k) texelFetch(directions, int(k))
+#define WEIGHT(k) texelFetch(weights, int(k))
+#define BEFORE(i) texelFetch(before, int(i))
+#else
 layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
-layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // one per element
 layout(std430, binding = 4) readonly buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
+layout(std430, binding = 9) readonly buffer Before { vec4 before[]; };      // velocities at the start of the substep
+#define VELOCITY(i) velocities[i]
+#define DIRECTION(k) directions[k]
+#define WEIGHT(k) weights[k]
+#define BEFORE(i) before[i]
+#endif
+layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
+layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // one per element
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };
 layout(std430, binding = 7) buffer Memory { vec4 memory[]; };            // slip t [m]; w: side and overlap
 layout(std430, binding = 8) writeonly buffer Impulses { vec4 impulses[]; }; // [kg m]
-layout(std430, binding = 9) readonly buffer Before { vec4 before[]; };      // velocities at the start of the substep
 layout(std140, binding = 10) uniform Step { StepParams step; };
 layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // one per particle
 layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
@@ -28,7 +43,7 @@ layout(push_constant) uniform Push { FacePush push; };
 #include "collision/row.glsl"
 
 void press(uint owner, uint element) {
-    const vec4 direction = directions[element], weight = weights[element];
+    const vec4 direction = DIRECTION(element), weight = WEIGHT(element);
     if (direction.w == 0.0) {
         memory[element] = vec4(vec3(0.0), weight.w); // an overlap that has yet to recover
         return;
@@ -38,8 +53,8 @@ void press(uint owner, uint element) {
     const float D = SHARED(row, shares);
     const float share = D > 0.0 ? 1.0 / D : 0.0, lambda = share * abs(direction.w);
     vec3 slid = vec3(0.0); // slip until this substep
-    if (memory[element].w != 0.0) slid = memory[element].xyz + step.h * BETWEEN(row, before);
-    vec3 slip = slid + step.h * BETWEEN(row, velocities);
+    if (memory[element].w != 0.0) slid = memory[element].xyz + step.h * BETWEEN(row, BEFORE);
+    vec3 slip = slid + step.h * BETWEEN(row, VELOCITY);
     slip -= dot(slip, n) * n;
     const SurfacePair pair = SURFACES(row);
     const float force = length(slip) * share;

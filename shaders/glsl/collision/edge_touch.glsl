@@ -39,16 +39,16 @@ bool hasPassed(Lines lines, Lines rates, out vec2 st) {
 
 // The rest distance of an edge's contact with another [m]; large if they do not overlap.
 float restWith(uint e, uint other, uint element) {
-    const float remembered = memory[element].w;
-    if (abs(remembered) <= 1.0 || !keeps(edges[e].a, edges[other].a)) return 3e38;
-    return restOf(uintBitsToFloat(contacts[element].y), remembered);
+    const float remembered = MEMORY(element).w;
+    if (abs(remembered) <= 1.0 || !keeps(edgeAt(e).a, edgeAt(other).a)) return 3e38;
+    return restOf(uintBitsToFloat(CONTACT(element).y), remembered);
 }
 
 // The smallest rest distance among all contacts of an edge.
 float leastRestOf(uint e) {
     const uvec2 list = lists[e], linked = linkLists[e];
     float least = 3e38;
-    for (uint element = list.x; element < list.x + list.y; ++element) least = min(least, restWith(e, contacts[element].x, element));
+    for (uint element = list.x; element < list.x + list.y; ++element) least = min(least, restWith(e, CONTACT(element).x, element));
     for (uint link = linked.x; link < linked.x + linked.y; ++link) least = min(least, restWith(e, owners[links[link]], links[link]));
     return least;
 }
@@ -64,19 +64,19 @@ float keptOf(uvec2 both, float remembered, float overlap, float before, float re
 
 // Contact of the two edges `both`.
 Touch touchOf(uvec2 both, float reach, float remembered) {
-    const ContactEdge first = edges[both.x], second = edges[both.y];
+    const ContactEdge first = edgeAt(both.x), second = edgeAt(both.y);
     const uint a = first.a, b = first.b, c = second.a, d = second.b;
     const float h = step.h;
-    const vec3 xa = predicted[a].xyz, xc = predicted[c].xyz, va = velocities[a].xyz, vc = velocities[c].xyz;
-    const Lines lines = Lines(xa - xc, predicted[b].xyz - xa, predicted[d].xyz - xc);
-    const Lines rates = Lines(h * (va - vc), h * (velocities[b].xyz - va), h * (velocities[d].xyz - vc));
+    const vec3 xa = PREDICTED(a).xyz, xc = PREDICTED(c).xyz, va = VELOCITY(a).xyz, vc = VELOCITY(c).xyz;
+    const Lines lines = Lines(xa - xc, PREDICTED(b).xyz - xa, PREDICTED(d).xyz - xc);
+    const Lines rates = Lines(h * (va - vc), h * (VELOCITY(b).xyz - va), h * (VELOCITY(d).xyz - vc));
     const Crossing now = crossingOf(lines.ca, lines.ab, lines.cd, leastSine);
     const Crossing before = crossingOf(lines.ca - rates.ca, lines.ab - rates.ab, lines.cd - rates.cd, leastSine);
     Touch touch = Touch(vec3(0.0), 0.0, 0.0, vec2(now.s, now.t));
     // Balls around midpoints, as in the lists: an edge stretched beyond its ball touches nothing with its ends.
     const vec3 middles = lines.ca + 0.5 * (lines.ab - lines.cd);
-    const float wayFirst = max(length(velocities[a].xyz), length(velocities[b].xyz));
-    const float waySecond = max(length(velocities[c].xyz), length(velocities[d].xyz));
+    const float wayFirst = max(length(VELOCITY(a).xyz), length(VELOCITY(b).xyz));
+    const float waySecond = max(length(VELOCITY(c).xyz), length(VELOCITY(d).xyz));
     const float outer = first.radius + second.radius + h * (wayFirst + waySecond);
     if (!now.exists || !before.exists || dot(now.n, before.n) <= 0.0 || dot(middles, middles) >= outer * outer) return touch;
     float side = remembered != 0.0 ? sideOf(remembered) : before.height < 0.0 ? -1.0 : 1.0;

@@ -28,13 +28,13 @@ struct Meeting {
 
 Meeting meetingOf(uint i, uvec2 candidate) {
     Meeting m;
-    m.face = faces[candidate.x];
+    m.face = faceAt(candidate.x);
     m.reach = abs(uintBitsToFloat(candidate.y));
     m.front = candidate.y >> 31 != 0u ? -1.0 : 1.0; // the sign bit is that of the thickness
     const float h = step.h;
-    const vec3 a = predicted[m.face.a].xyz, va = velocities[m.face.a].xyz;
-    m.ap = predicted[i].xyz - a, m.ab = predicted[m.face.b].xyz - a, m.ac = predicted[m.face.c].xyz - a;
-    m.vp = velocities[i].xyz - va, m.vb = velocities[m.face.b].xyz - va, m.vc = velocities[m.face.c].xyz - va;
+    const vec3 a = PREDICTED(m.face.a).xyz, va = PREDICTED_VELOCITY(m.face.a).xyz;
+    m.ap = PREDICTED(i).xyz - a, m.ab = PREDICTED(m.face.b).xyz - a, m.ac = PREDICTED(m.face.c).xyz - a;
+    m.vp = PREDICTED_VELOCITY(i).xyz - va, m.vb = PREDICTED_VELOCITY(m.face.b).xyz - va, m.vc = PREDICTED_VELOCITY(m.face.c).xyz - va;
     m.triangle = triangleOf(m.ab, m.ac);
     m.nearest = nearestOf(m.ap, m.triangle);
     m.normal = normalize(m.triangle.normal);

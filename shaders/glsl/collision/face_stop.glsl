@@ -76,9 +76,9 @@ Stop pressing(Passage p, vec3 a, Triangle triangle, float reach, vec3 seen) {
 // that the point may end too near to.
 Stop stopAt(ContactFace face, float reach, vec3 x0, vec3 x1, vec3 seen) {
     const float h = step.h;
-    const vec3 a = predicted[face.a].xyz, wa = h * predictedVelocities[face.a].xyz;
-    const Passage p = Passage(x1 - a, predicted[face.b].xyz - a, predicted[face.c].xyz - a, x1 - x0 - wa,
-                              h * predictedVelocities[face.b].xyz - wa, h * predictedVelocities[face.c].xyz - wa);
+    const vec3 a = PREDICTED(face.a).xyz, wa = h * PREDICTED_VELOCITY(face.a).xyz;
+    const Passage p = Passage(x1 - a, PREDICTED(face.b).xyz - a, PREDICTED(face.c).xyz - a, x1 - x0 - wa,
+                              h * PREDICTED_VELOCITY(face.b).xyz - wa, h * PREDICTED_VELOCITY(face.c).xyz - wa);
     const Triangle now = triangleOf(p.ab, p.ac);
     const float before = heightAt(p, 1.0), after = heightAt(p, 0.0);
     const float side = before < 0.0 ? -1.0 : 1.0, least = side * min(0.05 * reach, 0.5 * abs(before));

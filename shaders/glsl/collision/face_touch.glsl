@@ -30,10 +30,10 @@ float overlapBefore(Meeting m, float side, bool isThrough) {
 float mostKept(uint i, uvec2 list, uint body, float reach) {
     float most = 0.0;
     for (uint element = list.x; element < list.x + list.y; ++element) {
-        const uvec2 candidate = contacts[element];
-        const float remembered = memory[element].w, signedReach = uintBitsToFloat(candidate.y);
+        const uvec2 candidate = CONTACT(element);
+        const float remembered = MEMORY(element).w, signedReach = uintBitsToFloat(candidate.y);
         if (abs(remembered) <= 1.0 || remembered * signedReach < 0.0 || !isSolid(candidate.x)) continue;
-        const uint corner = faces[candidate.x].a;
+        const uint corner = faceAt(candidate.x).a;
         if (bodyOf(corner) == body && keepsUncut(i, corner)) most = max(most, reach - restOf(abs(signedReach), remembered));
     }
     return most;
@@ -50,7 +50,7 @@ const Exit noExit = Exit(false, 0.0);
 // other overlap recovers. Such an overlap is marked by the sign of the memory: it differs from that of the front, the
 // only side of a closed body.
 Exit exitOf(uint i, uvec2 list, uint element, Meeting m, bool wasBehind) {
-    const float remembered = memory[element].w;
+    const float remembered = MEMORY(element).w;
     if (!m.isKept) return Exit(wasBehind && remembered * m.front <= 0.0, 0.0);
     if (isAtLoad() || remembered * m.front > 0.0) return noExit;
     const float kept = mostKept(i, list, bodyOf(m.face.a), m.reach);
@@ -66,7 +66,7 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit 
     const float overlap = m.reach - (isAbove ? side * m.height : distance);
     const float approach = -h * dot(touch.n, m.vp - b.y * m.vb - b.z * m.vc);
     const float part = h * (m.isOpened ? min(push.recoverySpeed, CUT_RECOVERY_SPEED) : push.recoverySpeed);
-    const float remembered = memory[element].w;
+    const float remembered = MEMORY(element).w;
     float left = outcome.isLetOut ? max(0.0, overlap - part) : overlapLeft(remembered, overlap, approach, part), restSide = side;
     if (m.isKept && outcome.isLetOut) {
         left = overlapLetOut(remembered, overlap, outcome.kept, part, m.reach);
@@ -76,7 +76,7 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit 
     }
     touch.depth = max(0.0, overlap - left);
     touch.remembered = m.isKept ? rememberedKept(restSide, touch.depth, left) : rememberedOf(side, touch.depth, left);
-    if (contacts[element].x < push.sheets) return touch;
+    if (CONTACT(element).x < push.sheets) return touch;
     // a recovering contact does not push, nor do the faces beside it
     const float shown = withCorners(left > 0.0 ? max(touch.depth, 2e-30) : touch.depth, b, m.triangle, m.reach);
     touch.depth = touch.depth > 0.0 ? shown : -shown;
@@ -89,8 +89,8 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit 
 // the point was behind: contacts may move the point to the front after this pass, so that the next one finds it
 // there.
 Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
-    const bool isFromBehind = !m.isKept && memory[element].w * m.front < 0.0;
-    const bool hasTouched = memory[element].w != 0.0 && !isFromBehind, wasBehind = isFromBehind || m.front * m.heightBefore < 0.0;
+    const bool isFromBehind = !m.isKept && MEMORY(element).w * m.front < 0.0;
+    const bool hasTouched = MEMORY(element).w != 0.0 && !isFromBehind, wasBehind = isFromBehind || m.front * m.heightBefore < 0.0;
     vec3 b = m.nearest.weights, passed;
     if (m.front * m.height >= 0.0) return touchAt(m, element, m.front, b, false, exitOf(i, list, element, m, wasBehind));
     bool isThrough = hasTouched && m.nearest.isInside && isWithinReach(m);
@@ -107,12 +107,12 @@ Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
 // The contact with the face of a candidate. `through`: the side from which the point passes through a neighbouring
 // face, as a unit vector; 0 = none.
 Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
-    const uvec2 candidate = contacts[element];
+    const uvec2 candidate = CONTACT(element);
     const Meeting m = keptMeetingOf(i, candidate);
     if (isSliver(m.triangle)) return Touch(vec3(0.0), 0.0, vec3(0.0), 0.0, false, m.face);
     if (isSolid(candidate.x)) return touchOfSolid(i, list, element, m);
     const bool isForced = dot(through, through) > 0.0;
-    float side = isForced ? (dot(m.normal, through) < 0.0 ? -1.0 : 1.0) : sideOf(memory[element].w);
+    float side = isForced ? (dot(m.normal, through) < 0.0 ? -1.0 : 1.0) : sideOf(MEMORY(element).w);
     const bool hasTouched = side != 0.0;
     if (!hasTouched) side = m.heightBefore < 0.0 ? -1.0 : 1.0;
     vec3 b = m.nearest.weights;

@@ -9,12 +9,33 @@
 #include "common/kernel.glsl"
 #include "common/segments.glsl"
 
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer predicted;
+layout(binding = 1) uniform samplerBuffer velocities;
+layout(binding = 2) uniform usamplerBuffer edges;
+layout(binding = 3) uniform usamplerBuffer contacts;
+layout(binding = 5) uniform samplerBuffer memory;
+#define PREDICTED(i) texelFetch(predicted, int(i))
+#define VELOCITY(i) texelFetch(velocities, int(i))
+#define CONTACT(k) texelFetch(contacts, int(k)).xy
+#define MEMORY(k) texelFetch(memory, int(k))
+ContactEdge edgeAt(uint e) {
+    const uvec4 words = texelFetch(edges, int(e));
+    return ContactEdge(words.x, words.y, words.z, uintBitsToFloat(words.w));
+}
+#else
 layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
-layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; };     // ContactCandidate, in one load
+layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
+layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };      // w: side and overlap, 0 = no contact so far
+#define PREDICTED(i) predicted[i]
+#define VELOCITY(i) velocities[i]
+#define CONTACT(k) contacts[k]
+#define MEMORY(k) memory[k]
+ContactEdge edgeAt(uint e) { return edges[e]; }
+#endif
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };           // one per edge: first element that it owns, count
-layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };          // w: side and overlap, 0 = no contact so far
 layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n from the other to the owner, depth [m]; 0 = none
 layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; w: new memory
 layout(std140, binding = 8) uniform Step { StepParams step; };
@@ -32,8 +53,8 @@ layout(std430, binding = 12) readonly buffer LinkLists { uvec2 linkLists[]; }; /
 void main() {
     FOR_EACH_ROW(row) {
         const uint element = elementOf(row);
-        const uvec2 candidate = contacts[element];
-        const Touch touch = touchOf(uvec2(owners[element], candidate.x), uintBitsToFloat(candidate.y), memory[element].w);
+        const uvec2 candidate = CONTACT(element);
+        const Touch touch = touchOf(uvec2(owners[element], candidate.x), uintBitsToFloat(candidate.y), MEMORY(element).w);
         directions[element] = vec4(touch.n, touch.depth);
         weights[element] = vec4(touch.st, 0.0, touch.remembered);
     }

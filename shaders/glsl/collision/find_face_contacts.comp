@@ -13,12 +13,15 @@
 #include "common/kernel.glsl"
 #include "common/triangle.glsl"
 
-layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
-layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
-layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
+#include "collision/near_faces.glsl"
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
+#ifdef TEXELS
+layout(binding = 5) uniform samplerBuffer memory;
+#define MEMORY(k) texelFetch(memory, int(k))
+#else
 layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };       // w: side and overlap, 0 = no contact so far
+#define MEMORY(k) memory[k]
+#endif
 layout(std430, binding = 6) buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch; below 0 = see hide
 layout(std430, binding = 7) buffer Weights { vec4 weights[]; };       // b; w: side and overlap
 layout(std140, binding = 8) uniform Step { StepParams step; };
@@ -48,7 +51,7 @@ void main() {
     // must not be pushed out there. One copy of touchOf() serves both times: the kernel is half as large.
     [[dont_unroll]] for (uint time = 0u; time < 2u; ++time) {
         for (uint element = list.x; element < end; ++element) {
-            if (time == 1u && (element == passed || !areNeighbours(faces[contacts[element].x], passing.face))) continue;
+            if (time == 1u && (element == passed || !areNeighbours(faceAt(CONTACT(element).x), passing.face))) continue;
             Touch touch = touchOf(i, list, element, through);
             if (keepsRest && time == 0u) touch = heldTouch(i, element, touch);
             if (touch.isThrough && passed == ~0u) {

@@ -16,6 +16,8 @@ layout(std430, binding = 7) readonly buffer Pairs { SurfacePair pairs[]; };
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(std430, binding = 9) writeonly buffer Bounces { vec4 bounces[]; };  // n, speed [m/s]; 0 = does not rebound
 layout(std140, binding = 10) uniform Bounds { GridBounds bounds; };
+#define BEFORE(i) before[i]
+#define WEIGHT(k) weights[k]
 #include "collision/row_items.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
@@ -23,7 +25,7 @@ layout(push_constant) uniform Push { FacePush push; };
 
 float speedOf(uint owner, uint element) {
     const Row row = rowOf(owner, contacts[element].x, weights[element]);
-    const float speed = dot(directions[element].xyz, BETWEEN(row, before));
+    const float speed = dot(directions[element].xyz, BETWEEN(row, BEFORE));
     return speed < -step.restSpeed ? -SURFACES(row).restitution * speed : 0.0;
 }
 

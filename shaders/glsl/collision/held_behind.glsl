@@ -19,8 +19,8 @@ uint holderCount = 0u;
 bool isHoldable(Meeting m) { return m.isKept && !isSliver(m.triangle) && length(m.nearest.d) < 2.0 * m.reach; }
 
 bool isOf(uint element, uint body) {
-    const uint face = contacts[element].x;
-    return isSolid(face) && bodyOf(faces[face].a) == body;
+    const uint face = CONTACT(element).x;
+    return isSolid(face) && bodyOf(faceAt(face).a) == body;
 }
 
 // The nearest face of a body, and the memory of the point's contacts with all of them.
@@ -36,9 +36,9 @@ Nearby nearbyOf(uint i, uvec2 list, uint body) {
     Nearby nearby = Nearby(~0u, 0.0, far, vec3(0.0), vec3(0.0), far, false);
     for (uint element = list.x; element < list.x + list.y; ++element) {
         if (!isOf(element, body)) continue;
-        const Meeting m = keptMeetingOf(i, contacts[element]);
+        const Meeting m = keptMeetingOf(i, CONTACT(element));
         if (!isHoldable(m)) continue;
-        const float remembered = memory[element].w, distance = length(m.nearest.d);
+        const float remembered = MEMORY(element).w, distance = length(m.nearest.d);
         nearby.remembers = nearby.remembers || remembered != 0.0;
         if (remembered * m.front > 0.0) nearby.rest = min(nearby.rest, restOf(m.reach, remembered));
         if (distance >= nearby.distance) continue;
@@ -59,12 +59,12 @@ float offOf(Nearby nearby) { return 1e-3 * nearby.distance + REST_SLACK * nearby
 vec3 normalAt(uint i, uvec2 list, Nearby nearby, uint body, out float rest) {
     vec3 sum = vec3(0.0);
     rest = far;
-    const ContactFace nearest = faces[contacts[nearby.element].x];
+    const ContactFace nearest = faceAt(CONTACT(nearby.element).x);
     for (uint element = list.x; element < list.x + list.y; ++element) {
         if (!isOf(element, body)) continue;
-        const Meeting m = keptMeetingOf(i, contacts[element]);
+        const Meeting m = keptMeetingOf(i, CONTACT(element));
         if (!isHoldable(m)) continue;
-        if (memory[element].w * m.front > 0.0 && areNeighbours(m.face, nearest)) rest = min(rest, restOf(m.reach, memory[element].w));
+        if (MEMORY(element).w * m.front > 0.0 && areNeighbours(m.face, nearest)) rest = min(rest, restOf(m.reach, MEMORY(element).w));
         if (distance(m.nearest.d, nearby.d) <= offOf(nearby)) sum += angleOf(m) * m.front * m.normal;
     }
     return sum;
@@ -95,10 +95,10 @@ bool isKnown(uint body) {
 // hold it is tested again at its next such face.
 void findHolders(uint i, uvec2 list) {
     for (uint element = list.x; element < list.x + list.y && holderCount < mostHolders; ++element) {
-        if (!isSolid(contacts[element].x)) continue;
-        const uint body = bodyOf(faces[contacts[element].x].a);
+        if (!isSolid(CONTACT(element).x)) continue;
+        const uint body = bodyOf(faceAt(CONTACT(element).x).a);
         if (body == bodyOf(i) || isKnown(body)) continue;
-        const Meeting m = keptMeetingOf(i, contacts[element]);
+        const Meeting m = keptMeetingOf(i, CONTACT(element));
         if (!isHoldable(m) || m.front * m.height >= 0.0) continue;
         holders[holderCount] = heldBy(i, list, body);
         if (holders[holderCount].element != ~0u) ++holderCount;
@@ -128,15 +128,15 @@ float rememberedBeside(Meeting m, Held held, float remembered) {
 // The contact of a point that may be held: unchanged, except for faces of bodies that hold it, only one of which
 // pushes.
 Touch heldTouch(uint i, uint element, Touch touch) {
-    if (!isSolid(contacts[element].x)) return touch;
-    const uint body = bodyOf(faces[contacts[element].x].a);
+    if (!isSolid(CONTACT(element).x)) return touch;
+    const uint body = bodyOf(faceAt(CONTACT(element).x).a);
     for (uint k = 0u; k < holderCount; ++k) {
         if (holders[k].body != body) continue;
-        const Meeting m = keptMeetingOf(i, contacts[element]);
+        const Meeting m = keptMeetingOf(i, CONTACT(element));
         if (holders[k].element == element) return touchOfHolder(m, holders[k], touch);
         return Touch(vec3(0.0), 0.0, touch.b, rememberedBeside(m, holders[k], touch.remembered), false, touch.face);
     }
-    const float reach = abs(uintBitsToFloat(contacts[element].y));
+    const float reach = abs(uintBitsToFloat(CONTACT(element).y));
     if (abs(touch.remembered) - 1.0 <= reach) return touch;
     touch.remembered = sign(touch.remembered) * (1.0 + reach); // the point is in front: the least rest distance there is 0
     return touch;

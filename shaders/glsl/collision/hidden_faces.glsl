@@ -28,7 +28,7 @@ bool has(ContactFace other, ContactFace face, uint corners) {
 }
 
 // True if an overlap with a face of a closed body is recovering (exitOf).
-bool isParting(uint element) { return isSolid(contacts[element].x) && weights[element].w * uintBitsToFloat(contacts[element].y) < 0.0; }
+bool isParting(uint element) { return isSolid(CONTACT(element).x) && weights[element].w * uintBitsToFloat(CONTACT(element).y) < 0.0; }
 
 // True if a pair keeps its rest distance. Pairs separated by a cut do not: they touched nothing when the scene was
 // loaded.
@@ -38,10 +38,10 @@ bool keepsUncut(uint i, uint j) { return keeps(i, j) && !(firstInner != ~0u && a
 // above the next keeps its rest distance.
 float withRestOf(uint i, uint element, uint beside) {
     const float own = weights[element].w, other = weights[beside].w;
-    if (abs(other) <= 1.0 || !keepsUncut(i, faces[contacts[beside].x].a) || !keepsUncut(i, faces[contacts[element].x].a)) return own;
+    if (abs(other) <= 1.0 || !keepsUncut(i, faceAt(CONTACT(beside).x).a) || !keepsUncut(i, faceAt(CONTACT(element).x).a)) return own;
     const bool parts = isParting(beside);
     if (parts && abs(own) > 1.0) return own;
-    const float nearer = abs(uintBitsToFloat(contacts[element].y)) - abs(uintBitsToFloat(contacts[beside].y)); // 0 for equal thickness
+    const float nearer = abs(uintBitsToFloat(CONTACT(element).y)) - abs(uintBitsToFloat(CONTACT(beside).y)); // 0 for equal thickness
     const float taken = abs(other) + nearer;
     if (taken <= abs(own)) return own;
     return (parts != isParting(element) ? -taken : taken) * sign(own);
@@ -49,11 +49,11 @@ float withRestOf(uint i, uint element, uint beside) {
 
 // The side of particle j of a face's plane: above 0 = in front. 0 for a sliver, which has no plane.
 float sideOfFront(uint j, uint element) {
-    const ContactFace face = faces[contacts[element].x];
-    const vec3 a = predicted[face.a].xyz;
-    const Triangle triangle = triangleOf(predicted[face.b].xyz - a, predicted[face.c].xyz - a);
-    const float height = dot(triangle.normal, predicted[j].xyz - a);
-    return isSliver(triangle) ? 0.0 : contacts[element].y >> 31 != 0u ? -height : height; // the sign bit is that of the thickness
+    const ContactFace face = faceAt(CONTACT(element).x);
+    const vec3 a = PREDICTED(face.a).xyz;
+    const Triangle triangle = triangleOf(PREDICTED(face.b).xyz - a, PREDICTED(face.c).xyz - a);
+    const float height = dot(triangle.normal, PREDICTED(j).xyz - a);
+    return isSliver(triangle) ? 0.0 : CONTACT(element).y >> 31 != 0u ? -height : height; // the sign bit is that of the thickness
 }
 
 uint cornerBeside(ContactFace face, ContactFace other) {
@@ -64,17 +64,17 @@ uint cornerBeside(ContactFace face, ContactFace other) {
 // The direction from the edge then leads along the surface of the body instead of out of it, and would push the point
 // aside. Not for points of the same body: a crumpling body has many such folds, and they hold its own points.
 bool isBehind(uint i, uint element, uint corners, uint beside) {
-    if (bitCount(corners) != 2 || !isSolid(contacts[element].x) || !isSolid(contacts[beside].x)) return false;
-    if (bodyOf(i) == bodyOf(faces[contacts[beside].x].a)) return false;
+    if (bitCount(corners) != 2 || !isSolid(CONTACT(element).x) || !isSolid(CONTACT(beside).x)) return false;
+    if (bodyOf(i) == bodyOf(faceAt(CONTACT(beside).x).a)) return false;
     if (!(sideOfFront(i, beside) < 0.0 && sideOfFront(i, element) >= 0.0)) return false;
-    return sideOfFront(cornerBeside(faces[contacts[element].x], faces[contacts[beside].x]), element) > 0.0;
+    return sideOfFront(cornerBeside(faceAt(CONTACT(element).x), faceAt(CONTACT(beside).x)), element) > 0.0;
 }
 
 // Stores the overlap of a contact that such an edge does not push, so that it recovers at the speed of recovery once
 // it pushes again.
 void leaveOverlap(uint i, uint element) {
     const float own = weights[element].w;
-    if (keepsUncut(i, faces[contacts[element].x].a)) return;
+    if (keepsUncut(i, faceAt(CONTACT(element).x).a)) return;
     weights[element].w = rememberedOf(sign(own), 0.0, max(0.0, abs(own) - 1.0) + directions[element].w);
 }
 
@@ -87,12 +87,12 @@ void leaveOverlap(uint i, uint element) {
 void hide(uint i, uint first, uint end) {
     for (uint element = first; element < end; ++element) {
         const uint corners = cornersIn(directions[element].w);
-        if (!(directions[element].w > 0.0) || corners == 7u || contacts[element].x < push.sheets) continue;
-        const ContactFace face = faces[contacts[element].x];
+        if (!(directions[element].w > 0.0) || corners == 7u || CONTACT(element).x < push.sheets) continue;
+        const ContactFace face = faceAt(CONTACT(element).x);
         bool isHidden = false;
         for (uint beside = first; beside < end && !isHidden; ++beside) {
-            if (beside == element || contacts[beside].x < push.sheets) continue;
-            const ContactFace other = faces[contacts[beside].x];
+            if (beside == element || CONTACT(beside).x < push.sheets) continue;
+            const ContactFace other = faceAt(CONTACT(beside).x);
             if (!has(other, face, corners)) continue;
             if (directions[beside].w == 0.0) {
                 isHidden = isBehind(i, element, corners, beside);

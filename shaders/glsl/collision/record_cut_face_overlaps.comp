@@ -8,10 +8,7 @@
 #include "common/kernel.glsl"
 #include "common/triangle.glsl"
 
-layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
-layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
-layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
+#include "collision/near_faces.glsl"
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) buffer Memory { vec4 memory[]; }; // w: side and overlap, 0 = has not touched
 layout(std140, binding = 6) uniform Step { StepParams step; };
@@ -34,8 +31,8 @@ void main() {
     const uint i = itemIndex(push.count);
     const uvec2 list = lists[i];
     for (uint element = list.x; element < list.x + list.y; ++element) {
-        const uvec2 candidate = contacts[element];
-        const bool isOwn = areParted(i, faces[candidate.x].a);
+        const uvec2 candidate = CONTACT(element);
+        const bool isOwn = areParted(i, faceAt(candidate.x).a);
         if (!isOwn && (memory[element].w != 0.0 || opened[candidate.x] == 0u)) continue;
         const Meeting m = meetingOf(i, candidate);
         if (isSliver(m.triangle)) continue;

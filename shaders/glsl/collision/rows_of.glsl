@@ -1,7 +1,16 @@
 // Visits the rows (row.glsl) of a particle in a fixed order; a kernel defines visit().
 layout(std430, binding = 0) readonly buffer Lists { uvec2 lists[]; };          // one per owner: first element, count
+#ifdef TEXELS
+layout(binding = 1) uniform samplerBuffer directions;
+layout(binding = 2) uniform samplerBuffer weights;
+#define DIRECTION(k) texelFetch(directions, int(k))
+#define WEIGHT(k) texelFetch(weights, int(k))
+#else
 layout(std430, binding = 1) readonly buffer Directions { vec4 directions[]; }; // n; above 0 = the row counts
 layout(std430, binding = 2) readonly buffer Weights { vec4 weights[]; };       // see row.glsl
+#define DIRECTION(k) directions[k]
+#define WEIGHT(k) weights[k]
+#endif
 layout(std430, binding = 3) readonly buffer Corners { uint corners[]; };       // first of each particle; then 4 x face, or edge, + corner, or end
 layout(std430, binding = 4) readonly buffer Links { uint links[]; };           // one per moving face, or edge: elements in lists of others
 layout(std430, binding = 5) readonly buffer LinkLists { uvec2 linkLists[]; };  // ranges in links, of each of these

@@ -14,6 +14,8 @@ layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };
 layout(std430, binding = 7) writeonly buffer Impulses { vec4 impulses[]; };    // [kg m/s]
 layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
+#define VELOCITY(i) velocities[i]
+#define WEIGHT(k) weights[k]
 #include "collision/row_items.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
@@ -23,7 +25,7 @@ vec3 impulseOf(uint owner, uint element) {
     const Row row = rowOf(owner, contacts[element].x, weights[element]);
     const vec4 bounce = bounces[element];
     const float D = SHARED(row, shares);
-    return D > 0.0 ? max(0.0, bounce.w - dot(bounce.xyz, BETWEEN(row, velocities))) / D * bounce.xyz : vec3(0.0);
+    return D > 0.0 ? max(0.0, bounce.w - dot(bounce.xyz, BETWEEN(row, VELOCITY))) / D * bounce.xyz : vec3(0.0);
 }
 
 void main() {

@@ -9,25 +9,30 @@
 #include "common/remainder.glsl"
 #include "common/triangle.glsl"
 
-layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
-layout(std430, binding = 1) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; }; // that led to those positions [m/s]
-layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
-layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
+#include "collision/near_faces.glsl"
+#ifdef TEXELS
+layout(binding = 6) uniform usamplerBuffer excluded;
+layout(binding = 10) uniform samplerBuffer memory;
+#define EXCLUDED(k) texelFetch(excluded, int(k)).x
+#define MEMORY(k) texelFetch(memory, int(k))
+#else
+layout(std430, binding = 6) readonly buffer Excluded { uint excluded[]; };  // first of each face, then points, sorted
+layout(std430, binding = 10) readonly buffer Memory { vec4 memory[]; };     // w: side and overlap (contact_memory.glsl)
+#define EXCLUDED(k) excluded[k]
+#define MEMORY(k) memory[k]
+#endif
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) readonly buffer Radii { float radii[]; };       // below 0 = touches no face
-layout(std430, binding = 6) readonly buffer Excluded { uint excluded[]; };  // first of each face, then points, sorted
 layout(std430, binding = 7) buffer Positions { vec4 positions[]; };         // x + thetaH v (remainder.glsl)
 layout(std430, binding = 8) buffer Velocities { vec4 velocities[]; };       // w = inverse mass [1/kg]
 layout(std140, binding = 9) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { StopPush push; };
-layout(std430, binding = 10) readonly buffer Memory { vec4 memory[]; };     // w: side and overlap (contact_memory.glsl)
 #ifdef FORCES
 #define FORCES_BINDING 11
 #define STOPS
 #include "forces/forces.glsl"
 uint stoppedBy; // the face of the last stop
 #endif
-#define EXCLUDED(k) excluded[k]
 #include "collision/excluded.glsl"
 #include "collision/face_stop.glsl"
 
@@ -39,7 +44,7 @@ struct Search {
 };
 
 bool isNearPredicted(uint i, vec3 x) {
-    const vec3 off = x - predicted[i].xyz;
+    const vec3 off = x - PREDICTED(i).xyz;
     return dot(off, off) <= radii[i] * radii[i];
 }
 
@@ -49,16 +54,16 @@ Search searchFor(uint i, uint firstListed, uint endListed, vec3 x) {
 }
 
 // The remaining part of an overlap in recovery.
-float leftOf(uint element) { return max(0.0, abs(memory[element].w) - 1.0); }
+float leftOf(uint element) { return max(0.0, abs(MEMORY(element).w) - 1.0); }
 
 // The most urgent stop on the path from x0 to x1.
 Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
     Stop first = noStop;
     for (uint s = search.first; s < search.end; ++s) {
-        const uint f = search.isListed ? contacts[s].other : s;
-        const ContactFace face = faces[f];
+        const uint f = search.isListed ? CONTACT(s).x : s;
+        const ContactFace face = faceAt(f);
         const float touching = radii[i] + abs(face.thickness), left = search.isListed ? min(leftOf(s), touching) : 0.0; // a rest distance is rounded
-        const vec3 seen = search.isListed ? predicted[i].xyz : x1; // a face farther away may be in no list
+        const vec3 seen = search.isListed ? PREDICTED(i).xyz : x1; // a face farther away may be in no list
         const Stop stop = stopAt(face, touching - left, x0, x1, seen);
         if (!(stop.urgency > first.urgency) || isExcluded(f, i)) continue;
         first = stop;
@@ -86,9 +91,9 @@ void main() {
     if (i == ~0u) return;
     const uint begin = lists[i].x, listEnd = begin + lists[i].y;
     uint first = listEnd;
-    for (; first > begin && contacts[first - 1u].other >= push.moving; --first) {}
+    for (; first > begin && CONTACT(first - 1u).x >= push.moving; --first) {}
     const vec4 velocity = velocities[i];
-    const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz, x0 = predicted[i].xyz - step.h * predictedVelocities[i].xyz;
+    const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz, x0 = PREDICTED(i).xyz - step.h * PREDICTED_VELOCITY(i).xyz;
     if (velocity.w == 0.0 || radii[i] < 0.0 || first == listEnd && isNearPredicted(i, x)) return;
     vec3 end = x, v = velocity.xyz;
 #ifdef FORCES

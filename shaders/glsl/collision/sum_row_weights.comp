@@ -9,7 +9,7 @@ layout(std430, binding = 8) writeonly buffer Shares { float shares[]; };       /
 
 float sum = 0.0;
 void visit(uint element, uint place) {
-    if (directions[element].w > 0.0) sum += abs(betaOf(element, place));
+    if (DIRECTION(element).w > 0.0) sum += abs(betaOf(element, place));
 }
 
 void main() {

@@ -99,7 +99,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                      .particles = {lists.grid.touchingParticles, lists.touching},
                      .surfaces = faces.rows.surfaces,
                      .marks = faces.rows.marks,
-                     .keepsRest = faces.rows.keepsRest};
+                     .keepsRest = faces.rows.keepsRest,
+                     .usesTexels = faces.rows.usesTexels};
     row_contacts::add(program, contacts.rows,
                       cornersOf(edges, layout, inverseMasses(scene), settings.keepsForces), particles);
     contacts.rows.touching = {lists.pooled.links->owners, lists.pooled.links->elements,

@@ -250,7 +250,8 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
                             .bounds = lists.grid.bounds,
                             .particles = {lists.grid.touchingParticles, lists.touching},
                             .surfaces = surfaces::addTable(program, scene, particles.layout, "faces.surface"),
-                            .keepsRest = keepRest(scene)};
+                            .keepsRest = keepRest(scene),
+                            .usesTexels = settings.forms.usesTexels};
     rows.push = {.count = find.points,
                  .surfaces = rows.surfaces.count,
                  .recoverySpeed = scene.contacts.recoverySpeed,
@@ -354,8 +355,9 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                                   state.step,
                                   lists.pooled.memory->memory};
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
-    const vk::ShaderCode& code = forces::formFor(state, {&k::stopAtFaces, &k::stopAtFacesForces},
-                                                 &forces::Forces::ofStops, buffers, constants);
+    const vk::ShaderCode& code = forces::formFor(
+        state, {lists.grid.usesTexels ? &k::stopAtFaces : &k::stopAtFacesLoads, &k::stopAtFacesForces},
+        &forces::Forces::ofStops, buffers, constants);
     if (state.forces) buffers.insert(buffers.end(), {contacts.stopRows, contacts.linkedPositions});
     buffers.push_back(contacts.movingPoints);
     program.dispatch(code, push.count, buffers, push, constants);

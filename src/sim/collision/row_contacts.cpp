@@ -24,7 +24,7 @@ void addOverRows(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode
 // Appends the pass that divides particles among the rows whose last word of `directions` is not 0.
 void addShares(ProgramBuilder& program, const Rows& rows, BufferId directions,
                const ParticleBuffers& particles) {
-    addOver(program, rows, rows.particles, *rows.kind->share,
+    addOver(program, rows, rows.particles, rows.kind->share.form(rows.usesTexels),
             {rows.lists.ranges, directions, rows.weights, rows.corners, rows.lists.links->elements,
              rows.lists.links->ranges, rows.cornerEnds, particles.velocities, rows.shares});
 }
@@ -59,25 +59,27 @@ sleep::SeenRows seenOf(const Rows& rows) {
 } // namespace
 
 constinit const Kind faces{.name = "faces",
-                           .touch = &k::findFaceContacts,
+                           .touch = {&k::findFaceContacts, &k::findFaceContactsLoads},
                            .touchesLists = true,
-                           .share = &k::shareFaces,
-                           .press = &k::pressFaces,
+                           .share = {&k::shareFaces, &k::shareFacesLoads},
+                           .press = {&k::pressFaces, &k::pressFacesLoads},
                            .bounce = &k::bounceFaces,
                            .rebound = &k::reboundFaces,
                            .gather = {&k::gatherFaces, &k::gatherFacesForces},
+                           .gatherLoads = {&k::gatherFacesLoads, &k::gatherFacesForces},
                            .gatherRebound = {&k::gatherFacesRebound, &k::gatherFacesReboundForces},
                            .forces = &forces::Forces::ofStops,
                            .wake = &k::wakeFaces,
                            .join = &k::joinFaces};
 
 constinit const Kind edges{.name = "edges",
-                           .touch = &k::findEdgeContacts,
-                           .share = &k::shareEdges,
-                           .press = &k::pressEdges,
+                           .touch = {&k::findEdgeContacts, &k::findEdgeContactsLoads},
+                           .share = {&k::shareEdges, &k::shareEdgesLoads},
+                           .press = {&k::pressEdges, &k::pressEdgesLoads},
                            .bounce = &k::bounceEdges,
                            .rebound = &k::reboundEdges,
                            .gather = {&k::gatherEdges, &k::gatherEdgesForces},
+                           .gatherLoads = {&k::gatherEdgesLoads, &k::gatherEdgesForces},
                            .gatherRebound = {&k::gatherEdgesRebound, &k::gatherEdgesReboundForces},
                            .forces = &forces::Forces::ofContacts,
                            .wake = &k::wakeEdges,
@@ -128,18 +130,19 @@ void addPasses(ProgramBuilder& program, const Rows& rows, const ParticleBuffers&
         predicted.positions,  predicted.velocities, rows.shapes,  lists.contacts, lists.ranges,
         lists.memory->memory, rows.directions,      rows.weights, predicted.step, rows.marks};
     buffers.insert(buffers.end(), rows.touching.begin(), rows.touching.end());
+    const vk::ShaderCode& touch = rows.kind->touch.form(rows.usesTexels);
     if (rows.kind->touchesLists)
-        addOver(program, rows, rows.particles, *rows.kind->touch, std::move(buffers), constants);
+        addOver(program, rows, rows.particles, touch, std::move(buffers), constants);
     else
-        addOverRows(program, rows, *rows.kind->touch, std::move(buffers), constants);
+        addOverRows(program, rows, touch, std::move(buffers), constants);
     sleep::addRowTouches(program, predicted, seenOf(rows));
     addShares(program, rows, rows.directions, predicted);
-    addOverRows(program, rows, *rows.kind->press,
+    addOverRows(program, rows, rows.kind->press.form(rows.usesTexels),
                 {predicted.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.directions,
                  rows.weights, rows.shares, lists.memory->memory, rows.impulses, rows.before, predicted.step,
                  rows.surfaces.ofParticles, rows.surfaces.pairs});
-    addImpulses(program, rows, rows.directions, rows.kind->gather, predicted,
-                remainderConstants(predicted.layout));
+    addImpulses(program, rows, rows.directions, rows.usesTexels ? rows.kind->gather : rows.kind->gatherLoads,
+                predicted, remainderConstants(predicted.layout));
 }
 
 void addBounces(ProgramBuilder& program, const Rows& rows, const ParticleBuffers& state) {

@@ -25,16 +25,21 @@
 
 namespace sinew::sim::collision::row_contacts {
 
+/// A kernel in its forms.
+struct Fetching {
+    const vk::ShaderCode *texels = nullptr, *loads = nullptr;
+    const vk::ShaderCode& form(bool usesTexels) const { return usesTexels ? *texels : *loads; }
+};
+
 /// The kernels of one kind of contacts.
 struct Kind {
     const char* name = nullptr; ///< of buffers
-    const vk::ShaderCode* touch = nullptr;
+    Fetching touch{};
     bool touchesLists = false; ///< whether `touch` runs over owners of lists, not over single rows
-    const vk::ShaderCode* share = nullptr;
-    const vk::ShaderCode* press = nullptr;
+    Fetching share{}, press{};
     const vk::ShaderCode* bounce = nullptr;
     const vk::ShaderCode* rebound = nullptr;
-    forces::Forms gather{}, gatherRebound{};
+    forces::Forms gather{}, gatherLoads{}, gatherRebound{};
     ProgramBuilder::Constants (forces::Forces::*forces)() const = nullptr; ///< elements of the gathers
     const vk::ShaderCode* wake = nullptr;
     const vk::ShaderCode* join = nullptr;
@@ -69,6 +74,7 @@ struct Rows {
     surfaces::Surfaces surfaces;
     BufferId marks;         ///< contact_lists::linkedMarks; another buffer if the kernels read none
     bool keepsRest = false; ///< of any particle
+    bool usesTexels = true; ///< as in Forms
 
     bool sleeps = false;                    ///< whether the scene may sleep
     BufferId corners, cornerEnds;           ///< see Corners
@@ -80,7 +86,7 @@ struct Rows {
     std::vector<BufferId> forceRows;        ///< additional buffers of the gathers, if forces are kept
 };
 
-/// Makes the buffers of `rows`; members up to `keepsRest` must be set.
+/// Makes the buffers of `rows`; members up to `usesTexels` must be set.
 void add(ProgramBuilder& program, Rows& rows, const Corners& corners, const ParticleBuffers& particles);
 
 /// Constants of kernels with pairs that may keep their rest distance. `isFirst`: first substep of a step.
