@@ -39,6 +39,14 @@ void write(uint element, Touch touch) {
     weights[element] = vec4(touch.b, touch.remembered);
 }
 
+// Of up to 32 elements from `from` on those to look at again after `passed`, as bits.
+uint besides(uint from, uint end, uint passed, ContactFace face) {
+    uint bits = 0u;
+    for (uint element = from; element < end; ++element)
+        bits |= uint(element != passed && areNeighbours(faceAt(CONTACT(element).x), face)) << element - from;
+    return bits;
+}
+
 void main() {
     const uint i = itemIndex(push.count);
     const uvec2 list = lists[i];
@@ -50,15 +58,20 @@ void main() {
     // The second time, below a surface: the sides of the faces around are those of the face that was passed. What slides below another face
     // must not be pushed out there. One copy of touchOf() serves both times: the kernel is half as large.
     [[dont_unroll]] for (uint time = 0u; time < 2u; ++time) {
-        for (uint element = list.x; element < end; ++element) {
-            if (time == 1u && (element == passed || !areNeighbours(faceAt(CONTACT(element).x), passing.face))) continue;
-            Touch touch = touchOf(i, list, element, through);
-            if (keepsRest && time == 0u) touch = heldTouch(i, element, touch);
-            if (touch.isThrough && passed == ~0u) {
-                passed = element;
-                passing = touch;
+        for (uint from = list.x; from < end; from += 32u) {
+            const uint last = min(from + 32u, end);
+            uint left = time == 0u ? ~0u >> from + 32u - last : 0u;
+            left |= besides(from, time == 0u ? from : last, passed, passing.face);
+            for (; left != 0u; left &= left - 1u) {
+                const uint element = from + uint(findLSB(left));
+                Touch touch = touchOf(i, list, element, through);
+                if (keepsRest && time == 0u) touch = heldTouch(i, element, touch);
+                if (touch.isThrough && passed == ~0u) {
+                    passed = element;
+                    passing = touch;
+                }
+                write(element, touch);
             }
-            write(element, touch);
         }
         if (passed == ~0u) break;
         through = passing.n;

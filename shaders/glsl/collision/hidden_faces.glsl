@@ -1,7 +1,8 @@
 // Selects the faces that push a point, among touched faces that are static or of closed bodies. Inner edges of a flat
 // surface must not push: a point over one face is near an edge of the next face too. Requires faces, contacts,
 // directions and push.
-bool isSolid(uint face) { return face >= push.sheets && face < push.moving; }
+layout(constant_id = 4) const bool hasSolid = true; // some faces are of closed bodies
+bool isSolid(uint face) { return hasSolid && face >= push.sheets && face < push.moving; }
 
 bool isCorner(uint i, ContactFace face) { return i == face.a || i == face.b || i == face.c; }
 
@@ -84,24 +85,34 @@ void leaveOverlap(uint i, uint element) {
 // depth is below 0. Its memory goes on, for the nearest place may move from one face to the other. Contacts with
 // moving sheets are not hidden: where cloth lies on cloth, pushing the neighbouring faces as well spreads the load of
 // a point, and folds come to rest sooner.
-void hide(uint i, uint first, uint end) {
-    for (uint element = first; element < end; ++element) {
-        const uint corners = cornersIn(directions[element].w);
-        if (!(directions[element].w > 0.0) || corners == 7u || CONTACT(element).x < push.sheets) continue;
-        const ContactFace face = faceAt(CONTACT(element).x);
-        bool isHidden = false;
-        for (uint beside = first; beside < end && !isHidden; ++beside) {
-            if (beside == element || CONTACT(beside).x < push.sheets) continue;
-            const ContactFace other = faceAt(CONTACT(beside).x);
-            if (!has(other, face, corners)) continue;
-            if (directions[beside].w == 0.0) {
-                isHidden = isBehind(i, element, corners, beside);
-                if (isHidden) leaveOverlap(i, element);
-                continue;
-            }
-            isHidden = beside < element || !has(face, other, cornersIn(directions[beside].w));
-            if (isHidden && keepsRest) weights[element].w = withRestOf(i, element, beside);
+bool mayHide(uint element) {
+    const float depth = directions[element].w;
+    return depth > 0.0 && cornersIn(depth) != 7u && CONTACT(element).x >= push.sheets;
+}
+
+void hideOne(uint i, uint element, uint first, uint end) {
+    const uint corners = cornersIn(directions[element].w);
+    const ContactFace face = faceAt(CONTACT(element).x);
+    bool isHidden = false;
+    for (uint beside = first; beside < end && !isHidden; ++beside) {
+        if (beside == element || CONTACT(beside).x < push.sheets) continue;
+        const ContactFace other = faceAt(CONTACT(beside).x);
+        if (!has(other, face, corners)) continue;
+        if (directions[beside].w == 0.0) {
+            isHidden = isBehind(i, element, corners, beside);
+            if (isHidden) leaveOverlap(i, element);
+            continue;
         }
-        if (isHidden) directions[element].w = -directions[element].w;
+        isHidden = beside < element || !has(face, other, cornersIn(directions[beside].w));
+        if (isHidden && keepsRest) weights[element].w = withRestOf(i, element, beside);
+    }
+    if (isHidden) directions[element].w = -directions[element].w;
+}
+
+void hide(uint i, uint first, uint end) {
+    for (uint from = first; from < end; from += 32u) {
+        uint left = 0u; // a software device takes its time for code under a condition, but not for turns of a loop
+        for (uint element = from; element < min(from + 32u, end); ++element) left |= uint(mayHide(element)) << element - from;
+        for (; left != 0u; left &= left - 1u) hideOne(i, from + uint(findLSB(left)), first, end);
     }
 }

@@ -233,9 +233,10 @@ std::vector<std::array<std::uint32_t, 2>> stopRowsOf(const Faces& faces, const f
 }
 
 ProgramBuilder::Constants touchConstants(const Contacts& contacts, bool isFirst) {
-    constexpr std::uint32_t firstInnerId = 3; // constant_id in find_face_contacts.comp
+    constexpr std::uint32_t firstInnerId = 3, hasSolidId = 4; // constant_ids in find_face_contacts.comp
     ProgramBuilder::Constants constants = row_contacts::restConstants(contacts.rows.keepsRest, isFirst);
     if (contacts.hasInner()) constants[firstInnerId] = contacts.firstInner;
+    constants[hasSolidId] = contacts.hasSolid();
     return constants;
 }
 
