@@ -13,7 +13,7 @@ layout(push_constant) uniform Push { FaceFindPush push; };
 layout(std430, binding = 1) buffer Chains { uint chains[]; }; // chains of links
 layout(std430, binding = 2) readonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
-layout(std430, binding = 4) writeonly buffer Links { uint links[]; }; // elements of contacts
+layout(std430, binding = 4) buffer Links { uint links[]; }; // elements of contacts
 layout(std430, binding = 5) writeonly buffer LinkLists { uvec2 linkLists[]; };
 layout(std430, binding = 6) writeonly buffer Points { FacePoints points; };
 layout(std430, binding = 7) buffer Bounds { GridBounds bounds; };
@@ -42,14 +42,16 @@ void listGroups(uint shape, bool isLinked) {
 }
 
 uint shape;
-void put(uint element, uint owner) {
+void place(uint link, uint owner) { links[link] = owner; }
+void complete(uint link) {
+    const uint owner = links[link];
     uint low = lists[owner].x, high = low + lists[owner].y;
     while (low < high) {
         const uint middle = (low + high) / 2u;
         if (contacts[middle].other < shape) low = middle + 1u;
         else high = middle;
     }
-    links[element] = min(low, push.room - 1u); // missing only if the step will be undone
+    links[link] = min(low, push.room - 1u); // missing only if the step will be undone
 }
 #include "collision/sort_pairs.glsl"
 

@@ -80,7 +80,9 @@ void listGroups(uint i) {
 
 uint owner;
 float own; // radius, or thickness [m]
-void put(uint element, uint entry) {
+void place(uint element, uint entry) { contacts[element].other = entry; }
+void complete(uint element) {
+    const uint entry = contacts[element].other;
     contacts[element] = ContactCandidate(otherOf(entry), reachOf(own, entry));
 #ifdef HAS_MEMORY
     memory[element] = vec4(0.0);
@@ -102,7 +104,7 @@ void setHit(uvec2 list, uint i, uint element) {
 }
 #endif
 
-// Gives back what is kept of candidates that are listed again; put() has cleared all. Both lists are sorted.
+// Gives back what is kept of candidates that are listed again; complete() has cleared all. Both lists are sorted.
 void returnMemory(uvec2 list, uint i) {
 #ifdef HITS_BINDING
     clearHits(list, i);

@@ -1,7 +1,7 @@
 // Converts a chain of pairs to a list sorted by the other owner, so that sums over it do not depend on when and how
-// pairs were found. Requires the names of listed_pairs.glsl and ENTRIES_OF_PAIR; a kernel defines put(), which writes
-// an element.
-#define BLOCK 16
+// pairs were found. Requires the names of listed_pairs.glsl and ENTRIES_OF_PAIR; a kernel defines place(), which writes
+// the other owner of an element, and complete(), which makes the element from it.
+#define BLOCK 8
 #define SHORT_LIST 256u
 
 uint unsortedAt(uint k) { return pairs[push.room / ENTRIES_OF_PAIR + k / 4u][k % 4u]; }
@@ -20,7 +20,7 @@ void sortShort(uint first, uint n) {
             [[unroll]] for (uint b = 0u; b < BLOCK; ++b) rank[b] += other < mine[b] || other == mine[b] && s < start + b ? 1u : 0u;
         }
         [[unroll]] for (uint b = 0u; b < BLOCK; ++b)
-            if (start + b < n) put(first + rank[b], mine[b]);
+            if (start + b < n) place(first + rank[b], mine[b]);
     }
 }
 
@@ -41,10 +41,10 @@ void sortLong(uint first, uint n) {
     for (uint last = n - 1u; last > 0u; --last) {
         const uint largest = unsortedAt(first);
         setUnsorted(first, unsortedAt(first + last));
-        put(first + last, largest);
+        place(first + last, largest);
         sink(first, 0u, last);
     }
-    put(first, unsortedAt(first));
+    place(first, unsortedAt(first));
 }
 
 // Sorts the n entries of a chain into elements from `first` on.
@@ -55,4 +55,6 @@ void sortChain(uint chain, uint first, uint n) {
     }
     if (n > SHORT_LIST) sortLong(first, n);
     else sortShort(first, n);
+    // A loop: in the unrolled code above every lane pays for each entry of a block that it does not have.
+    for (uint k = first; k < first + n; ++k) complete(k);
 }
