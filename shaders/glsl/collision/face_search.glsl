@@ -47,7 +47,13 @@ struct Searched {
     float reach;    // search distance without radius and motion of the point [m]
     float still;    // the same without the motion of the face [m]
     vec3 va, vb, vc; // [m/s]
+    vec3 v;          // their mean [m/s]
+    float size;      // radius of a ball around the face [m]
+    float turning;   // motion of a corner relative to the mean in this substep [m]
+    Squares squares;
 };
+
+float longestOf(vec3 a, vec3 b, vec3 c) { return sqrt(max(dot(a, a), max(dot(b, b), dot(c, c)))); }
 
 Searched searchedOf(uint f) {
     const ContactFace face = faces[f];
@@ -58,7 +64,9 @@ Searched searchedOf(uint f) {
     const Triangle triangle = triangleOf(b - a, c - a);
     float still = abs(face.thickness) + push.margin;
     if (isSliver(triangle)) still += 1e-3 * length(size); // its edges may be as far apart as that
-    return Searched(f, face, a, triangle, low, high, still + way, still, va, vb, vc);
+    const vec3 v = (va + vb + vc) / 3.0;
+    return Searched(f, face, a, triangle, low, high, still + way, still, va, vb, vc, v, 0.5 * length(size),
+                    step.h * longestOf(va - v, vb - v, vc - v), squaresOf(triangle));
 }
 
 #include "collision/excluded.glsl"
@@ -99,19 +107,15 @@ bool isInBox(Searched face, vec3 x, float reach) {
     return dot(d, d) < reach * reach;
 }
 
-float longestOf(vec3 a, vec3 b, vec3 c) { return sqrt(max(dot(a, a), max(dot(b, b), dot(c, c)))); }
-
 // True if a fast point, seen from the centre of a face, stays outside of the ball around the face during the whole
 // substep: without this test a body of small faces would be listed completely with it. Its motion in the next substep
 // is within the margin, or lists are rebuilt.
 bool isBesideWay(Searched face, uint i, vec3 x) {
-    const vec3 v = (face.va + face.vb + face.vc) / 3.0;
-    const vec3 way = step.h * (VELOCITY(i).xyz - v), d = 0.5 * (face.low + face.high) - x;
-    const float size = 0.5 * length(face.high - face.low), length2 = dot(way, way);
-    if (length2 < size * size) return false;
-    const float turning = step.h * longestOf(face.va - v, face.vb - v, face.vc - v);
+    const vec3 way = step.h * (VELOCITY(i).xyz - face.v), d = 0.5 * (face.low + face.high) - x;
+    const float length2 = dot(way, way);
+    if (length2 < face.size * face.size) return false;
     const vec3 apart = d + clamp(-dot(d, way) / length2, 0.0, 1.0) * way;
-    const float reach = 1.001 * (size + face.still + turning + RADIUS(i));
+    const float reach = 1.001 * (face.size + face.still + face.turning + RADIUS(i));
     return dot(apart, apart) > reach * reach;
 }
 
@@ -122,7 +126,7 @@ bool isNear(Searched face, uint i, vec3 x, float less) {
     if (i == face.face.a || i == face.face.b || i == face.face.c) return false;
     if (f >= push.moving && inverseMass[i] == 0.0) return false; // neither ever moves
     if (isBesideWay(face, i, x)) return false;
-    const vec3 v = VELOCITY(i).xyz, d = nearestOf(x - face.a, face.triangle).d;
+    const vec3 v = VELOCITY(i).xyz, d = nearestOf(x - face.a, face.triangle, face.squares).d;
     const float reach = face.still + RADIUS(i) + step.h * longestOf(v - face.va, v - face.vb, v - face.vc) - less;
     return dot(d, d) < reach * reach;
 }

@@ -29,19 +29,32 @@ struct Nearest {
     bool isInside; // the point projects onto the inside of the triangle
 };
 
-float along(vec3 p, vec3 edge) { return clamp(dot(p, edge) / max(dot(edge, edge), 1e-37), 0.0, 1.0); }
+// Values of a triangle that a loop over points computes beforehand: a software device computes them anew in every turn.
+struct Squares {
+    vec3 edges;    // squared lengths of ab, ac and bc, not 0 [m^2]
+    float normal;  // of the normal [m^4]
+    bool isSliver;
+};
 
-Nearest nearestOf(vec3 ap, Triangle triangle) {
+Squares squaresOf(Triangle triangle) {
+    const vec3 ab = triangle.ab, ac = triangle.ac, bc = ac - ab;
+    return Squares(max(vec3(dot(ab, ab), dot(ac, ac), dot(bc, bc)), vec3(1e-37)), dot(triangle.normal, triangle.normal), isSliver(triangle));
+}
+
+Nearest nearestOf(vec3 ap, Triangle triangle, Squares squares) {
     const vec3 ab = triangle.ab, ac = triangle.ac, bc = ac - ab;
     const vec3 inside = weightsOf(ap, triangle);
-    const float s = along(ap, ab), t = along(ap, ac), u = along(ap - ab, bc);
+    const float s = clamp(dot(ap, ab) / squares.edges.x, 0.0, 1.0), t = clamp(dot(ap, ac) / squares.edges.y, 0.0, 1.0);
+    const float u = clamp(dot(ap - ab, bc) / squares.edges.z, 0.0, 1.0);
     const vec3 dAB = ap - s * ab, dAC = ap - t * ac, dBC = ap - ab - u * bc;
     Nearest nearest = Nearest(vec3(1.0 - s, s, 0.0), dAB, false);
     if (dot(dAC, dAC) < dot(nearest.d, nearest.d)) nearest = Nearest(vec3(1.0 - t, 0.0, t), dAC, false);
     if (dot(dBC, dBC) < dot(nearest.d, nearest.d)) nearest = Nearest(vec3(0.0, 1.0 - u, u), dBC, false);
-    if (!isSliver(triangle) && min(inside.x, min(inside.y, inside.z)) >= 0.0) {
-        const float height = dot(ap, triangle.normal) / dot(triangle.normal, triangle.normal);
+    if (!squares.isSliver && min(inside.x, min(inside.y, inside.z)) >= 0.0) {
+        const float height = dot(ap, triangle.normal) / squares.normal;
         nearest = Nearest(inside, height * triangle.normal, true);
     }
     return nearest;
 }
+
+Nearest nearestOf(vec3 ap, Triangle triangle) { return nearestOf(ap, triangle, squaresOf(triangle)); }
