@@ -15,10 +15,7 @@ case ${1:-} in
 esac
 need "${build_packages[@]}" "${test_packages[@]}"
 echo "checking layers, documents and format"
-python3 tools/check_layers.py
-python3 tools/figures.py --check
-python3 tools/check_docs.py
-find src apps tools tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 clang-format --dry-run --Werror
+tools/check.sh
 # use the software device, even if the machine has a GPU
 for icd in /usr/share/vulkan/icd.d/lvp_icd.*.json; do export VK_ICD_FILENAMES=$icd; done
 

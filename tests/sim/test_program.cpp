@@ -213,7 +213,7 @@ TEST(Program, OfSplitIsOneDispatchASubstepAndOneCopyWhereSubstepsAreOdd) {
 TEST(Program, OfJacobiIsTwoPassesAnIteration) {
     const StepProgram program =
         compile(test::block(2, 0.1f, 1e5f), {.solver = Solver::jacobi, .substeps = 3, .iterations = 5});
-    EXPECT_EQ(countPasses(program, "solve_distance_compliant"), 15u);
+    EXPECT_EQ(countPasses(program, "solve_distance"), 15u);
     EXPECT_EQ(countPasses(program, "apply_corrections"), 15u);
     EXPECT_EQ(countPasses(program, "predict"), 3u);
     EXPECT_EQ(program.sweeps, 15u);
