@@ -1,7 +1,6 @@
 # Compiles GLSL to SPIR-V 1.5 and embeds it as arrays in a library.
 #
-#   add_kernels(<target> NAMESPACE <c++ namespace> HEADER <name.hpp> SOURCES <files...> [VARIANTS <lines...>]
-#               [AWAKE <stems...>] [NEVER_AWAKE <expression>])
+#   add_kernels(<target> NAMESPACE <c++ namespace> HEADER <name.hpp> SOURCES <files...> [VARIANTS <lines...>])
 #
 # compiles every file for Vulkan 1.2, runs spirv-val on it (SINEW_CHECK_KERNELS) and adds one `const
 # vk::ShaderCode` for each file to <target>: solve_distance.comp becomes <namespace>::solveDistance, skin.vert
@@ -27,33 +26,15 @@ function(sinew_camel_case out text)
 endfunction()
 
 # A variant is one line, "name: file [MACRO...]": the file compiled under this name with these macros defined.
-# Kernels compiled from the files named in AWAKE get a second form, <name>_awake, with AWAKE defined.
-# <namespace>::awakeForms pairs all kernels with these forms. Entries that match NEVER_AWAKE get none. A
-# second header, all_<name.hpp>, lists all kernels as <namespace>::all.
+# A second header, all_<name.hpp>, lists all kernels as <namespace>::all.
 function(add_kernels target)
-    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER;NEVER_AWAKE" "SOURCES;VARIANTS;AWAKE")
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER" "SOURCES;VARIANTS")
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
     file(MAKE_DIRECTORY ${folder})
     set(declarations "")
     set(all "")
-    set(pairs "")
-    set(awake "")
     set(embeddings "")
     foreach(entry IN LISTS ARG_SOURCES ARG_VARIANTS)
-        string(REGEX REPLACE "^.*/([a-z_]+)\\.comp.*$" "\\1" file "${entry}")
-        if(NOT file IN_LIST ARG_AWAKE OR (ARG_NEVER_AWAKE AND entry MATCHES "${ARG_NEVER_AWAKE}"))
-            continue()
-        endif()
-        if(entry MATCHES "^([a-z0-9_]+):(.*)$")
-            list(APPEND awake "${CMAKE_MATCH_1}_awake:${CMAKE_MATCH_2} AWAKE")
-            sinew_camel_case(identifier ${CMAKE_MATCH_1})
-        else()
-            list(APPEND awake "${file}_awake: ${entry} AWAKE")
-            sinew_camel_case(identifier ${file})
-        endif()
-        string(APPEND pairs "    {&${identifier}, &${identifier}Awake},\n")
-    endforeach()
-    foreach(entry IN LISTS ARG_SOURCES ARG_VARIANTS awake)
         if(entry MATCHES "^([a-z0-9_]+): +([^ ]+) *(.*)$")
             set(source ${CMAKE_MATCH_2})
             set(stem ${CMAKE_MATCH_1})
@@ -100,9 +81,6 @@ function(add_kernels target)
         string(APPEND declarations "extern const vk::ShaderCode ${identifier};\n")
         string(APPEND all "    &${identifier},\n")
     endforeach()
-    if(pairs)
-        string(APPEND declarations "inline constexpr const vk::ShaderCode* awakeForms[][2] = {\n${pairs}};\n")
-    endif()
     file(CONFIGURE OUTPUT ${folder}/${ARG_HEADER} @ONLY CONTENT
 "// Generated from the shader files by cmake/Shaders.cmake.
 #pragma once

@@ -29,8 +29,8 @@ SHADER_ROOMS = ["common"] + ROOMS[:-1] + ["mesh", "viewer"]
 VIEWER_ROOMS = ["draw", "hands", "panels", "window", "pictures"]
 LIMITS = {".cpp": 600, ".hpp": 600, ".h": 600, ".comp": 150, ".glsl": 150, ".vert": 150, ".frag": 150}
 # Uniform blocks that are allowed. Lavapipe recompiles a shader when a uniform word used in a condition changes, so data that change with
-# every step are in storage buffers. No condition uses a word of Frames, and Planes never change.
-UNIFORMS = {"Step", "Bounds", "Frame", "Frames", "Planes"}
+# every step are in storage buffers. Planes never change.
+UNIFORMS = {"Step", "Bounds", "Frame", "Planes"}
 UNIFORM = re.compile(r"^layout\(std140[^)]*\)\s*uniform\s+(\w+)", re.M)
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^>"]+)[>"]', re.M)
 STAGES = re.compile(r"vkCmdPipelineBarrier|VK_PIPELINE_STAGE_|VK_ACCESS_")

@@ -304,7 +304,7 @@ enum class Solver { jacobi, split, gaussSeidel };
 /// measures). Only usesGrids changes rounding, because it changes the order in which links are summed.
 struct Forms {
     bool usesTexels =
-        true;              ///< fetch positions, skins and cuts through the texture path, not by storage loads
+        true; ///< fetch positions, links, contacts, skins and cuts through the texture path, not by loads
     bool usesGrids = true; ///< compute the neighbours of bodies on a grid instead of listing them
     /// March of one invocation through a lattice: columns in x and in y, 1 or 2, and at most `chunk` slices,
     /// 1..65535. With both 1, an invocation computes one node. 0 = chosen by the kind of device

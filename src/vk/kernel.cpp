@@ -194,7 +194,7 @@ void checkView(const Kernel& kernel, const KernelBinding& binding, const BufferV
     if (view.buffer == VK_NULL_HANDLE || view.size == 0)
         throw Error(Failure::misuse, where + ": no buffer is bound");
     const bool isTexels = binding.kind == BlockKind::texels;
-    if (!binding.takes(view.stride))
+    if (view.stride != BufferView::anyStride && !binding.takes(view.stride))
         throw Error(
             Failure::misuse,
             where + ": the buffer's stride is " + std::to_string(view.stride) + " bytes, the kernel's is " +
@@ -204,7 +204,9 @@ void checkView(const Kernel& kernel, const KernelBinding& binding, const BufferV
         throw Error(Failure::misuse, where + ": the offset " + std::to_string(view.offset) +
                                          " is no multiple of the device's " + std::to_string(alignment) +
                                          " bytes");
-    const std::uint64_t texels = isTexels ? KernelBinding::texelsIn(view.size, view.stride) : 0;
+    const std::uint64_t texels = isTexels && view.stride != BufferView::anyStride
+                                     ? KernelBinding::texelsIn(view.size, view.stride)
+                                     : 0;
     if (texels > limits.maxTexels)
         throw Error(Failure::outOfMemory, where + ": " + std::to_string(texels) +
                                               " elements exceed the device's maxTexelBufferElements of " +

@@ -127,12 +127,22 @@ void addVariable(const Module& module, const spirv::Variable& variable, KernelIn
     }
 }
 
-// The binding that need not follow the one before it: LAST_BINDING of shaders/glsl/common/layout.h.
-constexpr std::uint32_t lastBinding = 31;
+// A twin must be texels, and the binding that it reads a storage block.
+void checkTwin(const Module& module, const std::vector<KernelBinding>& bindings, const KernelBinding& twin) {
+    const auto block = std::ranges::find(bindings, twin.binding - texelTwins, &KernelBinding::binding);
+    const std::string name = "binding " + std::to_string(twin.binding) + ", " + twin.name;
+    if (twin.kind != BlockKind::texels || block == bindings.end() || block->kind != BlockKind::storage)
+        module.fail(name + ", must be texels of the storage block with binding " +
+                    std::to_string(twin.binding - texelTwins));
+    if (!twin.isAliased && (block->isAliased || block->access != Access::read))
+        module.fail(name + ", must be Aliased, because its buffer may be written");
+}
 
 void checkBindings(const Module& module, const std::vector<KernelBinding>& bindings) {
     for (std::uint32_t i = 0; i < bindings.size(); ++i)
-        if (bindings[i].binding != i && bindings[i].binding != lastBinding)
+        if (bindings[i].isTwin())
+            checkTwin(module, bindings, bindings[i]);
+        else if (bindings[i].binding != i && bindings[i].binding < firstLoose)
             module.fail("buffer " + bindings[i].name + " has binding " + std::to_string(bindings[i].binding) +
                         " instead of " + std::to_string(i) + ", which comes next");
 }

@@ -73,6 +73,7 @@ private:
 std::uint64_t hashOfRun(const sim::Scene& scene, const sim::Settings& settings, int steps = 3);
 
 /// Whether a step of the scene has a pass with this label.
-bool usesKernel(const sim::Scene& scene, const std::string& kernel, const sim::Settings& settings = {});
+bool usesKernel(const sim::Scene& scene, const std::string& kernel, const sim::Settings& settings = {},
+                const std::map<std::uint32_t, std::uint32_t>& constants = {});
 
 } // namespace sinew::test

@@ -134,6 +134,66 @@ TEST(ProgramBuilder, RefusesABufferThatIsNone) {
     expectNames(message, {"predict", "Velocities"});
 }
 
+TEST(ProgramBuilder, LeavesUnboundBindingsOutOfUsesAndBarriers) {
+    Predict p;
+    p.builder.beginPhase("solve");
+    const auto dispatch = [&] {
+        p.builder.dispatch(kernels::updateVelocity, 8,
+                           {p.velocities, p.step, unbound, unbound, unbound, unbound}, p.count);
+    };
+    dispatch();
+    const BufferId others = p.builder.scratch<Vec4>("others", 8);
+    p.builder.dispatch(kernels::updateVelocity, 8, {others, p.step, unbound, unbound, unbound, unbound},
+                       p.count);
+    const StepProgram program = p.builder.finish();
+    ASSERT_EQ(program.step[0].uses.size(), 2u);
+    EXPECT_FALSE(program.step[1].barriers[0]) << "the two share no buffer";
+    const std::vector<BufferId> buffers = boundBuffers(program, program.step[0]);
+    ASSERT_EQ(buffers.size(), 6u);
+    EXPECT_EQ(buffers[0], p.velocities);
+    EXPECT_EQ(std::count(buffers.begin(), buffers.end(), unbound), 4);
+}
+
+TEST(ProgramBuilder, BindsTexelTwinsOnlyWhereTheProgramFetchesTexels) {
+    for (const bool usesTexels : {true, false}) {
+        const StepProgram program =
+            compile(test::sheet(8), {.substeps = 2, .forms = {.usesTexels = usesTexels}});
+        std::size_t twins = 0;
+        for (const Pass& pass : program.step) {
+            if (pass.kind != PassKind::dispatch) continue;
+            const auto& bindings = program.kernels[pass.kernel].interface.bindings;
+            const std::vector<BufferId> buffers = boundBuffers(program, pass);
+            for (std::size_t b = 0; b < bindings.size(); ++b) {
+                if (!bindings[b].isTwin()) continue;
+                ++twins;
+                EXPECT_EQ(buffers[b], usesTexels ? buffers[bindings[b].binding - vk::texelTwins] : unbound)
+                    << pass.label << ", " << bindings[b].name;
+            }
+        }
+        EXPECT_GT(twins, 0u);
+    }
+}
+
+TEST(ProgramBuilder, TakesAListOfGroupsForKernelsThatMayRunOverOne) {
+    Predict p;
+    const BufferId before = p.builder.scratch<Vec4>("before", 16);
+    const BufferId listed = p.builder.scratch<std::uint32_t>("listed", 1);
+    const BufferId arguments = p.builder.scratch<Vec4>("arguments", 1);
+    p.builder.beginPhase("solve");
+    const std::array<BufferId, 4> buffers{p.positions, p.velocities, before, p.step};
+    const std::array<std::uint32_t, 2> push{8, 1};             // count, whether it is the first substep
+    constexpr std::uint32_t lastBinding = 31, runsListed = 30; // bindings.h
+    p.builder.dispatch(kernels::saveSubstepStart, 8, buffers, push);
+    p.builder.dispatchListed(kernels::saveSubstepStart, {arguments, 0, 8}, buffers, listed, push);
+    const StepProgram program = p.builder.finish();
+    EXPECT_EQ(boundUses(program.step[0]).size(), 4u);
+    ASSERT_EQ(boundUses(program.step[1]).size(), 5u);
+    EXPECT_EQ(boundUses(program.step[1]).back().buffer, listed);
+    EXPECT_EQ(boundUses(program.step[1]).back().binding, lastBinding);
+    EXPECT_EQ(boundBuffers(program, program.step[0]).back(), unbound);
+    EXPECT_EQ(program.kernels[program.step[1].kernel].constants.at(runsListed), 1u);
+}
+
 TEST(ProgramBuilder, RefusesAnEmptyDispatchAndAPassWithoutPhase) {
     Predict p;
     expectNames(test::refusal([&] { p.builder.fill(p.positions, 0); }), {"fill", "phase"});
@@ -224,7 +284,7 @@ TEST(Program, OfGaussSeidelIsOneDispatchAColorAndOneMoreASubstep) {
     const StepProgram sheet = compile(test::sheet(8), settings);
     // update, fill, 5 x (open or advance, 8 colors), close, measure, publish, publish the multipliers
     EXPECT_EQ(sheet.step.size(), 2u + 5 * 9 + 4);
-    EXPECT_EQ(countPasses(sheet, "solve_distance_color_multipliers[7]"), 5u);
+    EXPECT_EQ(countPasses(sheet, "solve_distance_color[7]"), 5u);
     EXPECT_EQ(sheet.sweeps, 5u);
     settings.warmStart = 0;
     EXPECT_EQ(countPasses(compile(test::block(4, 0.1f, 1e5f), settings), "solve_distance_color[17]"), 5u);
@@ -328,6 +388,18 @@ std::string contents(const std::string& path) {
 } // namespace
 
 // SINEW_UPDATE_GOLDEN=1 rewrites the files. A commit that does so must justify the new program.
+TEST(Program, SearchesForLinksOnlyWhereABodyMayBeCut) {
+    constexpr std::uint32_t hasLinks = 1; // constant_id in face_search.glsl
+    const StepProgram program = compile(thickSheet(), {.substeps = 2});
+    std::size_t searches = 0;
+    for (const KernelUse& use : program.kernels) {
+        if (use.code != &kernels::findFaces) continue;
+        ++searches;
+        EXPECT_EQ(use.constants.at(hasLinks), 0u);
+    }
+    EXPECT_EQ(searches, 1u);
+}
+
 TEST(Describe, PrintsTheGoldenText) {
     for (const Golden& golden : goldens()) {
         const std::string path = std::string(SINEW_GOLDEN_FOLDER) + "/" + golden.file;

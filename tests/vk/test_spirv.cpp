@@ -103,6 +103,8 @@ TEST(KernelInterface, IsRefusedByNameWhereAKernelBreaksARule) {
         {kernels::texture, "picture is no samplerBuffer"},
         {kernels::doublePrecision, "capability 10"},
         {kernels::rowMajor, "row-major"},
+        {kernels::twinAlone, "weights, must be texels of the storage block with binding 1"},
+        {kernels::twinOfWritten, "before, must be Aliased"},
     };
     for (const auto& [code, complaint] : cases) {
         const std::string message = complaintAbout(code);

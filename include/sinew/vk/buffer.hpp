@@ -10,6 +10,8 @@ struct BufferView {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize offset = 0, size = 0; ///< [B]
     std::uint32_t stride = 0;          ///< [B]
+    /// A stride that any binding takes: for bindings that a kernel does not access.
+    static constexpr std::uint32_t anyStride = 0xffffffffu;
 };
 
 struct BufferRequest {

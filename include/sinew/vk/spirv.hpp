@@ -23,6 +23,13 @@ enum class Access : std::uint8_t { read = 1, write = 2, readWrite = 3 };
 /// of which a texel is 16.
 enum class BlockKind : std::uint8_t { storage, uniform, texels };
 
+/// Binding n + texelTwins holds texels of the storage block with binding n: one buffer that a kernel reads in
+/// either way (shaders/glsl/common/fetched.glsl).
+constexpr std::uint32_t texelTwins = 32;
+/// Bindings from here to the twins need not follow the one before them: FORCES_BINDING and LAST_BINDING of
+/// shaders/glsl/common/layout.h.
+constexpr std::uint32_t firstLoose = 27;
+
 struct KernelBinding {
     std::uint32_t binding = 0;
     std::string name;                  ///< the block's name in GLSL, such as "Positions"
@@ -36,6 +43,8 @@ struct KernelBinding {
     /// writes it.
     bool isAliased = false;
 
+    /// True if this reads the buffer of another binding, `binding - texelTwins`, as texels.
+    bool isTwin() const { return binding >= texelTwins; }
     /// True if a buffer with elements of `bytes` may be bound here.
     bool takes(std::uint32_t bytes) const {
         if (kind != BlockKind::texels) return bytes == stride;
@@ -52,13 +61,15 @@ struct SpecialisationConstant {
 };
 
 struct KernelInterface {
-    std::vector<KernelBinding> bindings;             ///< descriptor set 0, sorted; a gap only before 31
+    std::vector<KernelBinding> bindings;             ///< descriptor set 0, sorted; no gaps below firstLoose
     std::uint32_t pushConstantSize = 0;              ///< [B], rounded up to the block's std430 alignment
     std::array<std::uint32_t, 3> groupSize{1, 1, 1}; ///< with the values of the specialisation constants
     /// The specialisation constant for a dimension of the group size; empty = fixed.
     std::array<std::optional<std::uint32_t>, 3> groupSizeIds;
     std::vector<std::uint32_t> specialisationIds; ///< sorted
     std::uint32_t sharedMemory = 0;               ///< [B], workgroup storage; as specialised
+
+    bool hasConstant(std::uint32_t id) const { return std::ranges::binary_search(specialisationIds, id); }
 };
 
 /// Reads the interface of `code`. `constants` replace the defaults in the module; unknown ids are ignored.

@@ -1,20 +1,17 @@
 #version 460
 // Contacts with faces and between edges, last pass: moves a particle by all of its rows at once, x_i += w_i sum
 // beta_ic l_c n_c. Momentum is exact to rounding, for an impulse has the same bits wherever it is read. Changes
-// predicted positions and velocities in place, in groups with at least one candidate. FORCES: adds impulses on static
-// faces from their points, since these faces have no lists of points. REBOUND: changes velocities by impulses [kg
+// predicted positions and velocities in place, in groups with at least one candidate. Impulses on static
+// faces are added from their points, since these faces have no lists of points. REBOUND: changes velocities by impulses [kg
 // m/s] after all contacts of a substep.
 #extension GL_GOOGLE_include_directive : require
+#define RUNS_LISTED
 #include "common/kernel.glsl"
 #include "common/remainder.glsl"
 #include "collision/rows_of.glsl"
-#ifdef TEXELS
-layout(binding = 7) uniform samplerBuffer impulses;
-#define IMPULSE(k) texelFetch(impulses, int(k))
-#else
-layout(std430, binding = 7) readonly buffer Impulses { vec4 impulses[]; };   // [kg m]
-#define IMPULSE(k) impulses[k]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(7, Impulses, impulseAt) // [kg m]
+#define IMPULSE(k) impulseAt(k)
 #ifdef REBOUND
 layout(std430, binding = 8) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
 layout(std430, binding = 9) buffer State { vec4 state[]; };       // x + thetaH v
@@ -25,14 +22,9 @@ layout(std430, binding = 9) buffer Predicted { vec4 predicted[]; }; // remainder
 layout(std140, binding = 10) uniform Step { StepParams step; };
 #endif
 
-#define FORCES_BINDING 11
-#ifndef EDGES
 #define STOPS
-#endif
 #include "forces/forces.glsl"
-#if defined FORCES && defined STOPS
 layout(std430, binding = FORCES_BINDING + 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate
-#endif
 
 vec3 sum = vec3(0.0);
 void visit(uint element, uint place) {
@@ -44,26 +36,20 @@ vec3 impulseOn(uint i) {
     return sum;
 }
 
-#ifdef FORCES
 // Adds the impulses on static faces from particle i at x: `scale` times the impulses of its contacts.
 void addStopForces(uint i, float scale, vec3 x) {
-#ifdef STOPS
-    const uvec2 list = lists[i];
+    const uvec2 list = keepsForces && !areEdges ? lists[i] : uvec2(0u);
     for (uint element = list.x; element < list.x + list.y; ++element)
         if (contacts[element].x >= push.moving && DIRECTION(element).w > 0.0)
             addStopForce(contacts[element].x, i, scale * IMPULSE(element).xyz, x);
-#endif
 }
-#endif
 
 #ifdef REBOUND
 void main() {
     const uint i = itemIndex(push.count);
     const vec3 impulse = impulseOn(i), change = velocities[i].w * impulse;
-#ifdef FORCES
     addContactForce(i, impulse);
     addStopForces(i, 1.0, state[i].xyz - step.thetaH * velocities[i].xyz);
-#endif
     velocities[i].xyz += change;
     state[i].xyz += step.thetaH * change;
 }
@@ -71,10 +57,8 @@ void main() {
 void main() {
     const uint i = itemIndex(push.count);
     const vec3 x = predicted[i].xyz, impulse = impulseOn(i), correction = velocities[i].w * impulse;
-#ifdef FORCES
     addContactForce(i, impulse / step.h);
     addStopForces(i, 1.0 / step.h, x);
-#endif
     predicted[i].xyz = x + correction;
     velocities[i].xyz += correction / step.h;
     if (!hasRemainders) return;

@@ -1,44 +1,34 @@
 // Shared by the two passes of restitution between particles: the contacts of a substep that rebound, and their
 // speeds. Newton's law against the velocities before the substep; impacts slower than step.restSpeed do not rebound,
 // or resting contacts would tremble.
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-layout(binding = 1) uniform usamplerBuffer contacts;
-layout(binding = 2) uniform samplerBuffer before;
-layout(binding = 3) uniform samplerBuffer predicted;
-#define POSITION(i) texelFetch(positions, int(i))
-#define CONTACT(i) texelFetch(contacts, int(i)).xy
-#define BEFORE(i) texelFetch(before, int(i)).xyz
-#define PREDICTED(i) texelFetch(predicted, int(i)).xyz
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; }; // used to find contacts
-layout(std430, binding = 1) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
-layout(std430, binding = 2) readonly buffer Before { vec4 before[]; };      // velocities before the substep [m/s]
-#define POSITION(i) positions[i]
-#define CONTACT(i) contacts[i]
-layout(std430, binding = 3) readonly buffer Predicted { vec4 predicted[]; }; // velocities used to find contacts
-#define BEFORE(i) before[i].xyz
-#define PREDICTED(i) predicted[i].xyz
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)  // used to find contacts
+FETCHED_UVEC2(1, Contacts, contactAt)   // ContactCandidate
+FETCHED_VEC4(2, Before, beforeAt)       // velocities before the substep [m/s]
+FETCHED_VEC4(3, Predicted, predictedAt) // velocities used to find contacts
+#define POSITION(i) positionAt(i)
+#define CONTACT(i) contactAt(i)
+#define BEFORE(i) beforeAt(i).xyz
+#define PREDICTED(i) predictedAt(i).xyz
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 7) readonly buffer Firsts { float firsts[]; }; // time of each particle's first contact, where isSwept
-#ifdef HAS_SURFACES
 layout(std430, binding = 8) readonly buffer Surfaces { uint surfaces[]; }; // one per particle
 layout(std430, binding = 9) readonly buffer Pairs { SurfacePair pairs[]; };
-#define RESTITUTION(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]].restitution
 #define HITS_BINDING 10
-#else
-#define RESTITUTION(i, j) push.restitution
-#define HITS_BINDING 8
-#endif
 #include "common/hit_masks.glsl"
 #define SLIPS_BINDING (HITS_BINDING + 1)
 layout(std430, binding = SLIPS_BINDING) readonly buffer Slips { vec4 slips[]; }; // see contact_memory.glsl; used by contacts that keep a rest distance
 #define BOUNCE_BINDING (SLIPS_BINDING + 1)
 layout(constant_id = 5) const bool keepsRest = false;
+layout(constant_id = 7) const bool hasSurfaces = false; // pairs differ
 layout(push_constant) uniform Push { ContactPush push; };
+
+float restitutionOf(uint i, uint j) {
+    if (!hasSurfaces) return push.restitution;
+    return pairs[surfaces[i] * push.surfaces + surfaces[j]].restitution;
+}
 
 // State of particle i.
 struct Self {
@@ -69,7 +59,7 @@ Bounce bounceFrom(uint i, uint slot, Self self) {
     Bounce bounce = Bounce(vec3(0.0), 0.0);
     if (!contact.exists && !hasPassed) return bounce;
     bounce.n = hasPassed ? passedDirection(d, way).n : directionOf(contact.at, i, j).n;
-    const float speed = dot3(bounce.n, change), rebound = -RESTITUTION(i, j) * speed;
+    const float speed = dot3(bounce.n, change), rebound = -restitutionOf(i, j) * speed;
     if (speed < -step.restSpeed) bounce.speed = rebound;
     return bounce;
 }

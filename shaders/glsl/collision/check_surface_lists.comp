@@ -3,24 +3,17 @@
 // its expected position than the slack; these contacts cover the whole path of a substep. plan_grid decides what
 // follows.
 #extension GL_GOOGLE_include_directive : require
+#define RUNS_OVER_SLOTS
 #include "common/kernel.glsl"
 #include "common/math.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-layout(binding = 1) uniform samplerBuffer velocities;
-layout(binding = 2) uniform samplerBuffer detected;
-#define POSITION(i) texelFetch(positions, int(i))
-#define VELOCITY(i) texelFetch(velocities, int(i))
-#define DETECTED(i) texelFetch(detected, int(i))
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 2) readonly buffer Detected { vec4 detected[]; };
-#define POSITION(i) positions[i]
-#define VELOCITY(i) velocities[i]
-#define DETECTED(i) detected[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)
+FETCHED_VEC4(1, Velocities, velocityAt)
+FETCHED_VEC4(2, Detected, detectedAt)
+#define POSITION(i) positionAt(i)
+#define VELOCITY(i) velocityAt(i)
+#define DETECTED(i) detectedAt(i)
 layout(std430, binding = 3) buffer Bounds { GridBounds bounds; };
 layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };

@@ -9,25 +9,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer velocities;
-layout(binding = 4) uniform samplerBuffer directions;
-layout(binding = 5) uniform samplerBuffer weights;
-layout(binding = 9) uniform samplerBuffer before;
-#define VELOCITY(i) texelFetch(velocities, int(i))
-#define DIRECTION(k) texelFetch(directions, int(k))
-#define WEIGHT(k) texelFetch(weights, int(k))
-#define BEFORE(i) texelFetch(before, int(i))
-#else
-layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 4) readonly buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch
-layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
-layout(std430, binding = 9) readonly buffer Before { vec4 before[]; };      // velocities at the start of the substep
-#define VELOCITY(i) velocities[i]
-#define DIRECTION(k) directions[k]
-#define WEIGHT(k) weights[k]
-#define BEFORE(i) before[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Velocities, velocityAt)
+FETCHED_VEC4(4, Directions, directionAt) // n, depth [m]; 0 = does not touch
+FETCHED_VEC4(5, Weights, weightAt)
+FETCHED_VEC4(9, Before, beforeAt)        // velocities at the start of the substep
+#define VELOCITY(i) velocityAt(i)
+#define DIRECTION(k) directionAt(k)
+#define WEIGHT(k) weightAt(k)
+#define BEFORE(i) beforeAt(i)
 layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
 layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // one per element
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };

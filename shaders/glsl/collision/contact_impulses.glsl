@@ -1,6 +1,5 @@
 // Part of gather_contacts: impulses on a particle from other particles, normal and friction with contact memory.
 // Requires the names and buffers of that kernel.
-#ifdef HAS_MEMORY
 // Friction impulse that cancels the slip of a pair, x w = share of the pair: all of the slip if its force is at most
 // `holds`, the static bound, else up to `slides`. The memory holds the slip before the substep, and the velocities
 // after it give the displacement that followed, whatever else moved the particles: summing predicted displacements
@@ -18,47 +17,31 @@ vec3 held(uint slot, vec3 n, vec3 way, vec3 wayBefore, float slides, float holds
     slips[slot] = vec4(old == vec3(0.0) ? vec3(1e-30, 0.0, 0.0) : old, offset);
     return share * slip;
 }
-#endif
 
 float offsetOf(uint slot) {
-#ifdef HAS_MEMORY
     return hasRecovery ? slips[slot].w : 0.0;
-#else
-    return 0.0;
-#endif
 }
 
 // Clears the slip of a pair that does not touch; the remaining overlap stays.
 void forget(uint slot) {
-#ifdef HAS_MEMORY
-    slips[slot] = vec4(0.0, 0.0, 0.0, offsetOf(slot));
-#endif
+    if (hasMemory) slips[slot] = vec4(0.0, 0.0, 0.0, offsetOf(slot));
 }
 
 bool keepsRestOf(float offset) {
-#ifdef HAS_MEMORY
     return keepsRest && isKept(offset);
-#else
-    return false;
-#endif
 }
 
 // The impulse on particle i from another that is `depth` too near along n [kg m].
 vec3 impulseAlong(vec3 n, float depth, uint i, uint other, uint slot, vec3 velocity, float split, float offset) {
-#ifdef FORCES
-    const float share = split > 0.0 ? 1.0 / split : 0.0; // two static particles exchange nothing
-#else
-    const float share = 1.0 / max(split, 1e-30); // two static particles: 0 times w = 0
-#endif
+    float share = 1.0 / max(split, 1e-30); // two static particles: 0 times w = 0
+    if (keepsForces && split <= 0.0) share = 0.0; // these exchange nothing
     const float lambda = depth * share;
     vec3 impulse = lambda * n;
-#ifdef HAS_MEMORY
     if (hasFriction) {
         const vec3 way = step.h * (velocity - VELOCITY(other).xyz), wayBefore = step.h * (BEFORE(i) - BEFORE(other));
-        impulse -= held(slot, n, way, wayBefore, PAIR(i, other).friction * lambda, PAIR(i, other).staticFriction * lambda, share,
-                        offset);
+        const vec2 friction = frictionOf(i, other);
+        impulse -= held(slot, n, way, wayBefore, friction.x * lambda, friction.y * lambda, share, offset);
     }
-#endif
     return impulse;
 }
 

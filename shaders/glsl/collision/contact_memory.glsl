@@ -1,30 +1,22 @@
-// Buffers of gather_contacts for pairs with contact memory, selected by its macros; PLANE_BINDING is the first
-// binding after them.
-#if defined HAS_MEMORY || defined HAS_REBOUND
-#ifdef TEXELS
-layout(binding = 11) uniform samplerBuffer before;
-#define BEFORE(i) texelFetch(before, int(i)).xyz
-#else
-layout(std430, binding = 11) readonly buffer Before { vec4 before[]; }; // velocities before the substep
-#define BEFORE(i) before[i].xyz
-#endif
-#endif
-#ifdef HAS_MEMORY
-layout(std430, binding = 12) buffer Slips { vec4 slips[]; }; // slip; w = remaining overlap, below 0 = keeps its rest distance [m]
-layout(constant_id = 3) const bool hasFriction = true;
+// Buffers of gather_contacts for pairs with contact memory, and what they remember; PLANE_BINDING is the first binding
+// after them.
+layout(constant_id = 3) const bool hasFriction = false;
 layout(constant_id = 4) const bool hasRecovery = false;
 layout(constant_id = 5) const bool keepsRest = false;
-#ifdef HAS_SURFACES
+layout(constant_id = 6) const bool hasMemory = false;
+layout(constant_id = 7) const bool hasSurfaces = false; // pairs differ
+layout(constant_id = 13) const bool hasRebound = false; // of planes
+FETCHED_VEC4(11, Before, beforeAt)                           // velocities before the substep
+layout(std430, binding = 12) buffer Slips { vec4 slips[]; }; // slip; w = remaining overlap, below 0 = keeps its rest distance [m]
 layout(std430, binding = 13) readonly buffer Surfaces { uint surfaces[]; }; // by particle
 layout(std430, binding = 14) readonly buffer Pairs { SurfacePair pairs[]; };
-#define PAIR(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]]
+#define BEFORE(i) beforeAt(i).xyz
 #define PLANE_BINDING 15
-#else
-#define PAIR(i, j) push
-#define PLANE_BINDING 13
-#endif
-#elif defined HAS_REBOUND
-#define PLANE_BINDING 12
-#else
-#define PLANE_BINDING 11
-#endif
+#define HAS_REBOUND hasRebound
+
+// Coefficients of friction of a pair: kinetic, static.
+vec2 frictionOf(uint i, uint j) {
+    if (!hasSurfaces) return vec2(push.friction, push.staticFriction);
+    const SurfacePair pair = pairs[surfaces[i] * push.surfaces + surfaces[j]];
+    return vec2(pair.friction, pair.staticFriction);
+}

@@ -1,6 +1,5 @@
 // Part of count_contacts: the reach of a pair with a remaining overlap, and the difference of a candidate. Requires
 // the names and buffers of that kernel.
-#ifdef HAS_RECOVERY
 // Advances the recovery of a remaining overlap. Call it once a substep.
 void recover(uint i, uint slot, vec3 x) {
     const float before = slips[slot].w;
@@ -15,25 +14,17 @@ void recover(uint i, uint slot, vec3 x) {
     const bool isOpened = canOpen && areParted(i, candidate.x);
     slips[slot].w = recovering(before, (isOpened ? min(push.recoverySpeed, CUT_RECOVERY_SPEED) : push.recoverySpeed) * step.h, overlap);
 }
-#endif
 
 float reachOf(uint slot, float reach) {
-#ifdef HAS_RECOVERY
-    return reach - nearerBy(slips[slot].w);
-#else
-    return reach;
-#endif
+    return hasRecovery ? reach - nearerBy(slips[slot].w) : reach;
 }
 
 // True if the candidate in a slot keeps its rest distance and its two particles have passed each other, at difference
 // d. Without it, two particles in one place could not separate.
 bool hasPassed(uint slot, vec3 d, vec3 velocity) {
-#ifdef HAS_RECOVERY
+    if (!hasRecovery) return false;
     const float reach = uintBitsToFloat(CONTACT(slot).y) - nearerBy(slips[slot].w);
     return keepsRest && isKept(slips[slot].w) && reach > 0.0 && passes(d, step.h * (velocity - VELOCITY(CONTACT(slot).x).xyz));
-#else
-    return false;
-#endif
 }
 
 // The candidate in a slot.

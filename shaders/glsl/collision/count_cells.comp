@@ -6,17 +6,11 @@
 #include "common/kernel.glsl"
 #include "collision/hash_grid.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-layout(binding = 1) uniform samplerBuffer radii;
-#define POSITION(i) texelFetch(positions, int(i))
-#define RADIUS(i) texelFetch(radii, int(i)).x
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Radii { float radii[]; };
-#define POSITION(i) positions[i]
-#define RADIUS(i) radii[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)
+FETCHED_FLOAT(1, Radii, radiusOf)
+#define POSITION(i) positionAt(i)
+#define RADIUS(i) radiusOf(i)
 layout(std140, binding = 2) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 3) buffer Counts { uint counts[]; };
 layout(std430, binding = 4) writeonly buffer Places { uvec2 places[]; }; // slot and rank of each particle

@@ -3,24 +3,17 @@
 // the number that its mass is divided by. The count is exact in every substep: with counts of the substep before, shares would
 // add up to more than the particle, and bodies would explode. In a substep with fast particles, those met on the way count, too.
 #extension GL_GOOGLE_include_directive : require
+#define MAY_RUN_LISTED
 #include "common/kernel.glsl"
 #include "common/contacts.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer predicted;
-layout(binding = 1) uniform usamplerBuffer contacts;
-layout(binding = 3) uniform samplerBuffer velocities;
-#define PREDICTED(i) texelFetch(predicted, int(i))
-#define CONTACT(i) texelFetch(contacts, int(i)).xy
-#define VELOCITY(i) texelFetch(velocities, int(i))
-#else
-layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
-layout(std430, binding = 1) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
-layout(std430, binding = 3) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
-#define PREDICTED(i) predicted[i]
-#define CONTACT(i) contacts[i]
-#define VELOCITY(i) velocities[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Predicted, predictedAt)
+FETCHED_UVEC2(1, Contacts, contactAt)   // ContactCandidate
+FETCHED_VEC4(3, Velocities, velocityAt) // w = inverse mass [1/kg]
+#define PREDICTED(i) predictedAt(i)
+#define CONTACT(i) contactAt(i)
+#define VELOCITY(i) velocityAt(i)
 layout(std430, binding = 2) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass
 layout(std140, binding = 5) uniform Step { StepParams step; };
@@ -29,13 +22,12 @@ layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // time
 #define HITS_BINDING 8
 #define HITS_ACCESS
 #include "common/hit_masks.glsl"
-#ifdef HAS_RECOVERY
+layout(constant_id = 4) const bool hasRecovery = false;
 layout(std430, binding = 9) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m], below 0 = keeps its rest distance
 layout(constant_id = 5) const bool keepsRest = false;
 layout(constant_id = 6) const bool canOpen = false; // a cut can let pairs touch
 #define MARKS_BINDING 10
 #include "collision/linked_marks.glsl"
-#endif
 layout(push_constant) uniform Push { ContactPush push; };
 
 #include "collision/contact_reach.glsl"
@@ -66,9 +58,8 @@ void main() {
     vec3 x = start.xyz;
     const vec4 velocity = VELOCITY(i);
     float contactCount = 0.0, first = 1.0;
-#ifdef HAS_RECOVERY
-    for (uint slot = list.x; slot < end; ++slot) recover(i, slot, x);
-#endif
+    if (hasRecovery)
+        for (uint slot = list.x; slot < end; ++slot) recover(i, slot, x);
     for (uint slot = list.x; slot < sweeping; ++slot) {
         const Pair pair = pairOf(slot, start, velocity.xyz);
         first = min(first, meetingOf(pair.d, pair.way, pair.reach, pair.areFree).time);

@@ -1,6 +1,7 @@
 #version 460
 // Restitution between particles, first pass: counts the bounces of a particle, by which its mass is divided.
 #extension GL_GOOGLE_include_directive : require
+#define MAY_RUN_LISTED
 #include "common/kernel.glsl"
 #include "common/contacts.glsl"
 #include "collision/bounces.glsl"

@@ -6,25 +6,15 @@
 #include "common/triangle.glsl"
 #include "collision/linked_reach.h"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-layout(binding = 1) uniform samplerBuffer velocities;
-layout(binding = 2) uniform samplerBuffer radii;
-layout(binding = 8) uniform usamplerBuffer excluded;
-#define POSITION(i) texelFetch(positions, int(i))
-#define VELOCITY(i) texelFetch(velocities, int(i))
-#define RADIUS(i) texelFetch(radii, int(i)).x
-#define EXCLUDED(k) texelFetch(excluded, int(k)).x
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
-layout(std430, binding = 2) readonly buffer Radii { float radii[]; };          // below 0 = touches no face
-layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; };     // first of each face, then points, sorted
-#define POSITION(i) positions[i]
-#define VELOCITY(i) velocities[i]
-#define RADIUS(i) radii[i]
-#define EXCLUDED(k) excluded[k]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)
+FETCHED_VEC4(1, Velocities, velocityAt) // w = inverse mass [1/kg]
+FETCHED_FLOAT(2, Radii, radiusOf)       // below 0 = touches no face
+FETCHED_UINT(8, Excluded, excludedAt)   // first of each face, then points, sorted
+#define POSITION(i) positionAt(i)
+#define VELOCITY(i) velocityAt(i)
+#define RADIUS(i) radiusOf(i)
+#define EXCLUDED(k) excludedAt(k)
 layout(std430, binding = 3) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 4) buffer PointChains { uint pointChains[]; };
 layout(std430, binding = 5) buffer FaceChains { uint faceChains[]; }; // chains of moving faces
@@ -77,7 +67,7 @@ Searched searchedOf(uint f) {
 #define BOND_DIAGONAL 1u
 #define BOND_EXCLUDED 2u
 
-#ifdef LINKS
+layout(constant_id = 1) const bool hasLinks = false; // a body may be cut
 layout(std430, binding = LINKS_BINDING) readonly buffer Links { uint links[]; }; // live links of each lattice node
 #include "lattice/link_masks.glsl"
 #include "lattice/link_ways.glsl"
@@ -86,6 +76,7 @@ layout(std430, binding = LINKS_BINDING) readonly buffer Links { uint links[]; };
 // in the table, where a further entry says whether diagonal links permit contacts.
 uint bondOf(Searched face, uint i) {
     if (isExcluded(face.index, i)) return BOND_EXCLUDED;
+    if (!hasLinks) return BOND_NONE;
     const uint end = EXCLUDED(face.index + 1u), last = end > EXCLUDED(face.index) ? EXCLUDED(end - 1u) : 0u;
     if ((last & EXCLUDED_LINKED) == 0u) return BOND_NONE;
     const uint strides = last & ~EXCLUDED_LINKED, rowStride = EXCLUDED(strides), sliceStride = EXCLUDED(strides + 1u);
@@ -97,9 +88,6 @@ uint bondOf(Searched face, uint i) {
     if (alive == 0u) return BOND_NONE;
     return (alive & EDGE_LINKS) != 0u || EXCLUDED(strides + 2u) == 0u ? BOND_EXCLUDED : BOND_DIAGONAL;
 }
-#else
-uint bondOf(Searched face, uint i) { return isExcluded(face.index, i) ? BOND_EXCLUDED : BOND_NONE; }
-#endif
 
 // True if x is within `reach` of the face's box; `reach` includes radius and motion of the point.
 bool isInBox(Searched face, vec3 x, float reach) {

@@ -3,17 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-layout(binding = 1) uniform usamplerBuffer places;
-#define POSITION(i) texelFetch(positions, int(i))
-#define PLACE(i) texelFetch(places, int(i)).xy
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Places { uvec2 places[]; }; // slot and rank of each particle
-#define POSITION(i) positions[i]
-#define PLACE(i) places[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)
+FETCHED_UVEC2(1, Places, placeAt) // slot and rank of each particle
+#define POSITION(i) positionAt(i)
+#define PLACE(i) placeAt(i)
 layout(std430, binding = 2) readonly buffer Starts { uint starts[]; };
 layout(std430, binding = 3) writeonly buffer Sorted { uvec4 sorted[]; }; // bits of the position; index
 layout(push_constant) uniform Push { GridPush push; };

@@ -6,42 +6,25 @@
 #include "common/kernel.glsl"
 #include "collision/hash_grid.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform usamplerBuffer sorted;
-layout(binding = 1) uniform usamplerBuffer starts;
-layout(binding = 2) uniform samplerBuffer positions;
-layout(binding = 3) uniform samplerBuffer radii;
-#define SORTED(i) texelFetch(sorted, int(i))
-#define START(i) texelFetch(starts, int(i)).x
-#define POSITION(i) texelFetch(positions, int(i))
-#define RADIUS(i) texelFetch(radii, int(i)).x
-#else
-layout(std430, binding = 0) readonly buffer Sorted { uvec4 sorted[]; };
-layout(std430, binding = 1) readonly buffer Starts { uint starts[]; };
-layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 3) readonly buffer Radii { float radii[]; };
-#define SORTED(i) sorted[i]
-#define START(i) starts[i]
-#define POSITION(i) positions[i]
-#define RADIUS(i) radii[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_UVEC4(0, Sorted, sortedAt)
+FETCHED_UINT(1, Starts, startAt)
+FETCHED_VEC4(2, Positions, positionAt)
+FETCHED_FLOAT(3, Radii, radiusOf)
+#define SORTED(i) sortedAt(i)
+#define START(i) startAt(i)
+#define POSITION(i) positionAt(i)
+#define RADIUS(i) radiusOf(i)
 layout(std430, binding = 4) coherent volatile buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 5) buffer Chains { uint chains[]; };
 #define PAIRS_BINDING 6
 layout(std430, binding = 7) readonly buffer Large { uint large[]; };
-#ifdef HAS_EXCLUSIONS
 layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; }; // first of each particle, then the lists, sorted
-#endif
 #ifdef SWEPT
-#ifdef HAS_EXCLUSIONS
-#define SWEPT_BINDING 9
-#else
-#define SWEPT_BINDING 8
-#endif
 #include "common/contacts.glsl"
-layout(std430, binding = SWEPT_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // that led to these positions
-layout(std430, binding = SWEPT_BINDING + 1) readonly buffer Fast { uint fast[]; };
-layout(std140, binding = SWEPT_BINDING + 2) uniform Step { StepParams step; };
+layout(std430, binding = 9) readonly buffer Velocities { vec4 velocities[]; }; // that led to these positions
+layout(std430, binding = 10) readonly buffer Fast { uint fast[]; };
+layout(std140, binding = 11) uniform Step { StepParams step; };
 #endif
 layout(push_constant) uniform Push { FindPush push; };
 #define FINDS_PAIRS
@@ -49,12 +32,10 @@ layout(push_constant) uniform Push { FindPush push; };
 #include "collision/listed_pairs.glsl"
 layout(constant_id = 1) const bool hasOneRadius = false;
 
-#ifdef HAS_EXCLUSIONS
+layout(constant_id = 2) const bool hasExclusions = false;
 #define EXCLUDED(k) excluded[k]
+#define ANY_EXCLUDED hasExclusions
 #include "collision/excluded.glsl"
-#else
-bool isExcluded(uint i, uint j) { return false; }
-#endif
 #include "collision/sweep.glsl"
 #include "collision/near_cells.glsl"
 

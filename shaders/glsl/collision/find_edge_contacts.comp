@@ -9,32 +9,22 @@
 #include "common/kernel.glsl"
 #include "common/segments.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer predicted;
-layout(binding = 1) uniform samplerBuffer velocities;
-layout(binding = 2) uniform usamplerBuffer edges;
-layout(binding = 3) uniform usamplerBuffer contacts;
-layout(binding = 5) uniform samplerBuffer memory;
-#define PREDICTED(i) texelFetch(predicted, int(i))
-#define VELOCITY(i) texelFetch(velocities, int(i))
-#define CONTACT(k) texelFetch(contacts, int(k)).xy
-#define MEMORY(k) texelFetch(memory, int(k))
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Predicted, predictedAt)
+FETCHED_VEC4(1, Velocities, velocityAt)
+layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
+TEXEL_TWIN(2, usamplerBuffer, edgeTexels);
+FETCHED_UVEC2(3, Contacts, contactAt) // ContactCandidate
+FETCHED_VEC4(5, Memory, memoryAt)     // w: side and overlap, 0 = no contact so far
+#define PREDICTED(i) predictedAt(i)
+#define VELOCITY(i) velocityAt(i)
+#define CONTACT(k) contactAt(k)
+#define MEMORY(k) memoryAt(k)
 ContactEdge edgeAt(uint e) {
-    const uvec4 words = texelFetch(edges, int(e));
+    if (!usesTexels) return edges[e];
+    const uvec4 words = texelFetch(edgeTexels, int(e));
     return ContactEdge(words.x, words.y, words.z, uintBitsToFloat(words.w));
 }
-#else
-layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
-layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
-layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
-layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };      // w: side and overlap, 0 = no contact so far
-#define PREDICTED(i) predicted[i]
-#define VELOCITY(i) velocities[i]
-#define CONTACT(k) contacts[k]
-#define MEMORY(k) memory[k]
-ContactEdge edgeAt(uint e) { return edges[e]; }
-#endif
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };           // one per edge: first element that it owns, count
 layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n from the other to the owner, depth [m]; 0 = none
 layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; w: new memory

@@ -8,40 +8,26 @@
 #include "common/segments.glsl"
 #include "collision/hash_grid.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-layout(binding = 1) uniform usamplerBuffer edges;
-layout(binding = 2) uniform samplerBuffer speeds;
-layout(binding = 3) uniform samplerBuffer thickness;
-layout(binding = 4) uniform usamplerBuffer sorted;
-layout(binding = 5) uniform usamplerBuffer starts;
-layout(binding = 6) uniform usamplerBuffer excluded;
-#define POSITION(i) texelFetch(positions, int(i))
-#define SPEED(e) texelFetch(speeds, int(e))
-#define THICKNESS(e) texelFetch(thickness, int(e)).x
-#define SORTED(k) texelFetch(sorted, int(k))
-#define START(slot) texelFetch(starts, int(slot)).x
-#define EXCLUDED(k) texelFetch(excluded, int(k)).x
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)
+layout(std430, binding = 1) readonly buffer Edges { ContactEdge edges[]; };
+TEXEL_TWIN(1, usamplerBuffer, edgeTexels);
+FETCHED_VEC4(2, Speeds, speedAt)
+FETCHED_FLOAT(3, Thickness, thicknessAt)
+FETCHED_UVEC4(4, Sorted, sortedAt)
+FETCHED_UINT(5, Starts, startAt)
+FETCHED_UINT(6, Excluded, excludedAt) // first of each edge, then partners, sorted
+#define POSITION(i) positionAt(i)
+#define SPEED(e) speedAt(e)
+#define THICKNESS(e) thicknessAt(e)
+#define SORTED(k) sortedAt(k)
+#define START(slot) startAt(slot)
+#define EXCLUDED(k) excludedAt(k)
 ContactEdge edgeAt(uint e) {
-    const uvec4 words = texelFetch(edges, int(e));
+    if (!usesTexels) return edges[e];
+    const uvec4 words = texelFetch(edgeTexels, int(e));
     return ContactEdge(words.x, words.y, words.z, uintBitsToFloat(words.w));
 }
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Edges { ContactEdge edges[]; };
-layout(std430, binding = 2) readonly buffer Speeds { vec4 speeds[]; };
-layout(std430, binding = 3) readonly buffer Thickness { float thickness[]; };
-layout(std430, binding = 4) readonly buffer Sorted { uvec4 sorted[]; };
-layout(std430, binding = 5) readonly buffer Starts { uint starts[]; };
-layout(std430, binding = 6) readonly buffer Excluded { uint excluded[]; }; // first of each edge, then partners, sorted
-#define POSITION(i) positions[i]
-#define SPEED(e) speeds[e]
-#define THICKNESS(e) thickness[e]
-#define SORTED(k) sorted[k]
-#define START(slot) starts[slot]
-#define EXCLUDED(k) excluded[k]
-ContactEdge edgeAt(uint e) { return edges[e]; }
-#endif
 layout(std430, binding = 7) coherent volatile buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 8) readonly buffer Points { FacePoints points; };
 layout(std430, binding = 9) readonly buffer Apart { uint apart[]; };

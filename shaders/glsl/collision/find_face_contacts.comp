@@ -10,18 +10,15 @@
 //   C = n . (x - sum_k b_k x_k) - reach,   dC/dx = beta n.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#define RUNS_LISTED
 #include "common/kernel.glsl"
 #include "common/triangle.glsl"
 
 #include "collision/near_faces.glsl"
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
-#ifdef TEXELS
-layout(binding = 5) uniform samplerBuffer memory;
-#define MEMORY(k) texelFetch(memory, int(k))
-#else
-layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };       // w: side and overlap, 0 = no contact so far
-#define MEMORY(k) memory[k]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(5, Memory, memoryAt) // w: side and overlap, 0 = no contact so far
+#define MEMORY(k) memoryAt(k)
 layout(std430, binding = 6) buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch; below 0 = see hide
 layout(std430, binding = 7) buffer Weights { vec4 weights[]; };       // b; w: side and overlap
 layout(std140, binding = 8) uniform Step { StepParams step; };

@@ -9,17 +9,11 @@
 #include "collision/face_search.glsl"
 #include "collision/hash_grid.glsl"
 
-#ifdef TEXELS
-layout(binding = 10) uniform usamplerBuffer sorted;
-layout(binding = 11) uniform usamplerBuffer starts;
-#define SORTED(k) texelFetch(sorted, int(k))
-#define START(slot) texelFetch(starts, int(slot)).x
-#else
-layout(std430, binding = 10) readonly buffer Sorted { uvec4 sorted[]; };
-layout(std430, binding = 11) readonly buffer Starts { uint starts[]; };
-#define SORTED(k) sorted[k]
-#define START(slot) starts[slot]
-#endif
+#include "common/fetched.glsl"
+FETCHED_UVEC4(10, Sorted, sortedAt)
+FETCHED_UINT(11, Starts, startAt)
+#define SORTED(k) sortedAt(k)
+#define START(slot) startAt(slot)
 layout(std430, binding = 12) buffer Points { FacePoints points; };
 layout(std430, binding = 13) buffer Apart { uint apart[]; }; // points; from push.points on, wide faces
 layout(std430, binding = 14) readonly buffer SearchedFaces { uint searchedFaces[]; }; // ~0 in padding

@@ -1,10 +1,8 @@
 // The end of a substep of `split` with contacts: boundary planes, and the stored state. Requires the names predicted,
 // nextPositions, nextVelocities and BEFORE of a kernel, PLANE_BINDING, and forces.glsl before it.
-#ifdef HAS_PLANES
 #include "rigid/planes.glsl"
 layout(std140, binding = PLANE_BINDING) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
-#endif
 
 // Ends the substep of particle i, which contacts have moved from `found` by `correction` and given the velocity v;
 // `velocity` is the one before contacts, w its inverse mass; `last` is the fourth component of its position, stored
@@ -12,35 +10,27 @@ layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { flo
 void finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3 v) {
     const float w = velocity.w, h = step.h;
     vec3 x = found + correction, way = correction;
-#ifdef HAS_PLANES
-    if (w > 0.0) {
+    if (w > 0.0 && planeCount > 0u) {
         Motion motion = Motion(x, v, h * velocity.xyz + correction);
         const float offset = contactOffsets[i];
         uint touched = 0u;
         for (uint p = 0u; p < planeCount; ++p) {
-#ifdef FORCES
             const vec3 before = motion.v;
-#endif
             if (projectOntoPlane(planes[p], offset, h, motion)) touched |= 1u << p;
-#ifdef FORCES
             if ((touched & 1u << p) != 0u) addPlaneForce(planes[p], p, i, (motion.v - before) / w, motion.x);
-#endif
         }
 #ifdef HAS_REBOUND
-        for (uint p = 0u; p < planeCount; ++p) {
+        for (uint p = 0u; p < (HAS_REBOUND ? planeCount : 0u); ++p) {
             if ((touched & 1u << p) == 0u) continue;
             const vec3 change = rebound(planes[p], step.restSpeed, BEFORE(i), motion.v);
             motion.v += change;
-#ifdef FORCES
             addPlaneForce(planes[p], p, i, change / w, motion.x);
-#endif
         }
 #endif
         x = motion.x;
         way = motion.displacement - h * velocity.xyz;
         v = motion.v;
     }
-#endif
     if (hasRemainders) {
         const uint r = remainderOf(predicted.length(), i);
         const Sum sum = exactSum(found, predicted[r].xyz + way + step.thetaH * v);

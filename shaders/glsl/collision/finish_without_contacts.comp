@@ -3,25 +3,18 @@
 // does. Groups with candidates are then solved by count_contacts and gather_contacts, which end the substep for them
 // again.
 #extension GL_GOOGLE_include_directive : require
+#define RUNS_OVER_SLOTS
 #include "common/kernel.glsl"
 #include "collision/hash_grid.glsl"
 #include "common/remainder.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-layout(binding = 1) uniform samplerBuffer detected;
-layout(binding = 2) uniform samplerBuffer velocities;
-#define POSITION(i) texelFetch(positions, int(i))
-#define DETECTED(i) texelFetch(detected, int(i))
-#define VELOCITY(i) texelFetch(velocities, int(i))
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // positions when lists were made; w: body
-layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; // that led to these positions; w = inverse mass
-#define POSITION(i) positions[i]
-#define DETECTED(i) detected[i]
-#define VELOCITY(i) velocities[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)
+FETCHED_VEC4(1, Detected, detectedAt)   // positions when lists were made; w: body
+FETCHED_VEC4(2, Velocities, velocityAt) // that led to these positions [m/s]; w = inverse mass
+#define POSITION(i) positionAt(i)
+#define DETECTED(i) detectedAt(i)
+#define VELOCITY(i) velocityAt(i)
 layout(std430, binding = 3) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 4) readonly buffer Radii { float radii[]; };
 layout(std430, binding = 5) writeonly buffer Fast { uint fast[]; };
@@ -31,13 +24,13 @@ layout(std140, binding = 6) uniform Step { StepParams step; };
 layout(std430, binding = 8) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 9) writeonly buffer NextPositions { vec4 nextPositions[]; };
 layout(std430, binding = 10) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
-#ifdef HAS_REBOUND
-layout(std430, binding = 11) readonly buffer Before { vec4 before[]; }; // velocities before the substep
+layout(std430, binding = 11) readonly buffer Before { vec4 before[]; }; // velocities before the substep, where planes have restitution
 #define BEFORE(i) before[i].xyz
 #define PLANE_BINDING 12
-#else
-#define PLANE_BINDING 11
-#endif
+layout(constant_id = 13) const bool hasRebound = false;
+#define HAS_REBOUND hasRebound
+#define NO_FORCES
+#include "forces/forces.glsl"
 #include "collision/finish_substep.glsl"
 layout(push_constant) uniform Push { GridPush push; };
 layout(constant_id = 3) const bool checksLists = true; // false: only particles that were slowed down since

@@ -6,30 +6,23 @@
 //
 // Friction takes back the slip t of the pair since it first touched, by at most friction x l; beyond that bound, t is
 // reduced to the bound. Without this memory a pile creeps for ever. Boundary planes come last and one after another.
-// v changes by the corrections / h, not by a difference of positions, whose rounding is coarser. HAS_MEMORY: each
-// candidate stores its slip t and the remaining overlap of those it had when the scene was loaded. HAS_SURFACES:
+// v changes by the corrections / h, not by a difference of positions, whose rounding is coarser. hasMemory: each
+// candidate stores its slip t and the remaining overlap of those it had when the scene was loaded. hasSurfaces:
 // friction differs between pairs. Particles that met during a substep with fast particles separate along the line on
 // which they met.
 #extension GL_GOOGLE_include_directive : require
+#define MAY_RUN_LISTED
 #include "common/kernel.glsl"
 #include "common/contacts.glsl"
 #include "common/remainder.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer touching;
-layout(binding = 1) uniform usamplerBuffer contacts;
-layout(binding = 2) uniform samplerBuffer velocities;
-#define TOUCHING(i) texelFetch(touching, int(i))
-#define CONTACT(i) texelFetch(contacts, int(i)).xy
-#define VELOCITY(i) texelFetch(velocities, int(i))
-#else
-layout(std430, binding = 0) readonly buffer Touching { vec4 touching[]; };  // x, contacts x inverse mass
-layout(std430, binding = 1) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
-layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
-#define TOUCHING(i) touching[i]
-#define CONTACT(i) contacts[i]
-#define VELOCITY(i) velocities[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Touching, touchingAt)   // x, contacts x inverse mass
+FETCHED_UVEC2(1, Contacts, contactAt)   // ContactCandidate
+FETCHED_VEC4(2, Velocities, velocityAt) // w = inverse mass [1/kg]
+#define TOUCHING(i) touchingAt(i)
+#define CONTACT(i) contactAt(i)
+#define VELOCITY(i) velocityAt(i)
 layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) readonly buffer Predicted { vec4 predicted[]; };         // after the links (remainder.glsl); w: not changed
 layout(std430, binding = 5) writeonly buffer NextPositions { vec4 nextPositions[]; }; // x + thetaH v
@@ -39,8 +32,8 @@ layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // time of each particle's first impact, where isSwept
 #define HITS_BINDING 10
 #include "common/hit_masks.glsl"
-#include "collision/contact_memory.glsl"
 layout(push_constant) uniform Push { ContactPush push; };
+#include "collision/contact_memory.glsl"
 
 #include "forces/forces.glsl"
 #include "collision/finish_substep.glsl"
@@ -63,9 +56,7 @@ void main() {
         for (uint at = isSwept ? hit.x : 0u; at != 0u; at &= at - 1u)
             addSwept(i, from + findLSB(at), self, velocity.xyz, sum, stopping);
     }
-#ifdef FORCES
     addContactForce(i, (sum + stopping) / h);
-#endif
     const vec3 correction = w * sum;
     finish(i, self.xyz, predicted[i].w, velocity, correction, velocity.xyz + (correction + w * stopping) / h);
 }

@@ -1,5 +1,5 @@
 #version 460
-// Links every moving face, EDGES: every edge, to its rows in the lists of others, sorted by owner, so that its
+// Links every moving face, or every edge, to its rows in the lists of others, sorted by owner, so that its
 // corners find the impulses of those contacts. Lists the groups of particles with contacts, and writes the number of
 // groups of elements.
 #extension GL_GOOGLE_include_directive : require
@@ -17,11 +17,8 @@ layout(std430, binding = 4) buffer Links { uint links[]; }; // elements of conta
 layout(std430, binding = 5) writeonly buffer LinkLists { uvec2 linkLists[]; };
 layout(std430, binding = 6) writeonly buffer Points { FacePoints points; };
 layout(std430, binding = 7) buffer Bounds { GridBounds bounds; };
-#ifdef EDGES
-layout(std430, binding = 8) readonly buffer Edges { ContactEdge edges[]; };
-#else
-layout(std430, binding = 8) readonly buffer Faces { ContactFace faces[]; };
-#endif
+layout(std430, binding = 8) readonly buffer Shapes { uvec4 shapes[]; }; // ContactFace or ContactEdge
+#include "collision/row_kind.glsl"
 layout(std430, binding = 9) buffer Status { StatusWords status; };
 #define GROUPS_BINDING 10
 #define LISTS_PARTICLES
@@ -29,16 +26,11 @@ layout(std430, binding = 9) buffer Status { StatusWords status; };
 
 // A point lists its own group in sort_lists.
 void listGroups(uint shape, bool isLinked) {
-#ifdef EDGES
-    if (lists[shape].y == 0u && !isLinked) return;
-    listParticle(edges[shape].a);
-    listParticle(edges[shape].b);
-#else
-    if (!isLinked) return;
-    listParticle(faces[shape].a);
-    listParticle(faces[shape].b);
-    listParticle(faces[shape].c);
-#endif
+    const bool isOwner = areEdges && lists[shape].y > 0u;
+    if (!isOwner && !isLinked) return;
+    listParticle(shapes[shape].x);
+    listParticle(shapes[shape].y);
+    if (!areEdges) listParticle(shapes[shape].z);
 }
 
 uint shape;

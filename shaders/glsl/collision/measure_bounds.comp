@@ -5,17 +5,11 @@
 #include "common/kernel.glsl"
 #include "collision/hash_grid.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-layout(binding = 1) uniform samplerBuffer radii;
-#define POSITION(i) texelFetch(positions, int(i))
-#define RADIUS(i) texelFetch(radii, int(i)).x
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Radii { float radii[]; };
-#define POSITION(i) positions[i]
-#define RADIUS(i) radii[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)
+FETCHED_FLOAT(1, Radii, radiusOf)
+#define POSITION(i) positionAt(i)
+#define RADIUS(i) radiusOf(i)
 layout(std430, binding = 2) buffer Bounds { GridBounds bounds; };
 layout(push_constant) uniform Push { GridPush push; };
 

@@ -1,6 +1,6 @@
 #version 460
 // Ends a step for contact lists. The lists of an undone step may lack pairs: the positions for which they were made
-// are set far away, so that they are rebuilt at once. HAS_MEMORY: contact memory is saved, or restored if the step is
+// are set far away, so that they are rebuilt at once. hasMemory: contact memory is saved, or restored if the step is
 // undone.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
@@ -8,7 +8,7 @@
 layout(std430, binding = 0) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 1) writeonly buffer Detected { vec4 detected[]; }; // one per particle: position when lists were made
 layout(std430, binding = 2) buffer Bounds { GridBounds bounds; };
-#ifdef HAS_MEMORY
+layout(constant_id = 1) const bool hasMemory = false;
 layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 4) buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) buffer Memory { vec4 memory[]; };
@@ -25,7 +25,6 @@ void takeBack(uint i) {
         contacts[element].other = keptOthers[element];
     }
 }
-#endif
 layout(push_constant) uniform Push { CountPush push; };
 
 void main() {
@@ -34,9 +33,7 @@ void main() {
     if (!stays && i < detected.length()) detected[i] = vec4(1e18);
     if (i == 0u && status.candidates > 0u && bounds.lacksLists == 0u) bounds.lacking = status.candidates; // else less may be enough
     if (i == 0u) bounds.lacksLists = status.lacksLists;
-#ifdef HAS_MEMORY
-    if (i >= push.count) return;
+    if (!hasMemory || i >= push.count) return;
     if (stays) keptLists[i] = keep(lists[i]);
     else takeBack(i);
-#endif
 }

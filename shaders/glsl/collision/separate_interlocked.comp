@@ -20,9 +20,7 @@ vec3 impulseFrom(uint i, uvec2 candidate, vec4 self, vec3 velocity) {
     const float reach = uintBitsToFloat(candidate.y);
     if (!touches(d, reach)) return vec3(0.0);
     const vec3 n = normalOf(i, j, d), way = step.h * (velocity - moving[j].xyz);
-#ifdef FORCES
-    if (self.w + other.w == 0.0) return vec3(0.0); // two static particles exchange nothing
-#endif
+    if (keepsForces && self.w + other.w == 0.0) return vec3(0.0); // two static particles exchange nothing
     return partingOf(n, d, way, reach, step.h * push.recoverySpeed) / max(self.w + other.w, 1e-30) * n;
 }
 
@@ -37,9 +35,7 @@ void main() {
         if (pair == noPair || pairs[pair].state != INTERLOCK_PARTING) continue;
         sum += impulseFrom(i, candidate, self, velocity.xyz);
     }
-#ifdef FORCES
     addContactForce(i, sum / step.h);
-#endif
     const vec3 correction = velocity.w * sum;
     predicted[i].xyz = self.xyz + correction;
     velocities[i].xyz = velocity.xyz + correction / step.h;

@@ -5,16 +5,13 @@
 //
 //   l = (speed - n . (v_i - v_j)) / (b_i w_i + b_j w_j) >= 0,   v_i += w_i l n   and the opposite for j.
 #extension GL_GOOGLE_include_directive : require
+#define MAY_RUN_LISTED
 #include "common/kernel.glsl"
 #include "common/contacts.glsl"
 #include "collision/bounces.glsl"
-#ifdef TEXELS
-layout(binding = BOUNCE_BINDING) uniform samplerBuffer velocities;
-#define VELOCITY(i) texelFetch(velocities, int(i))
-#else
-layout(std430, binding = BOUNCE_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
-#define VELOCITY(i) velocities[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(BOUNCE_BINDING, Velocities, velocityAt) // w = inverse mass [1/kg]
+#define VELOCITY(i) velocityAt(i)
 layout(std430, binding = BOUNCE_BINDING + 1) readonly buffer Bouncing { float bouncing[]; }; // bounces x inverse mass
 layout(std430, binding = BOUNCE_BINDING + 2) buffer State { vec4 state[]; };                 // x + thetaH v
 layout(std430, binding = BOUNCE_BINDING + 3) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
@@ -24,11 +21,7 @@ void main() {
     const uint i = itemIndex(push.count);
     const float own = bouncing[i];
     const uvec2 list = lists[i];
-#ifdef FORCES
-    const uint words = wordsOf(list); // static particles receive forces too
-#else
-    const uint words = own > 0.0 ? wordsOf(list) : 0u; // static particles do not rebound
-#endif
+    const uint words = keepsForces || own > 0.0 ? wordsOf(list) : 0u; // static particles do not rebound, but receive forces
     const Self self = selfOf(i);
     const vec4 velocity = VELOCITY(i);
     vec3 sum = vec3(0.0);
@@ -42,9 +35,7 @@ void main() {
             sum += max(0.0, missing) / both * bounce.n;
         }
     }
-#ifdef FORCES
     addContactForce(i, sum);
-#endif
     const vec3 change = velocity.w * sum;
     nextVelocities[i] = vec4(velocity.xyz + change, velocity.w);
     state[i].xyz += step.thetaH * change;

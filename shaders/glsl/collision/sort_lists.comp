@@ -1,19 +1,19 @@
 #version 460
 // Makes the contact list of every particle or, FACES, of every point with faces or, EDGES, of every edge with the
 // edges in rows that it owns, from the pairs that were found: sorted by index, with the contact distance and,
-// HAS_MEMORY, the contact memory. LISTS_OWNERS: lists the groups with a candidate; for edges index_rows_by_owner does so.
+// hasMemory, the contact memory. listsOwners: lists the groups with a candidate; for edges index_rows_by_owner does so.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/kernel.glsl"
 
-#ifdef FACES
-#define LISTS_PARTICLES
-#endif
 #if defined FACES || defined EDGES
+const bool hasMemory = true;
 #define ENTRIES_OF_PAIR 1u
 layout(push_constant) uniform Push { FaceFindPush push; };
 #define OWNERS push.points
 #else
+layout(constant_id = 1) const bool hasMemory = false;
+layout(constant_id = 2) const bool listsOwners = false;
 #define ENTRIES_OF_PAIR 2u
 layout(push_constant) uniform Push { FindPush push; };
 #define OWNERS push.count
@@ -26,23 +26,20 @@ layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 4) buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) buffer Status { StatusWords status; };
 layout(std430, binding = 6) buffer Bounds { GridBounds bounds; };
-#ifdef HAS_MEMORY
 layout(std430, binding = 7) writeonly buffer Memory { vec4 memory[]; };
 layout(std430, binding = 8) readonly buffer Kept { vec4 kept[]; };
 layout(std430, binding = 9) readonly buffer KeptOthers { uint keptOthers[]; };
 layout(std430, binding = 10) readonly buffer KeptLists { uvec2 keptLists[]; };
-#if defined FACES || defined EDGES
+#ifdef FACES
 #define GROUPS_BINDING 11
-#else
+#define LISTS_PARTICLES
+#include "collision/listed_groups.glsl"
+#elif !defined EDGES
 #define HITS_BINDING 11
 #define HITS_ACCESS
 #include "common/hit_masks.glsl"
 #define GROUPS_BINDING 12
-#endif
-#else
-#define GROUPS_BINDING 7
-#endif
-#if defined LISTS_OWNERS || defined LISTS_PARTICLES
+#define LISTS_OWNERS
 #include "collision/listed_groups.glsl"
 #endif
 #ifdef FACES
@@ -63,7 +60,7 @@ float reachOf(float own, uint other) { return own + radii[other]; }
 #ifdef FACES
 #define OWNERS_BINDING (PARTICLES_BINDING + 3)
 #elif defined EDGES
-#define OWNERS_BINDING GROUPS_BINDING
+#define OWNERS_BINDING 11
 #endif
 #ifdef OWNERS_BINDING
 layout(std430, binding = OWNERS_BINDING) writeonly buffer Owners { uint owners[]; }; // one per element
@@ -71,7 +68,7 @@ layout(std430, binding = OWNERS_BINDING) writeonly buffer Owners { uint owners[]
 
 void listGroups(uint i) {
 #ifdef LISTS_OWNERS
-    listOwner(i);
+    if (listsOwners) listOwner(i);
 #endif
 #ifdef LISTS_PARTICLES
     listParticle(i);
@@ -84,9 +81,7 @@ void place(uint element, uint entry) { contacts[element].other = entry; }
 void complete(uint element) {
     const uint entry = contacts[element].other;
     contacts[element] = ContactCandidate(otherOf(entry), reachOf(own, entry));
-#ifdef HAS_MEMORY
-    memory[element] = vec4(0.0);
-#endif
+    if (hasMemory) memory[element] = vec4(0.0);
 #ifdef OWNERS_BINDING
     owners[element] = owner;
 #endif
@@ -106,10 +101,10 @@ void setHit(uvec2 list, uint i, uint element) {
 
 // Gives back what is kept of candidates that are listed again; complete() has cleared all. Both lists are sorted.
 void returnMemory(uvec2 list, uint i) {
+    if (!hasMemory) return;
 #ifdef HITS_BINDING
     clearHits(list, i);
 #endif
-#ifdef HAS_MEMORY
     const uint end = list.x + list.y;
     uint element = list.x;
     for (uint place = keptLists[i].x; place < keptLists[i].x + keptLists[i].y; ++place) {
@@ -122,7 +117,6 @@ void returnMemory(uvec2 list, uint i) {
         setHit(list, i, element);
 #endif
     }
-#endif
 }
 
 // Reports the mean number of entries per owner that would be needed, if that exceeds the capacity, or a list that is

@@ -5,34 +5,26 @@
 // or ends far too near, is put back in front of it. This adds no more velocity than cancels its approach to the face
 // in this substep. All other particles stay unchanged to the bit.
 #extension GL_GOOGLE_include_directive : require
+#define RUNS_OVER_SLOTS
 #include "common/kernel.glsl"
 #include "common/remainder.glsl"
 #include "common/triangle.glsl"
 
 #include "collision/near_faces.glsl"
-#ifdef TEXELS
-layout(binding = 6) uniform usamplerBuffer excluded;
-layout(binding = 10) uniform samplerBuffer memory;
-#define EXCLUDED(k) texelFetch(excluded, int(k)).x
-#define MEMORY(k) texelFetch(memory, int(k))
-#else
-layout(std430, binding = 6) readonly buffer Excluded { uint excluded[]; };  // first of each face, then points, sorted
-layout(std430, binding = 10) readonly buffer Memory { vec4 memory[]; };     // w: side and overlap (contact_memory.glsl)
-#define EXCLUDED(k) excluded[k]
-#define MEMORY(k) memory[k]
-#endif
+#include "common/fetched.glsl"
+FETCHED_UINT(6, Excluded, excludedAt) // first of each face, then points, sorted
+FETCHED_VEC4(10, Memory, memoryAt)    // w: side and overlap (contact_memory.glsl)
+#define EXCLUDED(k) excludedAt(k)
+#define MEMORY(k) memoryAt(k)
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) readonly buffer Radii { float radii[]; };       // below 0 = touches no face
 layout(std430, binding = 7) buffer Positions { vec4 positions[]; };         // x + thetaH v (remainder.glsl)
 layout(std430, binding = 8) buffer Velocities { vec4 velocities[]; };       // w = inverse mass [1/kg]
 layout(std140, binding = 9) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { StopPush push; };
-#ifdef FORCES
-#define FORCES_BINDING 11
 #define STOPS
 #include "forces/forces.glsl"
 uint stoppedBy; // the face of the last stop
-#endif
 #include "collision/excluded.glsl"
 #include "collision/face_stop.glsl"
 
@@ -67,9 +59,7 @@ Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
         const Stop stop = stopAt(face, touching - left, x0, x1, seen);
         if (!(stop.urgency > first.urgency) || isExcluded(f, i)) continue;
         first = stop;
-#ifdef FORCES
         stoppedBy = f;
-#endif
     }
     return first;
 }
@@ -78,13 +68,11 @@ Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
 // the last face.
 const uint mostStops = 4u;
 
-#ifdef FORCES
 // The impulse of one stop, stored until it is certain that the particle receives it.
 struct Given {
     uint face;
     vec3 change, x; // change of the velocity [m/s]; position [m]
 };
-#endif
 
 void main() {
     const uint i = itemIndex(push.count);
@@ -96,32 +84,24 @@ void main() {
     const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz, x0 = PREDICTED(i).xyz - step.h * PREDICTED_VELOCITY(i).xyz;
     if (velocity.w == 0.0 || radii[i] < 0.0 || first == listEnd && isNearPredicted(i, x)) return;
     vec3 end = x, v = velocity.xyz;
-#ifdef FORCES
     Given given[mostStops + 1u];
     uint givenCount = 0u;
-#endif
     for (uint stops = 0u; stops <= mostStops; ++stops) {
         const Stop stop = stopOf(i, searchFor(i, first, listEnd, end), x0, end);
         const bool isLast = stops == mostStops;
         if (stop.urgency <= (isLast ? 1.0 : 0.0)) break;
         const vec3 n = stop.n, stopped = isLast ? stop.carried : end + stop.rise * n;
         const vec3 meanwhile = (stopped - x0) / step.h; // the velocity that leads there
-#ifdef FORCES
         const vec3 slower = v;
-#endif
         v = isLast ? meanwhile : v + max(0.0, dot(n, meanwhile - v)) * n;
-#ifdef FORCES
         given[givenCount++] = Given(stoppedBy, v - slower, stopped);
-#endif
         end = isLast ? stopped : stopped + stop.lift * n;
     }
     if (end == x) return;
-#ifdef FORCES
-    for (uint s = 0u; s < givenCount; ++s) {
+    for (uint s = 0u; s < (keepsForces ? givenCount : 0u); ++s) {
         addContactForce(i, given[s].change / velocity.w);
         addStopForce(given[s].face, i, given[s].change / velocity.w, given[s].x);
     }
-#endif
     velocities[i].xyz = v;
     const vec3 change = end - x + step.thetaH * (v - velocity.xyz);
     if (hasRemainders) {

@@ -2,22 +2,20 @@
 // VELOCITY and DETECTED of a kernel; DETECTED is the position when lists were made, w: its body.
 #include "collision/body_frames.glsl"
 
-#ifdef TEXELS
-layout(binding = FRAMES_BINDING) uniform samplerBuffer frames;
+#include "common/fetched.glsl"
+layout(std430, binding = FRAMES_BINDING) readonly buffer Frames { BodyFrame frames[FRAME_MOST_BODIES]; };
+TEXEL_TWIN(FRAMES_BINDING, samplerBuffer, frameTexels);
 BodyFrame frameAt(uint b) {
+    if (!usesTexels) return frames[b];
     BodyFrame frame;
     const int first = 12 * int(b);
     for (int row = 0; row < 3; ++row) {
-        frame.map[row] = texelFetch(frames, first + row);
-        frame.before[row] = texelFetch(frames, first + 3 + row);
+        frame.map[row] = texelFetch(frameTexels, first + row);
+        frame.before[row] = texelFetch(frameTexels, first + 3 + row);
     }
-    frame.speed = texelFetch(frames, first + 6);
+    frame.speed = texelFetch(frameTexels, first + 6);
     return frame;
 }
-#else
-layout(std140, binding = FRAMES_BINDING) uniform Frames { BodyFrame frames[FRAME_MOST_BODIES]; };
-BodyFrame frameAt(uint b) { return frames[b]; }
-#endif
 layout(constant_id = 4) const bool hasOneBody = false;
 
 // True if the distance exceeds the slack of `frame`, which is the same for all lanes if there is one body.

@@ -2,6 +2,7 @@
 // Contacts with faces and between edges, second pass: sums the contact weights of a particle. Each row gets the share
 // |beta| / S of the particle's mass, S = the sum of |beta| over all of its rows: shares sum to 1. Written here: S w.
 #extension GL_GOOGLE_include_directive : require
+#define RUNS_LISTED
 #include "common/kernel.glsl"
 #include "collision/rows_of.glsl"
 layout(std430, binding = 7) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]

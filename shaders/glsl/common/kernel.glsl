@@ -13,15 +13,25 @@ layout(constant_id = 0) const bool isReversed = false;
 bool isFinished(StatusWords status) { return (status.nonFinite | status.candidates | status.lacksLists) == 0u; }
 
 // The item of this invocation; the caller returns if it is >= count.
-#ifdef AWAKE
-// In a scene that sleeps: runs only the work groups with an awake particle (list_awake.comp).
-layout(std430, binding = LAST_BINDING) readonly buffer AwakeGroups { uint awakeGroups[]; };
+#if defined MAY_RUN_LISTED || defined RUNS_LISTED
+// Runs over all work groups or, with runsListed, over listed ones: those with an awake particle (list_awake.comp), or
+// with one in a contact (listed_groups.glsl).
+#ifdef MAY_RUN_LISTED
+layout(constant_id = RUNS_LISTED_ID) const bool runsListed = false;
+#else
+const bool runsListed = true;
+#endif
+layout(std430, binding = LAST_BINDING) readonly buffer ListedGroups { uint listedGroups[]; };
 uint itemIndex(uint count) {
+    if (!runsListed) {
+        const uint i = gl_GlobalInvocationID.x;
+        return isReversed && i < count ? count - 1u - i : i;
+    }
     const uint place = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
     const uint lane = isReversed ? GROUP_SIZE - 1u - gl_LocalInvocationID.x : gl_LocalInvocationID.x;
-    return awakeGroups[place] * GROUP_SIZE + lane;
+    return listedGroups[place] * GROUP_SIZE + lane;
 }
-#elif defined LISTED
+#elif defined RUNS_OVER_SLOTS
 // Runs over slots of the state that hold a particle, not over padding; ~0 after the last.
 layout(std430, binding = LAST_BINDING) readonly buffer Slots { uint slots[]; };
 uint itemIndex(uint count) {

@@ -15,8 +15,7 @@ struct alignas(16) vec4 {
 // Work-group size of every kernel.
 #define GROUP_ITEMS 128
 
-// The binding for an extra buffer in a form of any kernel; the only one that need not follow the one before it.
-#define LAST_BINDING 31
+#include "common/bindings.h"
 
 // Group count of an indirect dispatch, written by a kernel: VkDispatchIndirectCommand, padded to 16 bytes.
 struct DispatchArguments {

@@ -12,12 +12,9 @@ layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // w = inv
 layout(std430, binding = 2) readonly buffer Status { StatusWords status; };
 layout(std140, binding = 3) uniform Step { StepParams step; };
 layout(std430, binding = 4) buffer PublicPositions { vec4 publicPositions[]; }; // w = inverse mass
-#ifndef NO_VELOCITIES
 layout(std430, binding = 5) buffer PublicVelocities { vec4 publicVelocities[]; };
+layout(constant_id = 2) const bool publishesVelocities = true;
 #define SLOTS_BINDING 6
-#else
-#define SLOTS_BINDING 5
-#endif
 #include "compile/slots.glsl"
 
 void main() {
@@ -27,15 +24,10 @@ void main() {
     if (isFinished(status)) {
         const vec4 velocity = velocities[slot];
         publicPositions[i] = vec4(positions[slot].xyz - step.thetaH * velocity.xyz, velocity.w);
-#ifndef NO_VELOCITIES
-        publicVelocities[i] = velocity;
-#endif
+        if (publishesVelocities) publicVelocities[i] = velocity;
     } else {
-#ifndef NO_VELOCITIES
-        const vec4 velocity = publicVelocities[i];
-#else
-        const vec4 velocity = vec4(0, 0, 0, publicPositions[i].w); // velocities are not stored: the body stops
-#endif
+        vec4 velocity = vec4(0, 0, 0, publicPositions[i].w); // velocities are not stored: the body stops
+        if (publishesVelocities) velocity = publicVelocities[i];
         velocities[slot] = velocity;
         positions[slot].xyz = publicPositions[i].xyz + step.thetaH * velocity.xyz;
         if (hasRemainders) positions[remainderOf(positions.length(), slot)].xyz = vec3(0.0);

@@ -16,7 +16,6 @@ DistanceChange solveDistance(vec3 d, float w, float restLength, float alpha, flo
     return DistanceChange(n, -(distance - restLength + alpha * lambda) / (w + alpha));
 }
 
-#ifdef HAS_DAMPING
 // With damping, eq. 26: gamma = damping coefficient x h / compliance acts on `moved`, the relative displacement of
 // the ends so far.
 DistanceChange solveDampedDistance(vec3 d, float w, float restLength, float alpha, float lambda, float gamma, vec3 moved) {
@@ -25,4 +24,3 @@ DistanceChange solveDampedDistance(vec3 d, float w, float restLength, float alph
     const float value = distance - restLength + alpha * lambda + gamma * dot(n, moved);
     return DistanceChange(n, -value / (w * (1.0 + gamma) + alpha));
 }
-#endif

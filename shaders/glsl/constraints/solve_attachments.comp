@@ -38,10 +38,8 @@ void main() {
     vec3 impulse = way / (w + scaledCompliance(attachment.compliance, h)); // [kg m] = force x h^2
     const float most = min(attachment.maxForce, 1e30) * h * h, size = length(impulse);
     if (size > most) impulse *= most / size;
-#ifdef FORCES
     addHoldForce(i, impulse / h);
     addListedForce(a, impulse / h);
-#endif
     const vec3 dx = w * impulse;
 #ifdef OPEN
     corrections[i].xyz = correction + dx;

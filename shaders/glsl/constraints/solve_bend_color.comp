@@ -9,9 +9,8 @@ layout(std430, binding = 0) buffer Corrections { vec4 corrections[]; }; // Parti
 layout(std140, binding = 1) uniform Step { StepParams step; };
 layout(std430, binding = 2) readonly buffer Bends { ColoredBend bends[]; };
 layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; }; // predicted; w = inverse mass [1/kg]
-#ifdef HAS_MULTIPLIERS
 layout(std430, binding = 4) buffer Multipliers { vec4 multipliers[]; };
-#endif
+layout(constant_id = 1) const bool hasMultipliers = false;
 layout(push_constant) uniform Push { BendColorPush push; };
 
 void main() {
@@ -21,16 +20,11 @@ void main() {
     const vec3 ca = corrections[bend.a].xyz, cb = corrections[bend.b].xyz, cc = corrections[bend.c].xyz;
     const float alpha = scaledCompliance(bend.compliance, step.h);
     const vec3 value = bendValue(a.xyz, b.xyz, c.xyz) + bendValue(ca, cb, cc);
-#ifdef HAS_MULTIPLIERS
-    const vec3 lambda = push.isFirst != 0u ? vec3(0.0) : multipliers[k].xyz;
-#else
-    const vec3 lambda = vec3(0.0);
-#endif
+    vec3 lambda = vec3(0.0);
+    if (hasMultipliers && push.isFirst == 0u) lambda = multipliers[k].xyz;
     const vec3 w = vec3(a.w, b.w, c.w), change = solveBend(value, w, alpha, lambda);
     if (a.w > 0.0) corrections[bend.a].xyz = ca + a.w * change;
     if (b.w > 0.0) corrections[bend.b].xyz = cb - 2.0 * b.w * change;
     if (c.w > 0.0) corrections[bend.c].xyz = cc + c.w * change;
-#ifdef HAS_MULTIPLIERS
-    if (w != vec3(0.0)) multipliers[k] = vec4(lambda + change, 0.0);
-#endif
+    if (hasMultipliers && w != vec3(0.0)) multipliers[k] = vec4(lambda + change, 0.0);
 }

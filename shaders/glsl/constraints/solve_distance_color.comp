@@ -14,28 +14,25 @@
 // value that it writes.
 ALIASED layout(std430, binding = 0) writeonly buffer Corrections { vec4 corrections[]; };
 layout(std140, binding = 1) uniform Step { StepParams step; };
-#ifdef TEXELS
-layout(binding = 2) uniform usamplerBuffer edges;
-layout(binding = 3) uniform samplerBuffer positions;
-ALIASED layout(binding = 4) uniform samplerBuffer correctionsBefore;
-#define FETCH(buffer, i) texelFetch(buffer, int(i))
-#else
-layout(std430, binding = 2) readonly buffer Edges { uvec4 edges[]; };
-layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; };
+#include "common/fetched.glsl"
+FETCHED_UVEC4(2, Edges, edgeAt)
+FETCHED_VEC4(3, Positions, positionAt)
 ALIASED layout(std430, binding = 4) readonly buffer CorrectionsBefore { vec4 correctionsBefore[]; };
-#define FETCH(buffer, i) buffer[i]
-#endif
-#ifdef HAS_MULTIPLIERS
+ALIASED TEXEL_TWIN(4, samplerBuffer, correctionTexels);
+vec3 correctionBefore(uint i) {
+    if (usesTexels) return texelFetch(correctionTexels, int(i)).xyz;
+    return correctionsBefore[i].xyz;
+}
+layout(constant_id = 1) const bool hasMultipliers = false;
 ALIASED layout(std430, binding = 5) writeonly buffer Multipliers { vec4 multipliers[]; };
-#ifdef TEXELS
-ALIASED layout(binding = 6) uniform samplerBuffer multipliersBefore;
-#else
 ALIASED layout(std430, binding = 6) readonly buffer MultipliersBefore { vec4 multipliersBefore[]; };
-#endif
-#endif
+ALIASED TEXEL_TWIN(6, samplerBuffer, multiplierTexels);
+float multiplierBefore(uint c) {
+    if (usesTexels) return texelFetch(multiplierTexels, int(c)).w;
+    return multipliersBefore[c].w;
+}
 layout(push_constant) uniform Push { ColorPush push; };
 
-#ifdef HAS_MULTIPLIERS
 // The multiplier that starts the next substep. If a constraint is too stiff for a substep the pull lags behind the
 // motion: a share above (1 + alpha / w) / 2 gains energy at any order of the colors, and a smaller one at unlucky
 // orders (docs/performance.md). The kept multiplier may move the ends by a twentieth of their distance at most, for
@@ -45,28 +42,23 @@ float kept(float lambda, float w, float alpha, float restLength) {
     const float most = 0.05 * restLength / w;
     return clamp(share * lambda, -most, most);
 }
-#endif
 
 void main() {
     const uint c = push.first + itemIndex(push.count);
-    const uvec4 edge = FETCH(edges, c);
+    const uvec4 edge = edgeAt(c);
     const float restLength = uintBitsToFloat(edge.z);
     const float alpha = scaledCompliance(uintBitsToFloat(edge.w), step.h);
-    const vec4 a = FETCH(positions, edge.x), b = FETCH(positions, edge.y);
-    const vec3 ca = FETCH(correctionsBefore, edge.x).xyz, cb = FETCH(correctionsBefore, edge.y).xyz;
+    const vec4 a = positionAt(edge.x), b = positionAt(edge.y);
+    const vec3 ca = correctionBefore(edge.x), cb = correctionBefore(edge.y);
     const float w = a.w + b.w;
-#ifdef HAS_MULTIPLIERS
-    const float lambda = FETCH(multipliersBefore, c).w * (push.isOpening != 0u ? step.multiplierScale : 1.0);
-#else
-    const float lambda = 0.0;
-#endif
+    float lambda = 0.0;
+    if (hasMultipliers) lambda = multiplierBefore(c) * (push.isOpening != 0u ? step.multiplierScale : 1.0);
     const DistanceChange change = solveDistance(b.xyz - a.xyz + (cb - ca), w, restLength, alpha, lambda);
     const vec3 impulse = change.lambda * change.n;
     if (a.w > 0.0) corrections[edge.x].xyz = ca - a.w * impulse;
     if (b.w > 0.0) corrections[edge.y].xyz = cb + b.w * impulse;
-#ifdef HAS_MULTIPLIERS
+    if (!hasMultipliers) return;
     const float solved = lambda + change.lambda;
     const float next = push.isClosing != 0u ? kept(solved, w, alpha, restLength) : solved;
     if (w > 0.0) multipliers[c] = vec4(next * change.n, next);
-#endif
 }

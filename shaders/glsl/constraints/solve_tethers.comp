@@ -37,15 +37,11 @@ void main() {
         const vec3 anchor = positions[tethers[t].anchor].xyz; // does not move: y = x
         const float distance = length(x - anchor);
         if (!(distance > tethers[t].reach)) continue;
-#ifdef FORCES
         const vec3 loose = x;
-#endif
         x = anchor + tethers[t].reach / distance * (x - anchor);
-#ifdef FORCES
         const vec3 impulse = (x - loose) / (step.h * w);
         addHoldForce(i, impulse);
         addListedForce(t, impulse);
-#endif
     }
     if (x == before) return;
 #ifdef OPEN

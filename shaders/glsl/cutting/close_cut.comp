@@ -4,17 +4,11 @@
 #include "common/cut.glsl"
 #include "lattice/link_masks.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform usamplerBuffer savedLinks;
-layout(binding = 1) uniform samplerBuffer places;
-#define SAVED(i) texelFetch(savedLinks, int(i)).x
-#define PLACE(i) texelFetch(places, int(i))
-#else
-layout(std430, binding = 0) readonly buffer SavedLinks { uint savedLinks[]; };
-layout(std430, binding = 1) readonly buffer Places { vec4 places[]; };
-#define SAVED(i) savedLinks[i]
-#define PLACE(i) places[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_UINT(0, SavedLinks, savedLinks)
+FETCHED_VEC4(1, Places, placeAt)
+#define SAVED(i) savedLinks(i)
+#define PLACE(i) placeAt(i)
 layout(std430, binding = 2) buffer Links { uint links[]; };
 layout(std430, binding = 3) writeonly buffer PlacesBefore { vec4 before[]; };
 layout(std430, binding = 4) readonly buffer Status { StatusWords status; };

@@ -1,31 +1,24 @@
 #version 460
 // First pass of a cut: lists the nodes that own a link whose box meets that of the blade, with those links. They are
-// few, and later passes process only these. The order of the list does not matter: links are cut one by one. DEBRIS:
-// leaves out links of removed fragments, which are invisible.
+// few, and later passes process only these. The order of the list does not matter: links are cut one by one. Links of
+// removed fragments, which are invisible, are left out.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/cut.glsl"
 #include "lattice/link_masks.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer places;
-#define PLACE(i) texelFetch(places, int(i)).xyz
-#else
-layout(std430, binding = 0) readonly buffer Places { vec4 places[]; };
-#define PLACE(i) places[i].xyz
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Places, placeAt)
+#define PLACE(i) placeAt(i).xyz
 layout(std430, binding = 1) readonly buffer Links { uint links[]; };
 layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
 layout(std430, binding = 3) readonly buffer Work { CutWork work; };
 layout(std430, binding = 4) buffer Counts { uint counts[]; };      // number of nodes, by run
 layout(std430, binding = 5) writeonly buffer Nears { uvec2 nears[]; }; // slot, links; each run begins at its first slot
-#ifdef DEBRIS
+layout(constant_id = 1) const bool hasDebris = false;
 layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
-bool isThere(uint i) { return particles[i] != NO_PARTICLE && pieces[particles[i]] != REMOVED_PIECE; }
-#else
-bool isThere(uint i) { return true; }
-#endif
+bool isThere(uint i) { return !hasDebris || particles[i] != NO_PARTICLE && pieces[particles[i]] != REMOVED_PIECE; }
 
 void main() {
     const uint item = itemIndex(push.count), i = push.first + min(item, push.count - 1u);

@@ -1,19 +1,17 @@
 #version 460
 // Tearing, second pass: lists cells that are stretched beyond the limit and more than all cells around them, in any
-// order: no two of them share a link. DEBRIS: leaves out cells of removed fragments, which are invisible.
+// order: no two of them share a link. Cells of removed fragments, which are invisible, are left
+// out.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Strains { CellStrain strains[]; };
 layout(std430, binding = 1) writeonly buffer Found { uint found[]; };
 layout(std430, binding = 2) buffer Tears { TearCount tears; };
-#ifdef DEBRIS
+layout(constant_id = 1) const bool hasDebris = false;
 layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // one per slot
 layout(std430, binding = 4) readonly buffer Pieces { uint pieces[]; };
-bool isThere(uint cell) { return pieces[particles[cell]] != REMOVED_PIECE; } // its corners are connected
-#else
-bool isThere(uint cell) { return true; }
-#endif
+bool isThere(uint cell) { return !hasDebris || pieces[particles[cell]] != REMOVED_PIECE; } // its corners are connected
 layout(push_constant) uniform Push { TearPush push; };
 #include "cutting/tears.glsl"
 

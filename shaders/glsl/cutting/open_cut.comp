@@ -4,21 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/cut.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-layout(binding = 1) uniform samplerBuffer velocities;
-layout(binding = 2) uniform samplerBuffer before;
-#define POSITION(i) texelFetch(positions, int(i)).xyz
-#define VELOCITY(i) texelFetch(velocities, int(i)).xyz
-#define BEFORE(i) texelFetch(before, int(i))
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };   // x + thetaHPrevious v
-layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; }; // [m/s]
-layout(std430, binding = 2) readonly buffer PlacesBefore { vec4 before[]; };   // w = 0: no blade yet
-#define POSITION(i) positions[i].xyz
-#define VELOCITY(i) velocities[i].xyz
-#define BEFORE(i) before[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)  // x + thetaHPrevious v
+FETCHED_VEC4(1, Velocities, velocityAt) // [m/s]
+FETCHED_VEC4(2, PlacesBefore, before)   // w = 0: no blade yet
+#define POSITION(i) positionAt(i).xyz
+#define VELOCITY(i) velocityAt(i).xyz
+#define BEFORE(i) before(i)
 layout(std140, binding = 3) uniform Step { StepParams step; };
 layout(std430, binding = 4) writeonly buffer Places { vec4 places[]; }; // w = 1
 layout(std430, binding = 5) buffer Work { CutWork work; };

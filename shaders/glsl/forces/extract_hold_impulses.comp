@@ -7,8 +7,6 @@
 
 layout(std430, binding = 0) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
 layout(push_constant) uniform Push { CountPush push; };
-#define FORCES
-#define FORCES_BINDING 1
 #include "forces/forces.glsl"
 
 void main() {

@@ -59,8 +59,6 @@ void main() {
     velocities[slot].xyz = velocity.xyz + kick;
     positions[slot].xyz = x + step.h * kick + step.thetaH * (velocity.xyz + kick);
 #endif
-#ifdef FORCES
     const uint k = (grips[p].held >> GRAB_SHARE_BITS) - 1u;
     if (w > 0.0) addRowForce(k, slot, impulse, x - mix(requests[k].from.xyz, requests[k].to.xyz, push.fraction));
-#endif
 }

@@ -2,7 +2,7 @@
 // substep. Projected exactly and one after another in the invocation of the particle; a correction c of x adds c / h
 // to v.
 #include "common/math.glsl"
-layout(constant_id = 2) const uint planeCount = 1; // at most 32
+layout(constant_id = 2) const uint planeCount = 0; // at most 32
 
 // State of a particle during a substep.
 struct Motion {

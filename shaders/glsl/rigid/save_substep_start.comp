@@ -1,6 +1,7 @@
 #version 460
 // Saves position and velocity of particles at the start of a substep, for scenes with restitution (solve_colliders).
 #extension GL_GOOGLE_include_directive : require
+#define MAY_RUN_LISTED
 #include "common/kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; }; // x + thetaH v

@@ -2,30 +2,31 @@
 // Keeps every particle out of the colliders at the end of a substep, one collider after another in the invocation of
 // the particle: the last pass of a substep, and exact, because no mass is divided among contacts. Serves every
 // solver: thetaH is 0 except for `split`; the substep of `gauss_seidel` is still open (solve_attachments.comp).
-// HAS_REBOUND: the scene has restitution, so that the displacement since the start of the substep is no longer h v,
-// and impacts need the velocity from before. HAS_CONTACTS: particles touch each other; one that was stopped on its
+// hasRebound: the scene has restitution, so that the displacement since the start of the substep is no longer h v,
+// and impacts need the velocity from before. hasContacts: particles touch each other; one that was stopped on its
 // way has a velocity that differs from its displacement / h.
 #extension GL_GOOGLE_include_directive : require
+#define MAY_RUN_LISTED
 #include "common/kernel.glsl"
 #include "rigid/colliders.glsl"
 #ifndef OPEN
 #include "common/remainder.glsl"
 #endif
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer colliders;
-layout(binding = 1) uniform samplerBuffer poses;
+#include "common/fetched.glsl"
+layout(std430, binding = 0) readonly buffer Colliders { Collider colliders[]; };
+TEXEL_TWIN(0, samplerBuffer, colliderTexels);
 Collider colliderAt(uint c) {
-    const vec4 core = texelFetch(colliders, 2 * int(c)), more = texelFetch(colliders, 2 * int(c) + 1);
+    if (!usesTexels) return colliders[c];
+    const vec4 core = texelFetch(colliderTexels, 2 * int(c)), more = texelFetch(colliderTexels, 2 * int(c) + 1);
     return Collider(core, more.x, more.y, more.z, floatBitsToUint(more.w));
 }
-ColliderPose poseAt(uint p) { return ColliderPose(texelFetch(poses, 2 * int(p)), texelFetch(poses, 2 * int(p) + 1)); }
-#else
-layout(std430, binding = 0) readonly buffer Colliders { Collider colliders[]; };
 layout(std430, binding = 1) readonly buffer Poses { ColliderPose poses[]; };
-Collider colliderAt(uint c) { return colliders[c]; }
-ColliderPose poseAt(uint p) { return poses[p]; }
-#endif
+TEXEL_TWIN(1, samplerBuffer, poseTexels);
+ColliderPose poseAt(uint p) {
+    if (usesTexels) return ColliderPose(texelFetch(poseTexels, 2 * int(p)), texelFetch(poseTexels, 2 * int(p) + 1));
+    return poses[p];
+}
 layout(std430, binding = 2) readonly buffer ContactOffsets { float contactOffsets[]; };
 #ifdef OPEN
 layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; }; // predicted; w = inverse mass [1/kg]
@@ -36,11 +37,13 @@ layout(std430, binding = 4) buffer Velocities { vec4 velocities[]; }; // open: v
 layout(std140, binding = 5) uniform Step { StepParams step; };
 #ifdef OPEN
 layout(std430, binding = 6) buffer Corrections { vec4 corrections[]; }; // ParticleCorrection
-#elif defined HAS_REBOUND
+const bool hasRebound = true;
+#else
 layout(std430, binding = 6) readonly buffer Before { vec4 before[]; }; // x, v of each particle (save_substep_start)
-#elif defined HAS_CONTACTS
-layout(std430, binding = 6) readonly buffer Predicted { vec4 predicted[]; }; // before contacts
-layout(std430, binding = 7) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; };
+layout(std430, binding = 7) readonly buffer Predicted { vec4 predicted[]; }; // before contacts
+layout(std430, binding = 8) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; };
+layout(constant_id = 6) const bool hasRebound = false;
+layout(constant_id = 7) const bool hasContacts = false;
 #endif
 layout(push_constant) uniform Push { ColliderPush push; };
 #include "forces/forces.glsl"
@@ -67,16 +70,16 @@ Start startOf(uint i) {
 #else
     const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz;
     Start start = Start(velocity, vec3(0.0), Movement(x, velocity.xyz, h * (velocity.xyz - late), vec3(0.0)));
-#ifdef HAS_REBOUND
-    start.movement.way = x - before[2u * i].xyz;
-    start.velocityBefore = before[2u * i + 1u].xyz;
-#elif defined HAS_CONTACTS
-    const vec3 way = x - (predicted[i].xyz - h * predictedVelocities[i].xyz);
-    if (largest(way - start.movement.way) > 1e-4 * largest(way) + 1e-5 * largest(x)) { // else h v is more exact
-        start.movement.pushed = way - start.movement.way;
-        start.movement.way = way;
+    if (hasRebound) {
+        start.movement.way = x - before[2u * i].xyz;
+        start.velocityBefore = before[2u * i + 1u].xyz;
+    } else if (hasContacts) {
+        const vec3 way = x - (predicted[i].xyz - h * predictedVelocities[i].xyz);
+        if (largest(way - start.movement.way) > 1e-4 * largest(way) + 1e-5 * largest(x)) { // else h v is more exact
+            start.movement.pushed = way - start.movement.way;
+            start.movement.way = way;
+        }
     }
-#endif
     return start;
 #endif
 }
@@ -94,19 +97,14 @@ void main() {
     for (uint c = 0u; c < colliderCount; ++c) {
         vec3 n, surfaceVelocity;
         const Collider collider = colliderAt(c);
-        if (c < hostColliderCount && collider.isAbsent != 0u) continue;
+        if (c < hostColliderCount && colliders[c].isAbsent != 0u) continue; // a device may read this integer as 0 from float texels
         const ColliderPose from = poseAt(push.before + c), to = poseAt(push.after + c); // equal where nothing moves
-#ifdef FORCES
         const vec3 unforced = movement.v + rebound;
-#endif
         if (!projectOut(collider, contactOffsets[i], from, to, h, movement, n, surfaceVelocity)) continue;
         isTouching = true;
-#if defined OPEN || defined HAS_REBOUND
-        rebound += reboundFrom(collider, step.restSpeed, n, surfaceVelocity, start.velocityBefore, movement.v + rebound);
-#endif
-#ifdef FORCES
+        if (hasRebound)
+            rebound += reboundFrom(collider, step.restSpeed, n, surfaceVelocity, start.velocityBefore, movement.v + rebound);
         addRowForce(c, i, (movement.v + rebound - unforced) / velocity.w, movement.x - to.position.xyz);
-#endif
     }
     if (!isTouching) return;
 #ifdef OPEN

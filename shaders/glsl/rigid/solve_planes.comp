@@ -21,14 +21,10 @@ void main() {
     Motion motion = Motion(positions[i].xyz, v, step.h * (v - 0.5 * step.h * step.gravity.xyz));
     uint touched = 0u;
     for (uint p = 0u; p < planeCount; ++p) {
-#ifdef FORCES
         const vec3 free = motion.v;
-#endif
         if (!projectOntoPlane(planes[p], contactOffsets[i], step.h, motion)) continue;
         touched |= 1u << p;
-#ifdef FORCES
         addPlaneForce(planes[p], p, i, (motion.v - free) / positions[i].w, motion.x);
-#endif
     }
     if (touched == 0u) return;
     positions[i].xyz = motion.x;

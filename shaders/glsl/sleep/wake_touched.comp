@@ -2,6 +2,7 @@
 // Marks the islands that awake particles have touched in this substep, before contacts are counted, so that no impact
 // treats them as static.
 #extension GL_GOOGLE_include_directive : require
+#define RUNS_LISTED
 #include "common/kernel.glsl"
 #include "common/contacts.glsl"
 #include "sleep/sleep.glsl"

@@ -2,6 +2,7 @@
 // Ends a substep of `split` after contacts with faces and between edges, where particles do not touch each other:
 // projects onto boundary planes, one after another, and stores the state.
 #extension GL_GOOGLE_include_directive : require
+#define RUNS_OVER_SLOTS
 #include "common/kernel.glsl"
 #include "common/remainder.glsl"
 
@@ -10,14 +11,11 @@ layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; }; /
 layout(std140, binding = 2) uniform Step { StepParams step; };
 layout(std430, binding = 3) writeonly buffer NextPositions { vec4 nextPositions[]; };
 layout(std430, binding = 4) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
-#ifdef HAS_PLANES
 layout(std430, binding = 5) readonly buffer Before { vec4 before[]; }; // velocities before the substep
 #define BEFORE(i) before[i].xyz
-#define HAS_REBOUND
+#define HAS_REBOUND true
 #define PLANE_BINDING 6
-#endif
 layout(push_constant) uniform Push { CountPush push; };
-#define FORCES_BINDING 8
 #include "forces/forces.glsl"
 #include "collision/finish_substep.glsl"
 

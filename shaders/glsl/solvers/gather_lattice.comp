@@ -12,6 +12,9 @@
 //
 // ONE_NODE: an invocation computes one node. A GPU needs many short invocations; a CPU would load each node 27 times.
 #extension GL_GOOGLE_include_directive : require
+#ifdef ONE_NODE
+#define NO_TEXELS // the texel unit of a GPU fetches 16 bytes several times slower than a load does
+#endif
 #ifndef ONE_NODE
 #define GROUP_SIZE LATTICE_GROUP
 #elif defined RESIDENT

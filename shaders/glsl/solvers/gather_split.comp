@@ -2,11 +2,13 @@
 // `split` for any graph: a particle's links are listed in slots, equally many for every particle of the scene, or in
 // ranges (see the forms in split_links.glsl).
 #extension GL_GOOGLE_include_directive : require
+#define MAY_RUN_LISTED
 #include "solvers/split.glsl"
 #include "solvers/split_links.glsl"
+#ifndef LINKS_PACKED
 #include "solvers/gather_terms.glsl"
+#endif
 
-#ifndef NO_LINKS
 // Padding is a link to the particle itself and contributes exactly 0.
 vec3 impulseOf(uint index, uint s, vec4 y, vec3 v, float hh) {
 #ifdef LINKS_PACKED
@@ -19,10 +21,10 @@ vec3 impulseOf(uint index, uint s, vec4 y, vec3 v, float hh) {
     const vec4 yj = POSITION(link.x);
     const float clamped = min(uintBitsToFloat(link.z) * hh, uintBitsToFloat(link.w) * min(y.w, yj.w));
     vec3 impulse = linkImpulse(y.xyz, yj.xyz, uintBitsToFloat(link.y), clamped);
-#ifdef HAS_DAMPING
-    const float most = uintBitsToFloat(link.w) * min(y.w, yj.w);
-    impulse += dampingImpulse(yj.xyz - y.xyz, velocities[link.x].xyz - v, uintBitsToFloat(link.z), most, sqrt(hh));
-#endif
+    if (hasDamping) {
+        const float most = uintBitsToFloat(link.w) * min(y.w, yj.w);
+        impulse += dampingImpulse(yj.xyz - y.xyz, velocities[link.x].xyz - v, uintBitsToFloat(link.z), most, sqrt(hh));
+    }
     return impulse;
 #endif
 }
@@ -35,7 +37,7 @@ vec3 linkImpulses(uint i, vec4 y, vec3 v, float hh) {
     return sum;
 }
 #else
-layout(constant_id = 1) const uint degree = 1; // slots per particle, padded
+layout(constant_id = 1) const uint degree = 0; // slots per particle, padded
 
 vec3 linkImpulses(uint i, vec4 y, vec3 v, float hh) {
     vec3 sum = vec3(0.0);
@@ -45,20 +47,15 @@ vec3 linkImpulses(uint i, vec4 y, vec3 v, float hh) {
     return sum;
 }
 #endif
-#endif
 
 void main() {
     // No early out: buffers are padded to whole groups. On lavapipe a lane mask turns every load into eight branches.
     const uint i = itemIndex(push.count);
     const Substep substep = substepOf(push.isFirst != 0u);
     const vec4 y = POSITION(i), velocity = velocities[i];
-#ifdef NO_LINKS
-    vec3 sum = vec3(0.0);
-#else
     vec3 sum = linkImpulses(i, y, velocity.xyz, substep.hh);
-#endif
-#ifdef HAS_BENDS
-    sum += bendImpulses(i, substep.hh);
+#ifndef LINKS_PACKED
+    if (bendDegree > 0u) sum += bendImpulses(i, substep.hh);
 #endif
     advance(i, y, velocity, sum, substep);
 }

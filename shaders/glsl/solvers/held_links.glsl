@@ -1,13 +1,9 @@
 // Part of gather_lattice: the fill that holds a link, and the masks of live links of bodies that may be cut.
 #ifdef HAS_MASKS
 #include "lattice/link_masks.glsl"
-#ifdef TEXELS
-layout(binding = CHUNK_BINDING + 1) uniform usamplerBuffer links;
-#define LINKS(i) texelFetch(links, int(i)).x
-#else
-layout(std430, binding = CHUNK_BINDING + 1) readonly buffer Links { uint links[]; };
-#define LINKS(i) links[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_UINT(CHUNK_BINDING + 1, Links, linksAt)
+#define LINKS(i) linksAt(i)
 #ifdef VOLUME
 #define HAS_WHOLE_CELLS
 layout(std430, binding = CHUNK_BINDING + 2) readonly buffer WholeCells { uint wholeCells[]; }; // like cells; 0 = not whole

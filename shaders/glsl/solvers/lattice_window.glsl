@@ -1,13 +1,9 @@
 // Part of gather_lattice: its buffers, and the shape of the window, the part of a slice that an invocation holds: a
 // block of columns and its rim.
 
-#ifdef TEXELS
-layout(binding = LINK_BINDING) uniform usamplerBuffer cells;
-#define CELLS(i) texelFetch(cells, int(i)).x
-#else
-layout(std430, binding = LINK_BINDING) readonly buffer Cells { uint cells[]; };
-#define CELLS(i) cells[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_UINT(LINK_BINDING, Cells, cellFill)
+#define CELLS(i) cellFill(i)
 #define CHUNK_BINDING (LINK_BINDING + 1)
 layout(std430, binding = CHUNK_BINDING) readonly buffer Chunks { LatticeChunk chunks[]; };
 #ifdef RESIDENT

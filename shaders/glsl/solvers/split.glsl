@@ -29,13 +29,9 @@ layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
 #define STORE_REMAINDER(i, value) REMAINDER(i) = value
 #define VELOCITY_BINDING 1
 #else
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-#define POSITION(i) texelFetch(positions, int(i))
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-#define POSITION(i) positions[i]
-#endif
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)
+#define POSITION(i) positionAt(i)
 layout(std430, binding = 1) writeonly buffer NextPositions { vec4 nextPositions[]; };
 #define STORE_POSITION(i, value) nextPositions[i] = value
 #define REMAINDER(i) POSITION(remainderOf(nextPositions.length(), i))
@@ -55,20 +51,10 @@ ALIASED layout(std430, binding = VELOCITY_BINDING + 1) writeonly buffer NextVelo
 #define STEP_BINDING (VELOCITY_BINDING + 2)
 #endif
 layout(std140, binding = STEP_BINDING) uniform Step { StepParams step; };
-#ifdef HAS_PLANES
 #include "rigid/planes.glsl"
 layout(std140, binding = STEP_BINDING + 1) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = STEP_BINDING + 2) readonly buffer ContactOffsets { float contactOffsets[]; };
 #define LINK_BINDING (STEP_BINDING + 3)
-#else
-#define LINK_BINDING (STEP_BINDING + 1)
-#endif
-
-#ifdef LINKS_RANGED
-#define BEND_BINDING (LINK_BINDING + 2)
-#else
-#define BEND_BINDING (LINK_BINDING + 1)
-#endif
 
 // If true, a static particle stores the impulse of its links [N s] in place of its velocity, where extract_hold_impulses reads
 // it.
@@ -118,8 +104,7 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     v *= step.velocityFactor;
     vec3 x = y.xyz - substep.thetaH * velocity.xyz + h * v;
     vec3 way = h * v;
-#ifdef HAS_PLANES
-    if (w > 0.0) {
+    if (w > 0.0 && planeCount > 0u) {
         Motion motion = Motion(x, v, way);
         const float offset = contactOffsets[i];
         uint touched = 0u;
@@ -133,7 +118,6 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
         v = motion.v;
         way = motion.displacement;
     }
-#endif
     STORE_VELOCITY(i, vec4(keepsPulls && w == 0.0 ? substep.impulse * impulses : v, w));
     store(i, y, velocity.xyz, x, v, way, substep);
 }

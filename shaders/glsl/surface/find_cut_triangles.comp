@@ -11,13 +11,9 @@
 #include "surface/hung_vertex.glsl"
 #define MOVED_BINDING 5
 #include "surface/moved_vertex.glsl"
-#ifdef TEXELS
-layout(binding = 6) uniform usamplerBuffer partitions;
-#define PARTITION(cell) texelFetch(partitions, int(cell)).x
-#else
-layout(std430, binding = 6) readonly buffer Partitions { uint partitions[]; };
-#define PARTITION(cell) partitions[cell]
-#endif
+#include "common/fetched.glsl"
+FETCHED_UINT(6, Partitions, partitionAt)
+#define PARTITION(cell) partitionAt(cell)
 layout(std430, binding = 7) writeonly buffer States { uint states[]; }; // one per whole triangle
 layout(push_constant) uniform Push { PrismPush push; };
 

@@ -4,13 +4,9 @@
 #include "common/kernel.glsl"
 
 #include "surface/skin_faces.glsl"
-#ifdef TEXELS
-layout(binding = 3) uniform usamplerBuffer allIndices; // indices of the uncut skins
-#define INDEX(n) texelFetch(allIndices, int(n)).x
-#else
-layout(std430, binding = 3) readonly buffer AllIndices { uint allIndices[]; };
-#define INDEX(n) allIndices[n]
-#endif
+#include "common/fetched.glsl"
+FETCHED_UINT(3, AllIndices, indexAt) // indices of the uncut skins
+#define INDEX(n) indexAt(n)
 layout(std430, binding = 4) writeonly buffer Indices { uint indices[]; };
 layout(push_constant) uniform Push { CountPush push; };
 

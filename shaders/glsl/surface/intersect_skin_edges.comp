@@ -15,13 +15,12 @@
 #include "common/blade_points.glsl"
 #define PRISM_BINDING 5
 #include "surface/skin_prism.glsl"
-#ifdef TEXELS
-layout(binding = 6) uniform samplerBuffer placed; // PlacedVertex (place_vertices)
-PlacedVertex placedAt(uint v) { return PlacedVertex(texelFetch(placed, int(2u * v)), texelFetch(placed, int(2u * v + 1u))); }
-#else
 layout(std430, binding = 6) readonly buffer Placed { PlacedVertex placed[]; }; // (place_vertices)
-PlacedVertex placedAt(uint v) { return placed[v]; }
-#endif
+TEXEL_TWIN(6, samplerBuffer, placedTexels);
+PlacedVertex placedAt(uint v) {
+    if (usesTexels) return PlacedVertex(texelFetch(placedTexels, int(2u * v)), texelFetch(placedTexels, int(2u * v + 1u)));
+    return placed[v];
+}
 layout(std430, binding = 7) buffer SkinHits { uint skinHits[]; }; // one per prism: byte n = hit on its edge n, in 1/255; 0 = none
 layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Nears { uint nears[]; }; // prisms (list_prisms)

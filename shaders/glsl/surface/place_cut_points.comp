@@ -6,38 +6,33 @@
 
 layout(std430, binding = 0) readonly buffer State { SurfaceState state; };
 #include "surface/skin_material.glsl"
-#ifdef TEXELS
-layout(binding = 7) uniform usamplerBuffer cutVertices; // CutVertex
+layout(std430, binding = 7) readonly buffer CutVertices { CutVertex cutVertices[]; };
+TEXEL_TWIN(7, usamplerBuffer, cutVertexTexels);
 CutVertex vertexAt(uint i) {
+    if (!usesTexels) return cutVertices[i];
     const int v = int(4u * i);
-    const uvec4 corners = texelFetch(cutVertices, v + 2), last = texelFetch(cutVertices, v + 3);
+    const uvec4 corners = texelFetch(cutVertexTexels, v + 2), last = texelFetch(cutVertexTexels, v + 3);
     const ivec3 normal = ivec3(last.xyz);
-    return CutVertex(uintBitsToFloat(texelFetch(cutVertices, v)), uintBitsToFloat(texelFetch(cutVertices, v + 1)),
+    return CutVertex(uintBitsToFloat(texelFetch(cutVertexTexels, v)), uintBitsToFloat(texelFetch(cutVertexTexels, v + 1)),
                      uint[4](corners.x, corners.y, corners.z, corners.w), int[3](normal.x, normal.y, normal.z), last.w);
 }
-#else
-layout(std430, binding = 7) readonly buffer CutVertices { CutVertex cutVertices[]; };
-CutVertex vertexAt(uint i) { return cutVertices[i]; }
-#endif
 layout(std430, binding = 8) writeonly buffer Vertices { SkinVertex vertices[]; };
 layout(std430, binding = 9) writeonly buffer Turns { Gradient turns[]; }; // one per point: rotation of normals, for place_piece_corners
-#ifdef HUNG
-#ifdef TEXELS
-layout(binding = 10) uniform samplerBuffer skinVertices; // SkinVertex
-#define SKIN_PLACE(v) texelFetch(skinVertices, int(2u * (v))).xyz
-#else
+layout(constant_id = 1) const bool hasHung = false; // a skin is bound to the lattice
 layout(std430, binding = 10) readonly buffer SkinVertices { SkinVertex skinVertices[]; };
-#define SKIN_PLACE(v) skinVertices[v].position.xyz
-#endif
+TEXEL_TWIN(10, samplerBuffer, skinTexels);
+vec3 skinPlace(uint v) {
+    if (usesTexels) return texelFetch(skinTexels, int(2u * v)).xyz;
+    return skinVertices[v].position.xyz;
+}
+#define SKIN_PLACE(v) skinPlace(v)
 #define HUNG_BINDING 11
 #include "surface/hung_vertex.glsl"
 #define MOVED_BINDING 12
 #include "surface/moved_vertex.glsl"
 layout(std430, binding = 13) readonly buffer Grids { SkinGrid grids[]; }; // by skin
-#endif
 layout(push_constant) uniform Push { CountPush push; };
 
-#ifdef HUNG
 #include "lattice/link_masks.glsl"
 #include "surface/skin_rest.glsl"
 #include "surface/nearby.glsl"
@@ -49,22 +44,20 @@ vec3 rimPlace(vec3 point, Nearby nearby, uint end, uint other) {
     const float part = min(1.0, length(point - from) / max(length(restOf(other).xyz - from), 1e-30));
     return nearby.place + (1.0 - part) * (SKIN_PLACE(hungAt(end).vertex) - nearby.end);
 }
-#endif
 
 // Position of a vertex as seen by its corner c, and the gradient there. Inside of a bound skin it is computed as for
 // rims, so that neither penetrates the other.
 vec3 placeAt(CutVertex vertex, int c, out mat3 turn) {
     const vec3 point = vertex.rest.xyz;
-#ifdef HUNG
     const bool isRim = (vertex.point & SURFACE_RIM) != 0u;
-    const SkinGrid grid = grids[uint(vertex.rest.w)];
-    if (grid.spacing > 0.0) {
+    const uint skin = uint(vertex.rest.w);
+    if (hasHung && grids[skin].spacing > 0.0) {
+        const SkinGrid grid = grids[skin];
         const vec3 end = isRim ? restOf(vertex.corners[2 + c]).xyz : point;
         const Nearby nearby = nearbyOf(vertex.corners[c], point, end, grid);
         turn = nearby.turn;
         return isRim ? rimPlace(point, nearby, vertex.corners[2 + c], vertex.corners[3 - c]) : nearby.place;
     }
-#endif
     const uint corner = vertex.corners[c];
     turn = TURN(corner);
     return AT(corner) + turn * (point - HOME(corner));

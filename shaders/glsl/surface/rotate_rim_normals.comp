@@ -11,9 +11,8 @@ layout(std430, binding = 0) readonly buffer Rims { uint rims[]; };
 #include "surface/hung_vertex.glsl"
 layout(std430, binding = 8) readonly buffer Grids { SkinGrid grids[]; }; // by skin
 layout(std430, binding = 9) writeonly buffer Vertices { SkinVertex vertices[]; };
-#ifdef SPLIT
 layout(std430, binding = 10) readonly buffer Marks { uint marks[]; };
-#endif
+layout(constant_id = 1) const bool isSplit = false; // the skin is
 layout(push_constant) uniform Push { PrismPush push; };
 
 #include "surface/turned_normal.glsl"
@@ -22,9 +21,7 @@ void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
     bool isTurned = rims[i] != 0u;
-#ifdef SPLIT
-    isTurned = isTurned || (marks[i] != 0u && NEAR(hungAt(i).anchor) != 0u);
-#endif
+    if (isSplit) isTurned = isTurned || (marks[i] != 0u && NEAR(hungAt(i).anchor) != 0u);
     if (!isTurned) return;
     const HungVertex vertex = hungAt(i);
     vertices[vertex.vertex].normal = unitNormal(turnedNormal(vertex));

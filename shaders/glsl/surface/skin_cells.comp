@@ -3,20 +3,17 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 
-#ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions;
-layout(binding = 1) uniform usamplerBuffer cells; // CellVertex
-#define POSITION(i) texelFetch(positions, int(i))
+#include "common/fetched.glsl"
+FETCHED_VEC4(0, Positions, positionAt)
+layout(std430, binding = 1) readonly buffer Cells { CellVertex cells[]; };
+TEXEL_TWIN(1, usamplerBuffer, cellTexels);
+#define POSITION(i) positionAt(i)
 CellVertex cellAt(uint i) {
-    const uvec4 weights = texelFetch(cells, int(3u * i)), low = texelFetch(cells, int(3u * i + 1u)), high = texelFetch(cells, int(3u * i + 2u));
+    if (!usesTexels) return cells[i];
+    const int c = int(3u * i);
+    const uvec4 weights = texelFetch(cellTexels, c), low = texelFetch(cellTexels, c + 1), high = texelFetch(cellTexels, c + 2);
     return CellVertex(uintBitsToFloat(weights), uint[8](low.x, low.y, low.z, low.w, high.x, high.y, high.z, high.w));
 }
-#else
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Cells { CellVertex cells[]; };
-#define POSITION(i) positions[i]
-CellVertex cellAt(uint i) { return cells[i]; }
-#endif
 layout(std430, binding = 2) writeonly buffer Vertices { SkinVertex vertices[]; };
 layout(push_constant) uniform Push { SkinPush push; };
 

@@ -6,49 +6,36 @@
 #define ALIASED spirv_decorate(20) // the buffer is bound twice, and written through one binding: Aliased
 #include "common/kernel.glsl"
 
-#ifdef TEXELS
-ALIASED layout(std430, binding = 0) writeonly buffer Vertices { SkinVertex vertices[]; };
-layout(binding = 1) uniform usamplerBuffer indices;
-layout(binding = 2) uniform usamplerBuffer fans; // VertexTriangles
-layout(binding = 3) uniform usamplerBuffer trianglesOfVertex;
-ALIASED layout(binding = 4) uniform samplerBuffer places; // vertices, for reading
-#define INDEX(t) texelFetch(indices, int(t)).x
-#define FAN(i) texelFetch(fans, int(i)).xy
-#define TRIANGLE(k) texelFetch(trianglesOfVertex, int(k)).x
-#define VERTEX(i) texelFetch(places, int(2u * (i))).xyz
-#define NEXT 5
-#else
-layout(std430, binding = 0) buffer Vertices { SkinVertex vertices[]; };
-layout(std430, binding = 1) readonly buffer Indices { uint indices[]; };
-layout(std430, binding = 2) readonly buffer Fans { VertexTriangles fans[]; };
-layout(std430, binding = 3) readonly buffer TrianglesOfVertex { uint trianglesOfVertex[]; };
-#define INDEX(t) indices[t]
-#define FAN(i) uvec2(fans[i].first, fans[i].count)
-#define TRIANGLE(k) trianglesOfVertex[k]
-#define VERTEX(i) vertices[i].position.xyz
-#define NEXT 4
-#endif
-#ifdef WHOLE // corners of whole triangles around which none is beside a cut
-layout(std430, binding = NEXT) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = NEXT + 1) readonly buffer Marks { uint marks[]; }; // one per bound vertex
+#include "common/fetched.glsl"
+ALIASED layout(std430, binding = 0) buffer Vertices { SkinVertex vertices[]; };
+ALIASED TEXEL_TWIN(0, samplerBuffer, vertexTexels);
+FETCHED_UINT(1, Indices, indexAt)
+FETCHED_UVEC2(2, Fans, fanAt) // VertexTriangles
+FETCHED_UINT(3, TrianglesOfVertex, triangleAt)
+vec3 placeAt(uint i) {
+    if (usesTexels) return texelFetch(vertexTexels, int(2u * i)).xyz;
+    return vertices[i].position.xyz;
+}
+#define INDEX(t) indexAt(t)
+#define FAN(i) fanAt(i)
+#define TRIANGLE(k) triangleAt(k)
+#define VERTEX(i) placeAt(i)
+// Of all vertices, or of corners of whole triangles around which none is beside a cut.
+layout(constant_id = 1) const bool isOfWholes = false;
+layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
+layout(std430, binding = 5) readonly buffer Marks { uint marks[]; }; // one per bound vertex
 layout(push_constant) uniform Push { WholePush push; };
-#else
-layout(push_constant) uniform Push { CountPush push; };
-#endif
 
 void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
-#ifdef WHOLE
-    const uint i = hung[item].vertex;
-    if (i >= push.vertices || marks[item] != 0u) return;
-#else
-    const uint i = item;
-#endif
+    uint i = item;
+    if (isOfWholes) {
+        i = hung[item].vertex;
+        if (i >= push.vertices || marks[item] != 0u) return;
+    }
     const uvec2 fan = FAN(i);
-#ifdef WHOLE
-    if (fan.y == 0u) return;
-#endif
+    if (isOfWholes && fan.y == 0u) return;
     const vec3 here = VERTEX(i);
     const float blur = NORMAL_BLUR * dot(here, here) + 1e-37; // [m^2]
     vec3 sum = vec3(0.0);

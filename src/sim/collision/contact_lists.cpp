@@ -12,7 +12,7 @@ namespace sinew::sim::collision::contact_lists {
 
 namespace {
 
-constexpr std::uint32_t hasOneRadiusId = 1; // constant_id in find_contacts.comp
+constexpr std::uint32_t hasOneRadiusId = 1, hasExclusionsId = 2; // constant_id in find_contacts.comp
 
 // Each of two particles may use half of the margin; slightly less, because of rounding.
 constexpr float slackShare = 0.49f;
@@ -49,29 +49,16 @@ bool hasOneRadius(std::span<const float> radii) {
 
 namespace k = kernels;
 
-// Kernels find_contacts from loads and from texels; [0] all pairs, [1] without exclusions.
-using Forms = std::array<std::array<const vk::ShaderCode*, 2>, 2>;
-constexpr Forms unswept{{{&k::findContactsLoads, &k::findContactsExclusionsLoads},
-                         {&k::findContacts, &k::findContactsExclusions}}};
-constexpr Forms swept{{{&k::findContactsSweptLoads, &k::findContactsSweptExclusionsLoads},
-                       {&k::findContactsSwept, &k::findContactsSweptExclusions}}};
-
-const vk::ShaderCode& form(const Lists& lists, const Forms& forms) {
-    return *forms[lists.grid.usesTexels ? 1 : 0][lists.excluded != BufferId{} ? 1 : 0];
-}
-
-// Kernels that sort lists: [0] without memory, [1] with; [0] without groups, [1] with.
-constexpr std::array<std::array<const vk::ShaderCode*, 2>, 2> sorting{
-    {{&k::sortContacts, &k::sortContactsGroups}, {&k::sortContactsMemory, &k::sortContactsMemoryGroups}}};
-
 void addSorting(ProgramBuilder& program, const Lists& lists) {
     const hash_grid::Grid& grid = lists.grid;
     std::vector<BufferId> buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, grid.radii);
-    if (lists.pooled.memory) buffers.push_back(lists.hits);
-    const bool listsGroups = lists.touching != BufferId{};
-    if (listsGroups) buffers.insert(buffers.end(), {grid.touching.arguments, lists.marks, lists.touching});
-    program.dispatchIndirect(*sorting[lists.pooled.memory ? 1 : 0][listsGroups ? 1 : 0], grid.particles,
-                             buffers, lists.push);
+    const bool hasMemory = lists.pooled.memory.has_value(), listsGroups = lists.touching != BufferId{};
+    buffers.insert(buffers.end(),
+                   {boundIf(hasMemory, lists.hits), boundIf(listsGroups, grid.touching.arguments),
+                    boundIf(listsGroups, lists.marks), boundIf(listsGroups, lists.touching)});
+    constexpr std::uint32_t hasMemoryId = 1, listsOwnersId = 2; // constant_ids in sort_lists.comp
+    program.dispatchIndirect(k::sortLists, grid.particles, buffers, lists.push,
+                             {{hasMemoryId, hasMemory}, {listsOwnersId, listsGroups}});
 }
 
 } // namespace
@@ -84,7 +71,6 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                  .margin = request.margin,
                                                  .quietEdge = 2 * quietMost + margin,
                                                  .quiet = quietWay(request),
-                                                 .usesTexels = request.usesTexels,
                                                  .bodies = request.bodies,
                                                  .reach = 2 * largestOf(request.radii),
                                                  .substeps = request.substeps}),
@@ -132,13 +118,15 @@ void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Move
                                  layout::CountPush{grid.push.count});
     std::vector<BufferId> buffers{grid.sorted, grid.starts,   moved.positions, grid.radii,
                                   grid.bounds, pooled.chains, pooled.pairs,    lists.large};
-    if (lists.excluded != BufferId{}) buffers.push_back(lists.excluded);
-    const ProgramBuilder::Constants constants{{hasOneRadiusId, lists.hasOneRadius}};
+    const bool hasExclusions = lists.excluded != BufferId{};
+    buffers.push_back(boundIf(hasExclusions, lists.excluded));
+    const ProgramBuilder::Constants constants{{hasOneRadiusId, lists.hasOneRadius},
+                                              {hasExclusionsId, hasExclusions}};
     layout::FindPush quiet = lists.push;
     quiet.most = lists.quietMost;
-    program.dispatchIndirect(form(lists, unswept), grid.unswept, buffers, quiet, constants);
+    program.dispatchIndirect(k::findContacts, grid.unswept, buffers, quiet, constants);
     buffers.insert(buffers.end(), {moved.velocities, grid.fast, moved.step});
-    program.dispatchIndirect(form(lists, swept), grid.swept, buffers, lists.push, constants);
+    program.dispatchIndirect(k::findContactsSwept, grid.swept, buffers, lists.push, constants);
     addSorting(program, lists);
 }
 

@@ -32,7 +32,6 @@ struct Request {
     bool isKept = false;          ///< some pair keeps its rest distance: lists reach farther by its slack
     std::uint32_t capacity = 0;   ///< mean capacity, in candidates of a particle
     Exclusions exclusions;
-    bool usesTexels = true;
     const body_frames::Bodies* bodies = nullptr; ///< as in hash_grid::Request
     std::uint32_t substeps = 1;                  ///< of a step
     bool hasMemory = false;                      ///< whether contacts have memory

@@ -48,7 +48,6 @@ edge_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .margin = margin,
                                                         .beyond = keepsRest ? 3 * REST_SLACK * thickest : 0,
                                                         .capacity = settings.contactRoom,
-                                                        .usesTexels = settings.forms.usesTexels,
                                                         .particles = layout.count,
                                                         .bodies = &bodies,
                                                         .substeps = settings.substeps});
@@ -99,8 +98,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                      .particles = {lists.grid.touchingParticles, lists.touching},
                      .surfaces = faces.rows.surfaces,
                      .marks = faces.rows.marks,
-                     .keepsRest = faces.rows.keepsRest,
-                     .usesTexels = faces.rows.usesTexels};
+                     .keepsRest = faces.rows.keepsRest};
     row_contacts::add(program, contacts.rows,
                       cornersOf(edges, layout, inverseMasses(scene), settings.keepsForces), particles);
     contacts.rows.touching = {lists.pooled.links->owners, lists.pooled.links->elements,

@@ -2,6 +2,7 @@
 #include "sim/collision/edge_lists.hpp"
 
 #include "kernels.hpp"
+#include "sim/collision/row_contacts.hpp"
 
 #include <algorithm>
 
@@ -61,7 +62,6 @@ Lists add(ProgramBuilder& program, const Request& request) {
                               .margin = request.margin,
                               .edge = 2 * largest + request.margin,
                               .others = static_cast<std::uint32_t>(paddedCount(std::max(count, ends))),
-                              .usesTexels = request.usesTexels,
                               .bodies = request.bodies,
                               .particles = request.particles,
                               .watched = watched,
@@ -118,7 +118,7 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     const std::vector<BufferId> keeping = pooled_lists::keepingBuffers(lists.pooled);
     buffers.insert(buffers.end(), keeping.begin(), keeping.end());
     program.dispatchIndirect(k::listLargePoints, grid.particles, buffers, lists.push);
-    program.dispatchIndirect(grid.usesTexels ? k::findEdges : k::findEdgesLoads, grid.particles,
+    program.dispatchIndirect(k::findEdges, grid.particles,
                              {particles.positions, lists.edges, lists.speeds, lists.thickness, grid.sorted,
                               grid.starts, lists.excluded, grid.bounds, lists.points, lists.apart,
                               lists.middles, lists.pooled.chains, lists.pooled.pairs,
@@ -128,11 +128,11 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     buffers.push_back(lists.pooled.links->owners);
     program.dispatchIndirect(k::sortEdges, grid.particles, buffers, lists.push);
     const pooled_lists::Links& links = *lists.pooled.links;
-    program.dispatchIndirect(k::linkEdges, grid.particles,
+    program.dispatchIndirect(k::indexRowsByOwner, grid.particles,
                              {lists.pooled.pairs, links.chains, lists.pooled.contacts, lists.pooled.ranges,
                               links.elements, links.ranges, lists.points, grid.bounds, lists.edges,
                               program.program().status, grid.touching.arguments, lists.marks, lists.touching},
-                             lists.push);
+                             lists.push, row_contacts::edges.constants());
 }
 
 } // namespace sinew::sim::collision::edge_lists

@@ -25,10 +25,9 @@ struct Request {
     /// Edges that an edge never touches although they share no end: for each edge the first of them, one more
     /// entry for the end, then the edges of all, sorted.
     std::span<const std::uint32_t> exclusions;
-    float margin = 0;           ///< M [m]
-    float beyond = 0;           ///< additional listing distance beyond contact and M [m]
-    std::uint32_t capacity = 0; ///< mean capacity, in edges near an edge
-    bool usesTexels = true;
+    float margin = 0;                            ///< M [m]
+    float beyond = 0;                            ///< additional listing distance beyond contact and M [m]
+    std::uint32_t capacity = 0;                  ///< mean capacity, in edges near an edge
     std::size_t particles = 0;                   ///< slots of the state
     const body_frames::Bodies* bodies = nullptr; ///< as in hash_grid::Request
     std::uint32_t substeps = 1;                  ///< of a step

@@ -194,7 +194,6 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .margin = settings.contactMargin * length,
                                                         .beyond = beyond,
                                                         .capacity = settings.contactRoom,
-                                                        .usesTexels = settings.forms.usesTexels,
                                                         .bodies = &bodies,
                                                         .substeps = settings.substeps});
     collision::letDebrisLeave(program, lists.grid.radii, lists.grid);
@@ -251,8 +250,7 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
                             .bounds = lists.grid.bounds,
                             .particles = {lists.grid.touchingParticles, lists.touching},
                             .surfaces = surfaces::addTable(program, scene, particles.layout, "faces.surface"),
-                            .keepsRest = keepRest(scene),
-                            .usesTexels = settings.forms.usesTexels};
+                            .keepsRest = keepRest(scene)};
     rows.push = {.count = find.points,
                  .surfaces = rows.surfaces.count,
                  .recoverySpeed = scene.contacts.recoverySpeed,
@@ -356,12 +354,11 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                                   state.step,
                                   lists.pooled.memory->memory};
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
-    const vk::ShaderCode& code = forces::formFor(
-        state, {lists.grid.usesTexels ? &k::stopAtFaces : &k::stopAtFacesLoads, &k::stopAtFacesForces},
-        &forces::Forces::ofStops, buffers, constants);
-    if (state.forces) buffers.insert(buffers.end(), {contacts.stopRows, contacts.linkedPositions});
+    forces::bindTo(state, &forces::Forces::ofStops, buffers, constants);
+    buffers.insert(buffers.end(), {boundIf(state.forces != nullptr, contacts.stopRows),
+                                   boundIf(state.forces != nullptr, contacts.linkedPositions)});
     buffers.push_back(contacts.movingPoints);
-    program.dispatch(code, push.count, buffers, push, constants);
+    program.dispatch(k::stopAtFaces, push.count, buffers, push, constants);
 }
 
 } // namespace sinew::sim::collision::face_contacts

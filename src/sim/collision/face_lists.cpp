@@ -2,6 +2,7 @@
 #include "sim/collision/face_lists.hpp"
 
 #include "kernels.hpp"
+#include "sim/collision/row_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,7 @@ namespace {
 
 namespace k = kernels;
 
-// Kernels find_faces from loads and from texels; [0] without cuttable bodies, [1] with.
-constexpr std::array<std::array<const vk::ShaderCode*, 2>, 2> finding{
-    {{&k::findFacesLoads, &k::findFacesLinksLoads}, {&k::findFaces, &k::findFacesLinks}}};
+constexpr std::uint32_t hasLinksId = 1; // constant_id in face_search.glsl
 
 // In the grid all points have radius 0: the size of cells follows from the faces.
 std::vector<float> pointsOf(std::span<const float> radii) {
@@ -69,7 +68,6 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                  .margin = request.margin,
                                                  .edge = edge,
                                                  .others = static_cast<std::uint32_t>(paddedCount(faces)),
-                                                 .usesTexels = request.usesTexels,
                                                  .bodies = request.bodies,
                                                  .watched = watched,
                                                  .reach = reachOf(request),
@@ -124,27 +122,26 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     program.dispatchIndirect(k::listLargePoints, grid.particles, parting, lists.push);
     std::vector<BufferId> buffers = searchBuffers(lists, particles);
     const bool hasLinks = lists.liveLinks != BufferId{};
+    const ProgramBuilder::Constants constants{{hasLinksId, hasLinks}};
     buffers.insert(buffers.end(), {grid.sorted, grid.starts, lists.points, lists.apart, lists.searched,
                                    lists.inverseMasses});
-    if (hasLinks) buffers.push_back(lists.liveLinks);
-    program.dispatchIndirect(*finding[grid.usesTexels ? 1 : 0][hasLinks ? 1 : 0], grid.others, buffers,
-                             lists.push);
+    buffers.push_back(boundIf(hasLinks, lists.liveLinks));
+    program.dispatchIndirect(k::findFaces, grid.others, buffers, lists.push, constants);
     buffers = searchBuffers(lists, particles);
     buffers.insert(buffers.end(),
                    {lists.large, lists.apart, lists.points, program.program().status, lists.inverseMasses});
-    if (hasLinks) buffers.push_back(lists.liveLinks);
-    program.dispatchIndirect(hasLinks ? k::findWideFacesLinks : k::findWideFaces, grid.particles, buffers,
-                             lists.push);
+    buffers.push_back(boundIf(hasLinks, lists.liveLinks));
+    program.dispatchIndirect(k::findWideFaces, grid.particles, buffers, lists.push, constants);
     buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.radii);
     buffers.insert(buffers.end(), {grid.touching.arguments, lists.marks, lists.touching, lists.faces,
                                    lists.pooled.links->owners});
     program.dispatchIndirect(k::sortFaces, grid.particles, buffers, lists.push);
-    program.dispatchIndirect(k::linkFaces, grid.others,
+    program.dispatchIndirect(k::indexRowsByOwner, grid.others,
                              {lists.pooled.pairs, lists.pooled.links->chains, lists.pooled.contacts,
                               lists.pooled.ranges, lists.pooled.links->elements, lists.pooled.links->ranges,
                               lists.points, grid.bounds, lists.faces, program.program().status,
                               grid.touching.arguments, lists.marks, lists.touching},
-                             lists.push);
+                             lists.push, row_contacts::faces.constants());
 }
 
 } // namespace sinew::sim::collision::face_lists

@@ -28,11 +28,10 @@ struct Request {
     /// strides between rows and slices of its slots. Word k + 2 = 1: points joined to corners only by
     /// diagonals touch at LINKED_REACH.
     std::span<const std::uint32_t> exclusions;
-    BufferId liveLinks;         ///< CuttingBuffers::links; only if there are such rows
-    float margin = 0;           ///< M [m]
-    float beyond = 0;           ///< additional listing distance beyond contact and M [m]
-    std::uint32_t capacity = 0; ///< mean capacity, in faces near a point
-    bool usesTexels = true;
+    BufferId liveLinks;                          ///< CuttingBuffers::links; only if there are such rows
+    float margin = 0;                            ///< M [m]
+    float beyond = 0;                            ///< additional listing distance beyond contact and M [m]
+    std::uint32_t capacity = 0;                  ///< mean capacity, in faces near a point
     const body_frames::Bodies* bodies = nullptr; ///< as in hash_grid::Request
     std::uint32_t substeps = 1;                  ///< of a step
 };

@@ -20,10 +20,6 @@ std::uint32_t cellsFor(std::size_t particles) {
     return std::max(fewest, std::bit_ceil(static_cast<std::uint32_t>(2 * particles)));
 }
 
-const vk::ShaderCode& form(const Grid& grid, const vk::ShaderCode& texels, const vk::ShaderCode& loads) {
-    return grid.usesTexels ? texels : loads;
-}
-
 // Push constants of kernels that depend on the substep.
 layout::GridPush pushOf(const ProgramBuilder& program, const Grid& grid) {
     layout::GridPush push = grid.push;
@@ -76,7 +72,6 @@ Grid add(ProgramBuilder& program, const Request& request) {
                        .most = most,
                        .others = request.others,
                        .quiet = std::max(request.quiet, 0.0f)},
-              .usesTexels = request.usesTexels,
               .radii = program.upload(request.radiiName, request.radii),
               .bounds = program.scratch<layout::GridBounds>(name + ".bounds", 1),
               .arguments = program.scratch<layout::DispatchArguments>(name + ".arguments", GRID_ARGUMENTS),
@@ -125,7 +120,7 @@ Grid add(ProgramBuilder& program, const Request& request) {
 
 void addListCheck(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     namespace k = kernels;
-    program.dispatch(form(grid, k::checkPairLists, k::checkPairListsLoads), grid.push.count,
+    program.dispatch(k::checkPairLists, grid.push.count,
                      {moved.positions, grid.detected, moved.velocities, grid.bounds, grid.radii, grid.fast,
                       moved.step, grid.frames.frames},
                      grid.push, grid.frames.constants());
@@ -148,7 +143,7 @@ void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
 void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     layout::GridPush push = pushOf(program, grid);
     push.count = grid.frames.memberCount;
-    program.dispatch(form(grid, kernels::checkSurfaceLists, kernels::checkSurfaceListsLoads), push.count,
+    program.dispatch(kernels::checkSurfaceLists, push.count,
                      {moved.positions, moved.velocities, grid.detected, grid.bounds, moved.step,
                       grid.frames.frames, grid.frames.members},
                      push, grid.frames.constants());
@@ -157,9 +152,9 @@ void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Move
 
 void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions) {
     namespace k = kernels;
-    program.dispatchIndirect(form(grid, k::measureBounds, k::measureBoundsLoads), grid.particleChunks,
-                             {positions, grid.radii, grid.bounds}, grid.push);
-    program.dispatchIndirect(form(grid, k::countCells, k::countCellsLoads), grid.particles,
+    program.dispatchIndirect(k::measureBounds, grid.particleChunks, {positions, grid.radii, grid.bounds},
+                             grid.push);
+    program.dispatchIndirect(k::countCells, grid.particles,
                              {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.counted[0],
                               grid.counted[1], grid.counted[2]},
                              grid.push);
@@ -167,8 +162,8 @@ void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions) {
     program.dispatchIndirect(k::scanSums, grid.oneGroup, {grid.sums}, grid.push);
     program.dispatchIndirect(k::startCells, grid.cellChunks, {grid.counts, grid.sums, grid.starts},
                              grid.push);
-    program.dispatchIndirect(form(grid, k::fillCells, k::fillCellsLoads), grid.particles,
-                             {positions, grid.places, grid.starts, grid.sorted}, grid.push);
+    program.dispatchIndirect(k::fillCells, grid.particles, {positions, grid.places, grid.starts, grid.sorted},
+                             grid.push);
 }
 
 } // namespace sinew::sim::collision::hash_grid

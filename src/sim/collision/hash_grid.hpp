@@ -24,7 +24,6 @@ struct Request {
     /// Distance that a particle may move in a substep before contacts are searched along its path [m]; below
     /// 0 if particles are not checked.
     float quiet = -1;
-    bool usesTexels = true;
     /// The bodies whose motion particles are expected to share; null = they are expected to stay in place.
     const body_frames::Bodies* bodies = nullptr;
     /// Slots of the state, if items of the grid are not particles. The requesting code then writes `detected`
@@ -53,7 +52,6 @@ constexpr std::size_t mostLarge = 64;
 
 struct Grid {
     layout::GridPush push{};
-    bool usesTexels = true;
     BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
     IndirectItems particles, particleChunks, cellChunks, oneGroup,
         others; ///< of passes that run with a build

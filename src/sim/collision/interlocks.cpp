@@ -175,10 +175,8 @@ void addPasses(ProgramBuilder& program, const Interlocks& interlocks, const Shar
     buffers = sharedBuffers(interlocks, shared, predicted.step);
     buffers.insert(buffers.end(), {interlocks.moving, predicted.positions, predicted.velocities});
     ProgramBuilder::Constants constants;
-    const vk::ShaderCode& code =
-        forces::formFor(predicted, {&k::separateInterlocked, &k::separateInterlockedForces},
-                        &forces::Forces::ofContacts, buffers, constants);
-    program.dispatchIndirect(code, items, buffers, interlocks.push, constants);
+    forces::bindTo(predicted, &forces::Forces::ofContacts, buffers, constants);
+    program.dispatchIndirect(k::separateInterlocked, items, buffers, interlocks.push, constants);
 }
 
 void addClosing(ProgramBuilder& program, const Interlocks& interlocks) {

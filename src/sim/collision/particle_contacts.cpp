@@ -1,4 +1,4 @@
-// The host side of contacts between particles: the form of each kernel, and the order of the passes.
+// The host side of contacts between particles: their buffers, and the order of the passes.
 #include "sim/collision/particle_contacts.hpp"
 
 #include "common/rest_slack.h"
@@ -27,41 +27,12 @@ bool hasFrictionTable(const Contacts& contacts) {
     return contacts.surfaces.count > 0 && contacts.surfaces.hasFriction;
 }
 
-// gather_contacts without memory, with slips, with surfaces; [0] without planes, [1] with planes, [2] with
-// planes that have restitution.
-using Forms = std::array<std::array<const vk::ShaderCode*, 3>, 3>;
-constexpr Forms texelForms{
-    {{&k::gatherContacts, &k::gatherContactsPlanes, &k::gatherContactsRebound},
-     {&k::gatherContactsSlips, &k::gatherContactsSlipsPlanes, &k::gatherContactsSlipsRebound},
-     {&k::gatherContactsSurfaces, &k::gatherContactsSurfacesPlanes, &k::gatherContactsSurfacesRebound}}};
-constexpr Forms loadForms{
-    {{&k::gatherContactsLoads, &k::gatherContactsPlanesLoads, &k::gatherContactsReboundLoads},
-     {&k::gatherContactsSlipsLoads, &k::gatherContactsSlipsPlanesLoads, &k::gatherContactsSlipsReboundLoads},
-     {&k::gatherContactsSurfacesLoads, &k::gatherContactsSurfacesPlanesLoads,
-      &k::gatherContactsSurfacesReboundLoads}}};
-// Forms that also keep impulses, in scenes without sleep, for which fewer kernels suffice.
-constexpr Forms forcesForms{
-    {{&k::gatherContactsForces, &k::gatherContactsPlanesForces, &k::gatherContactsReboundForces},
-     {&k::gatherContactsSlipsForces, &k::gatherContactsSlipsPlanesForces,
-      &k::gatherContactsSlipsReboundForces},
-     {&k::gatherContactsSurfacesForces, &k::gatherContactsSurfacesPlanesForces,
-      &k::gatherContactsSurfacesReboundForces}}};
-constexpr std::uint32_t checksListsId = 3;                    // constant_id in finish_without_contacts.comp
+constexpr std::uint32_t checksListsId = 3, hasReboundId = 13; // constant_id in finish_without_contacts.comp
 constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in gather_contacts.comp
-constexpr std::uint32_t keepsRestId = 5; // also in count_contacts.comp and in those of bounces
-constexpr std::uint32_t canOpenId = 6;   // in count_contacts.comp
-
-const vk::ShaderCode& gatherForm(const Contacts& contacts, bool keepsForces) {
-    const Forms& forms = keepsForces ? forcesForms : contacts.lists.grid.usesTexels ? texelForms : loadForms;
-    const std::size_t planes = contacts.planes.count == 0 ? 0 : contacts.hasRebound ? 2 : 1;
-    if (!contacts.hasMemory()) return *forms[0][planes];
-    return *forms[hasFrictionTable(contacts) ? 2 : 1][planes];
-}
-
-// A kernel of a family, [0] from loads, [1] from texels.
-const vk::ShaderCode& form(const Contacts& contacts, const std::array<const vk::ShaderCode*, 2>& forms) {
-    return *forms[contacts.lists.grid.usesTexels ? 1 : 0];
-}
+constexpr std::uint32_t keepsRestId = 5;   // also in count_contacts.comp and in those of bounces
+constexpr std::uint32_t hasMemoryId = 6;   // in gather_contacts.comp
+constexpr std::uint32_t hasSurfacesId = 7; // also in the kernels of bounces
+constexpr std::uint32_t canOpenId = 6;     // in count_contacts.comp
 
 // By state slot; below 0 = touches nothing.
 std::vector<float> radiiOf(const Scene& scene, const StateLayout& layout) {
@@ -156,26 +127,18 @@ void addUncontactedEnd(ProgramBuilder& program, const Contacts& contacts, const 
                                   predicted.step,      grid.frames.frames, predicted.positions,
                                   next.positions,      next.velocities};
     ProgramBuilder::Constants constants = remainderConstants(next.layout);
-    if (contacts.hasRebound) buffers.push_back(contacts.before);
-    if (contacts.planes.count > 0) {
-        buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
-        constants.merge(contacts.planes.constants());
-    }
-    constants.insert({checksListsId, checksLists});
+    buffers.push_back(boundIf(contacts.hasRebound, contacts.before));
+    buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
+    constants.merge(contacts.planes.constants());
+    constants.insert({{checksListsId, checksLists}, {hasReboundId, contacts.hasRebound}});
     constants.merge(grid.frames.constants());
-    const vk::ShaderCode& code =
-        contacts.hasRebound
-            ? form(contacts, {&k::finishWithoutContactsReboundLoads, &k::finishWithoutContactsRebound})
-        : contacts.planes.count > 0
-            ? form(contacts, {&k::finishWithoutContactsPlanesLoads, &k::finishWithoutContactsPlanes})
-            : form(contacts, {&k::finishWithoutContactsLoads, &k::finishWithoutContacts});
     layout::GridPush push = grid.push;
     push.count = contacts.particleCount;
     buffers.push_back(contacts.particles);
     if (checksLists)
-        program.dispatch(code, push.count, buffers, push, constants);
+        program.dispatch(k::finishWithoutContacts, push.count, buffers, push, constants);
     else
-        program.dispatchIndirect(code, grid.slowed, buffers, push, constants);
+        program.dispatchIndirect(k::finishWithoutContacts, grid.slowed, buffers, push, constants);
 }
 
 // Appends a pass over all particles, or over the groups with a candidate.
@@ -185,9 +148,8 @@ void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk
         program.dispatch(code, contacts.push.count, buffers, contacts.push, constants);
         return;
     }
-    buffers.push_back(contacts.lists.touching);
-    program.dispatchIndirect(sleep::listedForm(code), contacts.lists.grid.touching, buffers, contacts.push,
-                             constants);
+    program.dispatchListed(code, contacts.lists.grid.touching, buffers, contacts.lists.touching,
+                           contacts.push, constants);
 }
 
 void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
@@ -208,17 +170,13 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
     std::vector<BufferId> buffers{predicted.positions,  lists.pooled.contacts, lists.pooled.ranges,
                                   predicted.velocities, contacts.touching,     predicted.step,
                                   lists.grid.bounds,    contacts.firsts,       lists.hits};
-    if (contacts.hasRecovery) // if no cut lets pairs touch, no kernel reads the last
-        buffers.insert(buffers.end(), {contacts.lists.pooled.memory->memory,
-                                       contacts.isCuttable() ? contacts.marks : lists.grid.radii});
-    addOverContacts(
-        program, contacts,
-        contacts.hasRecovery ? form(contacts, {&k::countContactsRecoveryLoads, &k::countContactsRecovery})
-                             : form(contacts, {&k::countContactsLoads, &k::countContacts}),
-        std::move(buffers),
-        contacts.hasRecovery
-            ? ProgramBuilder::Constants{{keepsRestId, contacts.hasKept}, {canOpenId, contacts.isCuttable()}}
-            : ProgramBuilder::Constants{});
+    const bool canOpen = contacts.hasRecovery && contacts.isCuttable();
+    buffers.insert(buffers.end(), {contacts.hasRecovery ? contacts.lists.pooled.memory->memory : unbound,
+                                   boundIf(canOpen, contacts.marks)});
+    addOverContacts(program, contacts, k::countContacts, std::move(buffers),
+                    {{hasRecoveryId, contacts.hasRecovery},
+                     {keepsRestId, contacts.hasRecovery && contacts.hasKept},
+                     {canOpenId, canOpen}});
 }
 
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
@@ -235,24 +193,23 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
                                   lists.grid.bounds,
                                   contacts.firsts,
                                   lists.hits};
+    const bool hasMemory = contacts.hasMemory(), isTable = hasMemory && hasFrictionTable(contacts);
+    const bool rebounds = contacts.hasRebound && contacts.planes.count > 0;
+    buffers.insert(buffers.end(), {boundIf(hasMemory || rebounds, contacts.before),
+                                   hasMemory ? contacts.lists.pooled.memory->memory : unbound,
+                                   boundIf(isTable, contacts.surfaces.ofParticles),
+                                   boundIf(isTable, contacts.surfaces.pairs), contacts.planes.planes,
+                                   contacts.planes.contactOffsets});
     ProgramBuilder::Constants constants = remainderConstants(next.layout);
-    if (contacts.hasMemory() || contacts.hasRebound) buffers.push_back(contacts.before);
-    if (contacts.hasMemory()) {
-        buffers.push_back(contacts.lists.pooled.memory->memory);
-        constants.insert(
-            {{hasFrictionId, contacts.surfaces.hasFriction}, {hasRecoveryId, contacts.hasRecovery}});
-        constants.insert({keepsRestId, contacts.hasKept});
-    }
-    if (hasFrictionTable(contacts))
-        buffers.insert(buffers.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
-    if (contacts.planes.count > 0) {
-        buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
-        constants.merge(contacts.planes.constants());
-    }
-    const vk::ShaderCode& code =
-        forces::formFor(next, {&gatherForm(contacts, false), &gatherForm(contacts, true)},
-                        &forces::Forces::ofPlanes, buffers, constants);
-    addOverContacts(program, contacts, code, std::move(buffers), constants);
+    constants.merge(contacts.planes.constants());
+    constants.insert({{hasFrictionId, hasMemory && contacts.surfaces.hasFriction},
+                      {hasRecoveryId, hasMemory && contacts.hasRecovery},
+                      {keepsRestId, hasMemory && contacts.hasKept},
+                      {hasMemoryId, hasMemory},
+                      {hasSurfacesId, isTable},
+                      {hasReboundId, rebounds}});
+    forces::bindTo(next, &forces::Forces::ofPlanes, buffers, constants);
+    addOverContacts(program, contacts, k::gatherContacts, std::move(buffers), constants);
 }
 
 // Whether most touching particles belong to linked bodies: few of these have a candidate at a time.
@@ -311,7 +268,6 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                                               .isKept = overlaps::haveKept(overlaps),
                                               .capacity = room,
                                               .exclusions = std::move(exclusions),
-                                              .usesTexels = settings.forms.usesTexels,
                                               .bodies = &bodies,
                                               .substeps = settings.substeps,
                                               .hasMemory = surfaces.hasFriction || hasRecovery,
@@ -379,24 +335,15 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     std::vector<BufferId> shared{predicted.positions,  lists.pooled.contacts, contacts.before,
                                  predicted.velocities, lists.pooled.ranges,   next.step,
                                  lists.grid.bounds,    contacts.firsts};
-    if (isTable) shared.insert(shared.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
-    shared.push_back(lists.hits);
-    // no kernel reads it if no rest distance is kept
-    shared.push_back(contacts.hasKept ? lists.pooled.memory->memory : contacts.before);
-    shared.push_back(next.velocities);
-    shared.push_back(contacts.bouncing);
-    ProgramBuilder::Constants constants{{keepsRestId, contacts.hasKept}};
-    program.dispatch(isTable ? form(contacts, {&k::countReboundsSurfacesLoads, &k::countReboundsSurfaces})
-                             : form(contacts, {&k::countReboundsLoads, &k::countRebounds}),
-                     contacts.push.count, shared, contacts.push, constants);
+    shared.insert(shared.end(),
+                  {boundIf(isTable, contacts.surfaces.ofParticles), boundIf(isTable, contacts.surfaces.pairs),
+                   lists.hits, contacts.hasKept ? lists.pooled.memory->memory : unbound, next.velocities,
+                   contacts.bouncing});
+    ProgramBuilder::Constants constants{{keepsRestId, contacts.hasKept}, {hasSurfacesId, isTable}};
+    program.dispatch(k::countRebounds, contacts.push.count, shared, contacts.push, constants);
     shared.insert(shared.end(), {next.positions, contacts.rebounding});
-    const forces::Forms tabled{&form(contacts, {&k::solveReboundsSurfacesLoads, &k::solveReboundsSurfaces}),
-                               &k::solveReboundsSurfacesForces};
-    const forces::Forms plain{&form(contacts, {&k::solveReboundsLoads, &k::solveRebounds}),
-                              &k::solveReboundsForces};
-    const vk::ShaderCode& code =
-        forces::formFor(next, isTable ? tabled : plain, &forces::Forces::ofContacts, shared, constants);
-    program.dispatch(code, contacts.push.count, shared, contacts.push, constants);
+    forces::bindTo(next, &forces::Forces::ofContacts, shared, constants);
+    program.dispatch(k::solveRebounds, contacts.push.count, shared, contacts.push, constants);
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {

@@ -71,24 +71,31 @@ std::vector<BufferId> keepingBuffers(const Lists& lists) {
 
 std::vector<BufferId> sortingBuffers(ProgramBuilder& program, const Lists& lists, const hash_grid::Grid& grid,
                                      BufferId radii) {
-    std::vector<BufferId> buffers{lists.pairs,    lists.chains, radii,
-                                  lists.contacts, lists.ranges, program.program().status,
-                                  grid.bounds};
-    if (lists.memory)
-        buffers.insert(buffers.end(), {lists.memory->memory, lists.memory->kept.memory,
-                                       lists.memory->kept.others, lists.memory->kept.ranges});
-    return buffers;
+    const Memory none{.memory = unbound, .kept = {unbound, unbound, unbound}, .saved = {}};
+    const Memory& memory = lists.memory ? *lists.memory : none;
+    return {lists.pairs,        lists.chains,      radii,
+            lists.contacts,     lists.ranges,      program.program().status,
+            grid.bounds,        memory.memory,     memory.kept.memory,
+            memory.kept.others, memory.kept.ranges};
 }
 
 void addPublishing(ProgramBuilder& program, const Lists& lists, const hash_grid::Grid& grid) {
-    std::vector<BufferId> buffers{program.program().status, grid.detected, grid.bounds};
-    if (lists.memory)
-        buffers.insert(buffers.end(),
-                       {lists.contacts, lists.ranges, lists.memory->memory, lists.memory->saved.memory,
-                        lists.memory->saved.others, lists.memory->saved.ranges});
+    const bool hasMemory = lists.memory.has_value();
+    const Kept none{unbound, unbound, unbound};
+    const Kept& saved = hasMemory ? lists.memory->saved : none;
+    const std::vector<BufferId> buffers{program.program().status,
+                                        grid.detected,
+                                        grid.bounds,
+                                        boundIf(hasMemory, lists.contacts),
+                                        boundIf(hasMemory, lists.ranges),
+                                        hasMemory ? lists.memory->memory : unbound,
+                                        saved.memory,
+                                        saved.others,
+                                        saved.ranges};
+    constexpr std::uint32_t hasMemoryId = 1; // constant_id in publish_lists.comp
     const std::uint32_t items = std::max(grid.push.count, grid.touchingParticles.most);
-    program.dispatch(lists.memory ? kernels::publishKeptLists : kernels::publishLists, items, buffers,
-                     layout::CountPush{grid.push.count});
+    program.dispatch(kernels::publishLists, items, buffers, layout::CountPush{grid.push.count},
+                     {{hasMemoryId, hasMemory}});
     // While everything sleeps no pass plans the number of groups, and lists must not be made again.
     if (program.program().sleep.arguments != BufferId{}) program.fill(grid.arguments, 0);
 }

@@ -24,13 +24,14 @@ void addOverRows(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode
 // Appends the pass that divides particles among the rows whose last word of `directions` is not 0.
 void addShares(ProgramBuilder& program, const Rows& rows, BufferId directions,
                const ParticleBuffers& particles) {
-    addOver(program, rows, rows.particles, rows.kind->share.form(rows.usesTexels),
+    addOver(program, rows, rows.particles, k::sumRowWeights,
             {rows.lists.ranges, directions, rows.weights, rows.corners, rows.lists.links->elements,
-             rows.lists.links->ranges, rows.cornerEnds, particles.velocities, rows.shares});
+             rows.lists.links->ranges, rows.cornerEnds, particles.velocities, rows.shares},
+            rows.kind->constants());
 }
 
-// Appends the pass that applies impulses to particles, in the form that keeps forces if the step does.
-void addImpulses(ProgramBuilder& program, const Rows& rows, BufferId directions, const forces::Forms& forms,
+// Appends the pass that applies impulses to particles.
+void addImpulses(ProgramBuilder& program, const Rows& rows, BufferId directions, const vk::ShaderCode& code,
                  const ParticleBuffers& particles, ProgramBuilder::Constants constants = {}) {
     std::vector<BufferId> buffers{rows.lists.ranges,
                                   directions,
@@ -43,47 +44,26 @@ void addImpulses(ProgramBuilder& program, const Rows& rows, BufferId directions,
                                   particles.velocities,
                                   particles.positions,
                                   particles.step};
-    const vk::ShaderCode& code = forces::formFor(particles, forms, rows.kind->forces, buffers, constants);
-    if (particles.forces) buffers.insert(buffers.end(), rows.forceRows.begin(), rows.forceRows.end());
+    forces::bindTo(particles, rows.kind->forces, buffers, constants);
+    const bool hasStops = particles.forces != nullptr && !rows.kind->areEdges;
+    for (const BufferId buffer : rows.forceRows) buffers.push_back(hasStops ? buffer : unbound);
+    constants.merge(rows.kind->constants());
     addOver(program, rows, rows.particles, code, std::move(buffers), constants);
 }
 
 sleep::SeenRows seenOf(const Rows& rows) {
-    sleep::SeenRows seen{rows.kind->wake,
-                         rows.kind->join,
-                         {rows.lists.contacts, rows.lists.ranges, rows.directions, rows.shapes}};
-    if (rows.kind == &edges) seen.buffers.push_back(rows.corners);
-    return seen;
+    return {{rows.lists.contacts, rows.lists.ranges, rows.directions, rows.shapes,
+             boundIf(rows.kind->areEdges, rows.corners)},
+            rows.kind->constants()};
 }
 
 } // namespace
 
-constinit const Kind faces{.name = "faces",
-                           .touch = {&k::findFaceContacts, &k::findFaceContactsLoads},
-                           .touchesLists = true,
-                           .share = {&k::shareFaces, &k::shareFacesLoads},
-                           .press = {&k::pressFaces, &k::pressFacesLoads},
-                           .bounce = &k::bounceFaces,
-                           .rebound = &k::reboundFaces,
-                           .gather = {&k::gatherFaces, &k::gatherFacesForces},
-                           .gatherLoads = {&k::gatherFacesLoads, &k::gatherFacesForces},
-                           .gatherRebound = {&k::gatherFacesRebound, &k::gatherFacesReboundForces},
-                           .forces = &forces::Forces::ofStops,
-                           .wake = &k::wakeFaces,
-                           .join = &k::joinFaces};
+constinit const Kind faces{
+    .name = "faces", .touch = &k::findFaceContacts, .touchesLists = true, .forces = &forces::Forces::ofStops};
 
-constinit const Kind edges{.name = "edges",
-                           .touch = {&k::findEdgeContacts, &k::findEdgeContactsLoads},
-                           .share = {&k::shareEdges, &k::shareEdgesLoads},
-                           .press = {&k::pressEdges, &k::pressEdgesLoads},
-                           .bounce = &k::bounceEdges,
-                           .rebound = &k::reboundEdges,
-                           .gather = {&k::gatherEdges, &k::gatherEdgesForces},
-                           .gatherLoads = {&k::gatherEdgesLoads, &k::gatherEdgesForces},
-                           .gatherRebound = {&k::gatherEdgesRebound, &k::gatherEdgesReboundForces},
-                           .forces = &forces::Forces::ofContacts,
-                           .wake = &k::wakeEdges,
-                           .join = &k::joinEdges};
+constinit const Kind edges{
+    .name = "edges", .areEdges = true, .touch = &k::findEdgeContacts, .forces = &forces::Forces::ofContacts};
 
 Corners cornersOf(std::span<const std::vector<std::uint32_t>> first,
                   std::span<const std::vector<std::uint32_t>> later) {
@@ -130,32 +110,35 @@ void addPasses(ProgramBuilder& program, const Rows& rows, const ParticleBuffers&
         predicted.positions,  predicted.velocities, rows.shapes,  lists.contacts, lists.ranges,
         lists.memory->memory, rows.directions,      rows.weights, predicted.step, rows.marks};
     buffers.insert(buffers.end(), rows.touching.begin(), rows.touching.end());
-    const vk::ShaderCode& touch = rows.kind->touch.form(rows.usesTexels);
+    const vk::ShaderCode& touch = *rows.kind->touch;
     if (rows.kind->touchesLists)
         addOver(program, rows, rows.particles, touch, std::move(buffers), constants);
     else
         addOverRows(program, rows, touch, std::move(buffers), constants);
     sleep::addRowTouches(program, predicted, seenOf(rows));
     addShares(program, rows, rows.directions, predicted);
-    addOverRows(program, rows, rows.kind->press.form(rows.usesTexels),
+    addOverRows(program, rows, k::computeRowImpulses,
                 {predicted.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.directions,
                  rows.weights, rows.shares, lists.memory->memory, rows.impulses, rows.before, predicted.step,
-                 rows.surfaces.ofParticles, rows.surfaces.pairs});
-    addImpulses(program, rows, rows.directions, rows.usesTexels ? rows.kind->gather : rows.kind->gatherLoads,
-                predicted, remainderConstants(predicted.layout));
+                 rows.surfaces.ofParticles, rows.surfaces.pairs},
+                rows.kind->constants());
+    addImpulses(program, rows, rows.directions, k::applyRowImpulses, predicted,
+                remainderConstants(predicted.layout));
 }
 
 void addBounces(ProgramBuilder& program, const Rows& rows, const ParticleBuffers& state) {
     if (!rows.surfaces.hasRestitution) return;
     const pooled_lists::Lists& lists = rows.lists;
-    addOverRows(program, rows, *rows.kind->bounce,
+    addOverRows(program, rows, k::findRowRebounds,
                 {rows.before, rows.shapes, lists.contacts, lists.links->owners, rows.directions, rows.weights,
-                 rows.surfaces.ofParticles, rows.surfaces.pairs, state.step, rows.bounces});
+                 rows.surfaces.ofParticles, rows.surfaces.pairs, state.step, rows.bounces},
+                rows.kind->constants());
     addShares(program, rows, rows.bounces, state);
-    addOverRows(program, rows, *rows.kind->rebound,
+    addOverRows(program, rows, k::solveRowRebounds,
                 {state.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.bounces,
-                 rows.weights, rows.shares, rows.impulses});
-    addImpulses(program, rows, rows.bounces, rows.kind->gatherRebound, state);
+                 rows.weights, rows.shares, rows.impulses},
+                rows.kind->constants());
+    addImpulses(program, rows, rows.bounces, k::applyRowRebounds, state);
 }
 
 void addPublishing(ProgramBuilder& program, const Rows& rows, const hash_grid::Grid& grid) {

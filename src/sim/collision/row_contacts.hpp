@@ -23,26 +23,22 @@
 #include "sim/model/state.hpp"
 #include "sim/sleep/sleep.hpp"
 
+#include <array>
+
 namespace sinew::sim::collision::row_contacts {
 
-/// A kernel in its forms.
-struct Fetching {
-    const vk::ShaderCode *texels = nullptr, *loads = nullptr;
-    const vk::ShaderCode& form(bool usesTexels) const { return usesTexels ? *texels : *loads; }
-};
-
-/// The kernels of one kind of contacts.
+/// What differs between the two kinds of rows.
 struct Kind {
     const char* name = nullptr; ///< of buffers
-    Fetching touch{};
+    bool areEdges = false;
+    const vk::ShaderCode* touch = nullptr; ///< finds contacts
     bool touchesLists = false; ///< whether `touch` runs over owners of lists, not over single rows
-    Fetching share{}, press{};
-    const vk::ShaderCode* bounce = nullptr;
-    const vk::ShaderCode* rebound = nullptr;
-    forces::Forms gather{}, gatherLoads{}, gatherRebound{};
-    ProgramBuilder::Constants (forces::Forces::*forces)() const = nullptr; ///< elements of the gathers
-    const vk::ShaderCode* wake = nullptr;
-    const vk::ShaderCode* join = nullptr;
+    ProgramBuilder::Constants (forces::Forces::*forces)() const = nullptr; ///< elements of impulses
+    /// Constants of all kernels of rows.
+    ProgramBuilder::Constants constants() const {
+        constexpr std::uint32_t areEdgesId = 8; // constant_id in row_kind.glsl
+        return {{areEdgesId, areEdges}};
+    }
 };
 
 extern const Kind faces, edges;
@@ -74,7 +70,6 @@ struct Rows {
     surfaces::Surfaces surfaces;
     BufferId marks;         ///< contact_lists::linkedMarks; another buffer if the kernels read none
     bool keepsRest = false; ///< of any particle
-    bool usesTexels = true; ///< as in Forms
 
     bool sleeps = false;                    ///< whether the scene may sleep
     BufferId corners, cornerEnds;           ///< see Corners
@@ -83,10 +78,11 @@ struct Rows {
     BufferId shares;                        ///< by slot
     BufferId before;                        ///< velocities at the start of the substep, set in each
     std::vector<BufferId> touching;         ///< additional buffers of the kernel that finds contacts
-    std::vector<BufferId> forceRows;        ///< additional buffers of the gathers, if forces are kept
+    /// Rows of static faces, their places and candidates, for the impulses on them; only of faces.
+    std::array<BufferId, 3> forceRows{unbound, unbound, unbound};
 };
 
-/// Makes the buffers of `rows`; members up to `usesTexels` must be set.
+/// Makes the buffers of `rows`; members up to `keepsRest` must be set.
 void add(ProgramBuilder& program, Rows& rows, const Corners& corners, const ParticleBuffers& particles);
 
 /// Constants of kernels with pairs that may keep their rest distance. `isFirst`: first substep of a step.

@@ -107,7 +107,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     Settings settings = withSubsteps(scene, asked);
     settings.forms = completed(settings.forms, DeviceKind::software);
     if (asked.substeps == 0) requireNone(validate(settings)); // the chosen number has a limit too
-    ProgramBuilder program(settings.isReversed);
+    ProgramBuilder program(settings.isReversed, settings.forms.usesTexels);
     StepProgram& built = program.program();
     built.particleCount = static_cast<std::uint32_t>(scene.particles.size());
     built.constraintCount = static_cast<std::uint32_t>(scene.distances.size() + scene.bends.size() +
@@ -148,7 +148,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     if (particles.forces) forces::addSums(program, scene, particles);
     if (solver.positionW != inverseMass) addWeights(program, particles);
     sleep::finish(program, particles);
-    surface::addSkins(program, scene.skins, settings.forms.usesTexels);
+    surface::addSkins(program, scene.skins);
 
     if (scene.distances.empty()) program.skip("distance constraints");
     if (scene.damping == 0) program.skip("damping");

@@ -1,5 +1,5 @@
-// Publishing kernels differ in how a particle finds its slot: in order, by rule, or from a table of 4 bytes
-// each.
+// The end of a step: its check, the public state, and the saved copies. A particle finds its slot in order,
+// by rule, or in a table of 4 bytes each.
 #include "sim/compile/publish.hpp"
 
 #include "common/layout.h"
@@ -37,67 +37,62 @@ void addKept(ProgramBuilder& program) {
     }
 }
 
-// The kernels for one way of finding a slot.
-struct Kernels {
-    const vk::ShaderCode &measure, &publish, &publishPositions, &take;
+constexpr std::uint32_t slotRuleId = 1,
+                        publishesVelocitiesId = 2; // constant_ids in slots.glsl, publish_state.comp
+
+// The way in which the kernels find the slot of a particle.
+struct SlotRule {
+    ProgramBuilder::Constants constants;
+    BufferId table;
+    layout::BoxesPush push;
 };
 
+SlotRule slotRuleOf(ProgramBuilder& program, const ParticleBuffers& particles) {
+    constexpr std::uint32_t inOrder = 0, inBoxes = 1, inTable = 2; // see slots.glsl
+    const StateLayout& layout = particles.layout;
+    layout::BoxesPush push{.count = particles.count};
+    if (layout.isInOrder) return {{{slotRuleId, inOrder}}, unbound, push};
+    if (!layout.boxes) return {{{slotRuleId, inTable}}, program.upload("state.slots", layout.slot), push};
+    const EqualBoxes& boxes = *layout.boxes;
+    return {{{slotRuleId, inBoxes}},
+            unbound,
+            {particles.count, boxes.particles, boxes.nodesX, boxes.nodesY, boxes.origin, boxes.rowStride,
+             boxes.sliceStride, boxes.boxStride}};
+}
+
 // Initialises the saved copies from the adopted state.
-template <typename Push>
-void addInitialising(ProgramBuilder& program, const ParticleBuffers& particles, const vk::ShaderCode& take,
-                     std::span<const BufferId> slots, const Push& push) {
+void addInitialising(ProgramBuilder& program, const ParticleBuffers& particles, const SlotRule& rule) {
     const StepProgram& built = program.program();
-    std::vector<BufferId> buffers{particles.positions, particles.velocities, built.positions,
-                                  built.velocities};
-    buffers.insert(buffers.end(), slots.begin(), slots.end());
+    ProgramBuilder::Constants constants = remainderConstants(particles.layout);
+    constants.merge(ProgramBuilder::Constants(rule.constants));
     program.beginInitialising();
-    program.dispatch(take, particles.count, buffers, push, remainderConstants(particles.layout));
+    program.dispatch(
+        k::initialiseState, particles.count,
+        {particles.positions, particles.velocities, built.positions, built.velocities, rule.table}, rule.push,
+        constants);
     for (const StateBuffer& stateBuffer : std::vector(built.stateBuffers))
         for (const BufferId state : {particles.positions, particles.velocities})
             if (stateBuffer.to == state && stateBuffer.from != state) program.copy(state, stateBuffer.from);
     program.endInitialising();
 }
 
-template <typename Push>
-void addKernels(ProgramBuilder& program, const ParticleBuffers& particles, const Kernels& kernels,
-                std::span<const BufferId> slots, const Push& push) {
+void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
     const StepProgram& built = program.program();
-    std::vector<BufferId> buffers{particles.positions, particles.velocities, built.status, particles.step};
-    const bool hasVelocities = built.velocities != BufferId{};
-    std::vector<BufferId> published = buffers;
-    published.push_back(built.positions);
-    if (hasVelocities) published.push_back(built.velocities);
-    buffers.insert(buffers.end(), slots.begin(), slots.end());
-    published.insert(published.end(), slots.begin(), slots.end());
-    program.dispatch(kernels.measure, particles.count, buffers, push);
+    const SlotRule rule = slotRuleOf(program, particles);
+    program.dispatch(k::measureState, particles.count,
+                     {particles.positions, particles.velocities, built.status, particles.step, rule.table},
+                     rule.push, rule.constants);
     for (const auto& addChecked : program.checked()) addChecked();
     addKept(program);
-    program.dispatch(hasVelocities ? kernels.publish : kernels.publishPositions, particles.count, published,
-                     push, remainderConstants(particles.layout));
-    if (hasVelocities) addInitialising(program, particles, kernels.take, slots, push);
-}
-
-void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
-    const StateLayout& layout = particles.layout;
-    if (layout.isInOrder) {
-        addKernels(program, particles,
-                   {k::measureState, k::publishState, k::publishPositions, k::initialiseState}, {},
-                   layout::CountPush{particles.count});
-    } else if (layout.boxes) {
-        const EqualBoxes& boxes = *layout.boxes;
-        const layout::BoxesPush push{particles.count, boxes.particles, boxes.nodesX,      boxes.nodesY,
-                                     boxes.origin,    boxes.rowStride, boxes.sliceStride, boxes.boxStride};
-        addKernels(
-            program, particles,
-            {k::measureStateBoxes, k::publishStateBoxes, k::publishPositionsBoxes, k::initialiseStateBoxes},
-            {}, push);
-    } else {
-        const BufferId slots = program.upload("state.slots", layout.slot);
-        addKernels(
-            program, particles,
-            {k::measureStateSlots, k::publishStateSlots, k::publishPositionsSlots, k::initialiseStateSlots},
-            std::span(&slots, 1), layout::CountPush{particles.count});
-    }
+    const bool hasVelocities = built.velocities != BufferId{};
+    ProgramBuilder::Constants constants = remainderConstants(particles.layout);
+    constants.merge(ProgramBuilder::Constants(rule.constants));
+    constants[publishesVelocitiesId] = hasVelocities;
+    program.dispatch(k::publishState, particles.count,
+                     {particles.positions, particles.velocities, built.status, particles.step,
+                      built.positions, boundIf(hasVelocities, built.velocities), rule.table},
+                     rule.push, constants);
+    if (hasVelocities) addInitialising(program, particles, rule);
 }
 
 } // namespace

@@ -22,15 +22,14 @@ layout::AttachmentPush pushOf(const Attachments& attachments, std::uint32_t subs
     return {attachments.count, static_cast<float>(substep + 1) / static_cast<float>(substeps)};
 }
 
-// Appends the kernel without or with forces. `velocities`: of the particles, or the corrections to them.
-void dispatchForm(ProgramBuilder& program, const forces::Forms& forms, const ParticleBuffers& particles,
-                  BufferId velocities, const Attachments& attachments, const layout::AttachmentPush& push) {
+// Appends the kernel. `velocities`: of the particles, or the corrections to them.
+void dispatch(ProgramBuilder& program, const vk::ShaderCode& code, const ParticleBuffers& particles,
+              BufferId velocities, const Attachments& attachments, const layout::AttachmentPush& push) {
     if (attachments.count == 0) return;
     std::vector<BufferId> buffers{attachments.particles, attachments.anchors, particles.positions, velocities,
                                   particles.step};
     ProgramBuilder::Constants constants;
-    const vk::ShaderCode& code =
-        forces::formFor(particles, forms, &forces::Forces::ofAttachments, buffers, constants);
+    forces::bindTo(particles, &forces::Forces::ofAttachments, buffers, constants);
     program.dispatch(code, attachments.count, buffers, push, constants);
 }
 
@@ -51,14 +50,14 @@ Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& 
 
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Attachments& attachments,
              std::uint32_t substep, std::uint32_t substeps) {
-    dispatchForm(program, {&kernels::solveAttachments, &kernels::solveAttachmentsForces}, particles,
-                 particles.velocities, attachments, pushOf(attachments, substep, substeps));
+    dispatch(program, kernels::solveAttachments, particles, particles.velocities, attachments,
+             pushOf(attachments, substep, substeps));
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps) {
-    dispatchForm(program, {&kernels::solveAttachmentsOpen, &kernels::solveAttachmentsOpenForces}, particles,
-                 corrections, attachments, pushOf(attachments, substep, substeps));
+    dispatch(program, kernels::solveAttachmentsOpen, particles, corrections, attachments,
+             pushOf(attachments, substep, substeps));
 }
 
 Anchors::Anchors(const std::vector<Attachment>& attachments)

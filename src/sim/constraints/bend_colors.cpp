@@ -7,6 +7,7 @@
 #include "sim/model/state.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace sinew::sim::constraints::bend {
 
@@ -36,13 +37,14 @@ ColoredBends uploadColors(ProgramBuilder& program, const Scene& scene, const Set
 
 void addSweep(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredBends& bends,
               BufferId corrections, bool isFirst) {
-    std::vector<BufferId> buffers{corrections, particles.step, bends.bends, particles.positions};
+    constexpr std::uint32_t hasMultipliersId = 1; // constant_id in solve_bend_color.comp
     const bool hasMultipliers = bends.multipliers != BufferId{};
-    if (hasMultipliers) buffers.push_back(bends.multipliers);
+    const std::array buffers{corrections, particles.step, bends.bends, particles.positions,
+                             boundIf(hasMultipliers, bends.multipliers)};
     for (std::uint32_t k = 0; k < bends.colors.size(); ++k) {
         const auto [first, count] = bends.colors[k];
-        program.dispatch(hasMultipliers ? kernels::solveBendColorMultipliers : kernels::solveBendColor, count,
-                         buffers, layout::BendColorPush{count, first, isFirst});
+        program.dispatch(kernels::solveBendColor, count, buffers,
+                         layout::BendColorPush{count, first, isFirst}, {{hasMultipliersId, hasMultipliers}});
         program.numberLast(k);
     }
 }

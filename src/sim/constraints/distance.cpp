@@ -53,21 +53,15 @@ void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> 
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Edges& edges,
              BufferId corrections, bool isFirstIteration) {
     if (edges.count == 0) return;
-    const layout::IterationPush push{edges.count, edges.firstSlot, isFirstIteration};
-    if (edges.multipliers == BufferId{}) {
-        program.dispatch(kernels::solveDistance, edges.count, {edges.edges, particles.positions, corrections},
-                         push);
-    } else if (edges.dampingTime > 0) {
-        program.dispatch(
-            kernels::solveDistanceDamped, edges.count,
-            {edges.edges, particles.positions, corrections, particles.step, edges.multipliers,
-             particles.velocities},
-            layout::DampedIterationPush{edges.count, edges.firstSlot, isFirstIteration, edges.dampingTime});
-    } else {
-        program.dispatch(kernels::solveDistanceCompliant, edges.count,
-                         {edges.edges, particles.positions, corrections, particles.step, edges.multipliers},
-                         push);
-    }
+    constexpr std::uint32_t hasMultipliersId = 1, hasDampingId = 12; // constant_ids in solve_distance.comp
+    const bool hasMultipliers = edges.multipliers != BufferId{};
+    const bool hasDamping = hasMultipliers && edges.dampingTime > 0;
+    program.dispatch(
+        kernels::solveDistance, edges.count,
+        {edges.edges, particles.positions, corrections, particles.step,
+         boundIf(hasMultipliers, edges.multipliers), boundIf(hasDamping, particles.velocities)},
+        layout::DampedIterationPush{edges.count, edges.firstSlot, isFirstIteration, edges.dampingTime},
+        {{hasMultipliersId, hasMultipliers}, {hasDampingId, hasDamping}});
 }
 
 } // namespace sinew::sim::constraints::distance

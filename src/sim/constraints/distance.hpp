@@ -32,10 +32,9 @@ struct ColoredEdges {
         std::uint32_t first = 0, count = 0;
     };
     std::vector<Color> colors;
-    BufferId edges, multipliers; ///< multipliers: invalid if nothing needs them
-    std::uint32_t degree = 0;    ///< slots a particle of the warm start; 0 = no warm start
-    BufferId links;              ///< of the warm start
-    bool usesTexels = true;
+    BufferId edges, multipliers;                 ///< multipliers: invalid if nothing needs them
+    std::uint32_t degree = 0;                    ///< slots a particle of the warm start; 0 = no warm start
+    BufferId links;                              ///< of the warm start
     ProgramBuilder::Constants constants() const; ///< specialises degree
 };
 ColoredEdges uploadColors(ProgramBuilder& program, const Scene& scene, const Settings& settings,

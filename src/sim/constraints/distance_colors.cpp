@@ -71,9 +71,7 @@ ColoredEdges uploadColors(ProgramBuilder& program, const Scene& scene, const Set
     const Coloring coloring = colorByParticles(scene, inverseMasses(scene));
     if (coloring.order.empty()) return {};
     const EdgeList list = listEdges(scene, coloring, layout);
-    ColoredEdges result{.colors = list.colors,
-                        .edges = program.upload("distance.edges", list.edges),
-                        .usesTexels = settings.forms.usesTexels};
+    ColoredEdges result{.colors = list.colors, .edges = program.upload("distance.edges", list.edges)};
     const bool isCompliant = std::ranges::any_of(
         list.edges, [](const layout::DistanceEdge& edge) { return edge.compliance > 0 && edge.a != edge.b; });
     const bool isWarm = settings.warmStart > 0;
@@ -89,17 +87,15 @@ ColoredEdges uploadColors(ProgramBuilder& program, const Scene& scene, const Set
 void addSweep(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredEdges& edges,
               BufferId corrections, float warmStart, Sweep sweep) {
     std::vector<BufferId> buffers{corrections, particles.step, edges.edges, particles.positions, corrections};
-    const vk::ShaderCode* code =
-        edges.usesTexels ? &kernels::solveDistanceColor : &kernels::solveDistanceColorLoads;
-    if (edges.multipliers != BufferId{}) {
-        buffers.insert(buffers.end(), {edges.multipliers, edges.multipliers});
-        code = edges.usesTexels ? &kernels::solveDistanceColorMultipliers
-                                : &kernels::solveDistanceColorMultipliersLoads;
-    }
+    constexpr std::uint32_t hasMultipliersId = 1; // constant_id in solve_distance_color.comp
+    const bool hasMultipliers = edges.multipliers != BufferId{};
+    const BufferId multipliers = boundIf(hasMultipliers, edges.multipliers);
+    buffers.insert(buffers.end(), {multipliers, multipliers});
     for (std::uint32_t k = 0; k < edges.colors.size(); ++k) {
         const auto [first, count] = edges.colors[k];
-        program.dispatch(*code, count, buffers,
-                         layout::ColorPush{count, first, sweep.isOpening, sweep.isClosing, warmStart});
+        program.dispatch(kernels::solveDistanceColor, count, buffers,
+                         layout::ColorPush{count, first, sweep.isOpening, sweep.isClosing, warmStart},
+                         {{hasMultipliersId, hasMultipliers}});
         program.numberLast(k);
     }
 }

@@ -39,10 +39,8 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Te
                                   particles.velocities, particles.step};
     const layout::CountPush push{tethers.count};
     ProgramBuilder::Constants constants;
-    const vk::ShaderCode& code =
-        forces::formFor(particles, {&kernels::solveTethers, &kernels::solveTethersForces},
-                        &forces::Forces::ofTethers, buffers, constants);
-    program.dispatch(code, tethers.count, buffers, push, constants);
+    forces::bindTo(particles, &forces::Forces::ofTethers, buffers, constants);
+    program.dispatch(kernels::solveTethers, tethers.count, buffers, push, constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
@@ -52,10 +50,8 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
                                   particles.step};
     const layout::CountPush push{tethers.count};
     ProgramBuilder::Constants constants;
-    const vk::ShaderCode& code =
-        forces::formFor(particles, {&kernels::solveTethersOpen, &kernels::solveTethersOpenForces},
-                        &forces::Forces::ofTethers, buffers, constants);
-    program.dispatch(code, tethers.count, buffers, push, constants);
+    forces::bindTo(particles, &forces::Forces::ofTethers, buffers, constants);
+    program.dispatch(kernels::solveTethersOpen, tethers.count, buffers, push, constants);
 }
 
 } // namespace sinew::sim::constraints::tether

@@ -16,6 +16,8 @@ namespace {
 
 namespace k = kernels;
 
+constexpr std::uint32_t hasDebrisId = 1; // constant_id in find_near_links.comp
+
 void addWholeCells(ProgramBuilder& program, const Cut& cut) {
     const CuttingBuffers& buffers = cut.buffers;
     for (const Run& run : cut.runs)
@@ -43,14 +45,17 @@ void planLists(ProgramBuilder& program, const Cut& cut, BufferId counts, BufferI
 }
 
 void addNear(ProgramBuilder& program, const Cut& cut) {
-    std::vector<BufferId> buffers{cut.bladePlaces, cut.buffers.links, cut.blade,
-                                  cut.work,        cut.nearCounts,    cut.nears};
     const bool hasDebris = program.program().cutting.debris > 0;
-    if (hasDebris) buffers.insert(buffers.end(), {cut.particles, cut.buffers.pieces});
-    const vk::ShaderCode& texels = hasDebris ? k::findNearLinksDebris : k::findNearLinks;
-    const vk::ShaderCode& loads = hasDebris ? k::findNearLinksLoadsDebris : k::findNearLinksLoads;
+    const std::vector<BufferId> buffers{cut.bladePlaces,
+                                        cut.buffers.links,
+                                        cut.blade,
+                                        cut.work,
+                                        cut.nearCounts,
+                                        cut.nears,
+                                        boundIf(hasDebris, cut.particles),
+                                        boundIf(hasDebris, cut.buffers.pieces)};
     for (const Run& run : cut.runs)
-        program.dispatch(cut.usesTexels ? texels : loads, run.push.count, buffers, run.push);
+        program.dispatch(k::findNearLinks, run.push.count, buffers, run.push, {{hasDebrisId, hasDebris}});
 }
 
 // Cuts the links that the blade meets: first finds near nodes, and tests only these exactly.
@@ -61,8 +66,7 @@ void addBlade(ProgramBuilder& program, const Cut& cut) {
     addNear(program, cut);
     planLists(program, cut, cut.nearCounts, cut.nearArguments);
     for (const Run& run : cut.runs)
-        program.dispatchIndirect(cut.usesTexels ? k::cutLinks : k::cutLinksLoads,
-                                 {cut.nearArguments, run.push.run, run.push.count},
+        program.dispatchIndirect(k::cutLinks, {cut.nearArguments, run.push.run, run.push.count},
                                  {cut.bladePlaces, cut.placesBefore, cut.blade, cut.points, buffers.links,
                                   buffers.hits, buffers.dirty, cut.work, cut.nearCounts, cut.nears},
                                  run.push);
@@ -84,7 +88,7 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
     program.fill(cut.work, 0);
     program.copy(buffers.links, buffers.savedLinks); // an undone step restores these
     for (const Run& run : cut.runs)
-        program.dispatch(cut.usesTexels ? k::openCut : k::openCutLoads, run.push.count,
+        program.dispatch(k::openCut, run.push.count,
                          {particles.positions, particles.velocities, cut.placesBefore, particles.step,
                           buffers.places, cut.work},
                          run.push);
@@ -171,7 +175,7 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
     if (cut.surface)
         surface::addSkinHits(program, *cut.surface, cut.bladePlaces, cut.placesBefore, cut.blade, cut.points);
     for (const Run& run : cut.runs)
-        program.dispatch(cut.usesTexels ? k::closeCut : k::closeCutLoads, run.push.count,
+        program.dispatch(k::closeCut, run.push.count,
                          {buffers.savedLinks, cut.bladePlaces, buffers.links, cut.placesBefore,
                           program.program().status, cut.work, cut.blade},
                          run.push);

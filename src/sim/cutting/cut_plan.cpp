@@ -168,7 +168,7 @@ void addSurface(ProgramBuilder& program, const Scene& scene, const surface::CutB
                               .arguments = cut.arguments,
                               .firstArgument = 3 * static_cast<std::uint32_t>(cut.runs.size())};
     for (const Run& run : cut.runs) source.runs.push_back(run.push);
-    cut.surface = surface::addCutSurface(program, scene, bodies, source, cut.usesTexels);
+    cut.surface = surface::addCutSurface(program, scene, bodies, source);
 }
 
 void addGrabMasses(ProgramBuilder& program, Cut& cut, const grabs::Grabs& grabs) {
@@ -185,7 +185,7 @@ void addGrabMasses(ProgramBuilder& program, Cut& cut, const grabs::Grabs& grabs)
 Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                const ParticleBuffers& particles) {
     const StateLayout& layout = particles.layout;
-    Cut cut{.usesTexels = settings.forms.usesTexels};
+    Cut cut;
     const Placed placed = cuttableGrids(scene, settings, layout);
     if (placed.grids.empty()) return cut;
     Initial initial = readGrids(scene, placed, layout, cut.runs);

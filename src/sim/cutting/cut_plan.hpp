@@ -38,7 +38,6 @@ struct Cut {
     std::shared_ptr<surface::CutSurface> surface; // null if no skin is clipped
     std::shared_ptr<surface::SheetPieces> sheets; // null if there are none
     std::shared_ptr<Tearing> tearing;             // null if nothing tears
-    bool usesTexels = false;
     std::uint32_t rounds = 0;
 };
 

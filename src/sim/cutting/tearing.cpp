@@ -7,6 +7,8 @@ namespace sinew::sim::cutting {
 
 namespace k = kernels;
 
+constexpr std::uint32_t hasDebrisId = 1; // constant_id in find_tears.comp
+
 std::shared_ptr<Tearing> addTearing(ProgramBuilder& program, const Cut& cut, std::size_t slots) {
     auto tearing = std::make_shared<Tearing>();
     tearing->strains = program.scratch<layout::CellStrain>("tears.strains", slots);
@@ -29,10 +31,11 @@ std::shared_ptr<Tearing> addTearing(ProgramBuilder& program, const Cut& cut, std
 namespace {
 
 void addFinding(ProgramBuilder& program, const Tearing& tearing, const TearingBody& body, const Cut& cut) {
-    std::vector<BufferId> buffers{tearing.strains, body.found, body.count};
     const bool hasDebris = program.program().cutting.debris > 0;
-    if (hasDebris) buffers.insert(buffers.end(), {cut.particles, cut.buffers.pieces});
-    program.dispatch(hasDebris ? k::findTearsDebris : k::findTears, body.push.count, buffers, body.push);
+    program.dispatch(k::findTears, body.push.count,
+                     {tearing.strains, body.found, body.count, boundIf(hasDebris, cut.particles),
+                      boundIf(hasDebris, cut.buffers.pieces)},
+                     body.push, {{hasDebrisId, hasDebris}});
 }
 
 } // namespace

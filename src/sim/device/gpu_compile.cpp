@@ -11,12 +11,17 @@ namespace {
 std::uint64_t mostTexels(const StepProgram& program) {
     std::uint64_t most = 0;
     for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin})
-        for (const Pass& pass : *list)
-            for (std::size_t b = 0; pass.kind == PassKind::dispatch && b < boundUses(pass).size(); ++b) {
-                const BufferSpec& spec = program.buffers[pass.uses[b].buffer.index];
-                if (program.kernels[pass.kernel].interface.bindings[b].kind == vk::BlockKind::texels)
-                    most = std::max(most, vk::KernelBinding::texelsIn(spec.bytes(), spec.stride));
+        for (const Pass& pass : *list) {
+            if (pass.kind != PassKind::dispatch) continue;
+            const std::vector<BufferId> buffers = boundBuffers(program, pass);
+            for (std::size_t b = 0; b < buffers.size(); ++b) {
+                if (program.kernels[pass.kernel].interface.bindings[b].kind != vk::BlockKind::texels)
+                    continue;
+                if (buffers[b] == unbound) continue;
+                const BufferSpec& spec = program.buffers[buffers[b].index];
+                most = std::max(most, vk::KernelBinding::texelsIn(spec.bytes(), spec.stride));
             }
+        }
     return most;
 }
 

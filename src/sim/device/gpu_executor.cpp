@@ -10,6 +10,19 @@ namespace sinew::sim {
 
 namespace {
 
+// The empty buffer: bytes for all bindings that kernels only read, as long as a uniform block may be, and
+// then some for each descriptor set. Two sets never share bytes that one of them might write: validation
+// would take that for a hazard.
+constexpr std::uint32_t emptyRead = 16384, emptyWritten = 256;
+
+vk::BufferView emptyView(const vk::Buffer& empty, vk::Access access, std::size_t set) {
+    vk::BufferView view = empty.view();
+    view.stride = vk::BufferView::anyStride;
+    view.size = access == vk::Access::read ? emptyRead : emptyWritten;
+    if (access != vk::Access::read) view.offset += emptyRead + set * emptyWritten;
+    return view;
+}
+
 // By buffer: whether it holds the arguments of an indirect dispatch.
 std::vector<bool> holdArguments(const StepProgram& program) {
     std::vector<bool> result(program.buffers.size());
@@ -74,7 +87,9 @@ std::vector<std::shared_ptr<const vk::Kernel>> makeKernels(const vk::Device& dev
 }
 
 bool isSameDispatch(const Pass& a, const Pass& b) {
-    const auto isSameBuffer = [](const BufferUse& x, const BufferUse& y) { return x.buffer == y.buffer; };
+    const auto isSameBuffer = [](const BufferUse& x, const BufferUse& y) {
+        return x.buffer == y.buffer && x.binding == y.binding;
+    };
     return a.kernel == b.kernel && std::ranges::equal(boundUses(a), boundUses(b), isSameBuffer);
 }
 
@@ -108,10 +123,19 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
         if (program.buffers[b].initialOf) initialOf_.emplace(b, *program.buffers[b].initialOf);
     const SetPlan plan = planSets(program);
     std::vector<vk::BindingRequest> requests;
+    empty_.emplace(device, vk::BufferRequest{.name = "empty",
+                                             .count = (emptyRead + plan.distinct.size() * emptyWritten) / 16,
+                                             .stride = 16,
+                                             .kind = vk::MemoryKind::device});
     for (const Pass* pass : plan.distinct) {
+        const auto& bindings = program.kernels[pass->kernel].interface.bindings;
+        const std::vector<BufferId> buffers = boundBuffers(program, *pass);
         vk::BindingRequest& request = requests.emplace_back();
         request.kernel = kernels_[pass->kernel].get();
-        for (const BufferUse& use : boundUses(*pass)) request.buffers.push_back(view(use.buffer));
+        for (std::size_t b = 0; b < buffers.size(); ++b)
+            request.buffers.push_back(buffers[b] == unbound
+                                          ? emptyView(*empty_, bindings[b].access, requests.size() - 1)
+                                          : view(buffers[b]));
     }
     if (!requests.empty()) sets_.emplace_back(device, requests);
     setOfPass_ = plan.setOfPass;
@@ -270,7 +294,7 @@ void GpuExecutor::recordPass(vk::Commands& commands, const Recorded& pass, const
 }
 
 vk::BufferView GpuExecutor::view(BufferId buffer) const noexcept {
-    if (buffer == BufferId{}) return {};
+    if (buffer == BufferId{} || buffer == unbound) return {};
     const auto found = initialOf_.find(buffer.index);
     return found == initialOf_.end() ? buffers_[buffer.index].view() : stagingOf({found->second})->view();
 }

@@ -8,6 +8,7 @@
 #include "sinew/vk/timestamps.hpp"
 
 #include <map>
+#include <optional>
 
 namespace sinew::sim {
 
@@ -65,6 +66,7 @@ private:
     const vk::Buffer* stagingOf(BufferId buffer) const noexcept;
 
     std::vector<vk::Buffer> buffers_;
+    std::optional<vk::Buffer> empty_;                           // for bindings that a dispatch leaves empty
     std::vector<std::pair<std::uint32_t, vk::Buffer>> staging_; // buffer index, its initial contents
     std::map<std::uint32_t, std::uint32_t> initialOf_;          // BufferSpec::initialOf, by buffer
     std::vector<std::shared_ptr<const vk::Kernel>> kernels_;

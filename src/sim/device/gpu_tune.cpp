@@ -46,22 +46,17 @@ bool isGrantable(const vk::Device& device, const Scene& scene, const Settings& s
     return solvers::isResident(scene, resident, grids);
 }
 
-std::vector<const vk::ShaderCode*> codesOfStep(const Scene& scene, const Settings& settings) {
-    const StepProgram program = compile(scene, settings);
-    std::vector<const vk::ShaderCode*> codes;
-    for (const Pass& pass : program.step)
-        if (pass.kind == PassKind::dispatch && !pass.isOfCut)
-            codes.push_back(program.kernels[pass.kernel].code);
-    return codes;
-}
-
-/// Whether usesTexels changes the kernels of a step, which are what is timed: with bends, damping or resident
-/// bodies `split` has one kernel for both, and `jacobi` never has a choice.
+/// Whether usesTexels changes the kernels of a step, which are what is timed: with resident bodies of one
+/// node an invocation, and with `jacobi`, there is no choice.
 bool hasTexelForms(const Scene& scene, Settings settings) {
     settings.substeps = 1;
-    const auto given = codesOfStep(scene, settings);
-    settings.forms.usesTexels = !settings.forms.usesTexels;
-    return given != codesOfStep(scene, settings);
+    settings.forms.usesTexels = true;
+    const StepProgram program = compile(scene, settings);
+    return std::ranges::any_of(program.step, [&](const Pass& pass) {
+        if (pass.kind != PassKind::dispatch || pass.isOfCut) return false;
+        const auto& bindings = program.kernels[pass.kernel].interface.bindings;
+        return std::ranges::any_of(bindings, &vk::KernelBinding::isTwin);
+    });
 }
 
 using Change = std::function<void(Forms&)>;

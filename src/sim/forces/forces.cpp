@@ -254,13 +254,10 @@ std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, c
     return forces;
 }
 
-const vk::ShaderCode& formFor(const ParticleBuffers& particles, const Forms& forms,
-                              ProgramBuilder::Constants (Forces::*of)() const, std::vector<BufferId>& buffers,
-                              ProgramBuilder::Constants& constants) {
-    if (!particles.forces) return *forms[0];
-    buffers.push_back(particles.forces->terms);
-    constants.merge(((*particles.forces).*of)());
-    return *forms[1];
+void bindTo(const ParticleBuffers& particles, ProgramBuilder::Constants (Forces::*of)() const,
+            std::vector<BufferId>& buffers, ProgramBuilder::Constants& constants) {
+    buffers.push_back(particles.forces ? particles.forces->terms : unbound);
+    if (particles.forces) constants.merge(((*particles.forces).*of)());
 }
 
 void addPulls(ProgramBuilder& program, const ParticleBuffers& particles) {

@@ -1,5 +1,5 @@
 // Impulses of a step: of contacts, planes, colliders, holds and grabs. Kernels that change a velocity by such
-// an impulse have a form that also adds mass times this change to elements owned by the particle
+// an impulse also add, where forces are kept, mass times this change to elements of the particle
 // (shaders/glsl/forces/forces.glsl). Small passes at the end of the step sum the elements in a fixed order,
 // by body, plane, collider, hold and grab. The buffer of elements consists of sections of one vec4 for each
 // slot of the state,
@@ -61,7 +61,7 @@ struct Forces {
     std::uint32_t firstEntry() const { return elementOf(rows()); }
     std::uint64_t elements() const { return (2 + 2 * std::uint64_t{rows()}) * slots + tethers + attachments; }
 
-    // Constants that specialise the forms of kernels that keep forces.
+    // Constants of kernels where forces are kept.
     ProgramBuilder::Constants ofContacts() const { return constants(0); }
     ProgramBuilder::Constants ofGrabs() const { return constants(elementOf(0)); }
     ProgramBuilder::Constants ofPlanes() const { return constants(elementOf(grabs)); }
@@ -78,14 +78,10 @@ private:
 std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                                   const StateLayout& layout);
 
-/// A kernel, and its form that also keeps the impulses that it applies.
-using Forms = std::array<const vk::ShaderCode*, 2>;
-
-/// The form that `particles` need. For the second form, `buffers` get the elements appended, and `constants`
-/// the start of the section that `of` names: Forces::ofPlanes or a similar function.
-const vk::ShaderCode& formFor(const ParticleBuffers& particles, const Forms& forms,
-                              ProgramBuilder::Constants (Forces::*of)() const, std::vector<BufferId>& buffers,
-                              ProgramBuilder::Constants& constants);
+/// Appends the buffer of elements to `buffers` and the start of the section that `of` names to `constants`;
+/// if `particles` keep no forces, leaves that binding empty. `of` is Forces::ofPlanes or a similar function.
+void bindTo(const ParticleBuffers& particles, ProgramBuilder::Constants (Forces::*of)() const,
+            std::vector<BufferId>& buffers, ProgramBuilder::Constants& constants);
 
 /// Appends the passes after the links of a substep of `split`, which has left the forces on static particles
 /// in their velocities.

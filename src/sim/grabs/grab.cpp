@@ -95,10 +95,8 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uin
                                   particles.positions, particles.velocities, particles.step};
     const layout::GrabPush push = pushOf(grabs, substep, substeps, kick);
     ProgramBuilder::Constants constants;
-    const vk::ShaderCode& code =
-        forces::formFor(particles, {&kernels::solveGrabs, &kernels::solveGrabsForces},
-                        &forces::Forces::ofGrabs, buffers, constants);
-    program.dispatchIndirect(code, itemsOf(grabs), buffers, push, constants);
+    forces::bindTo(particles, &forces::Forces::ofGrabs, buffers, constants);
+    program.dispatchIndirect(kernels::solveGrabs, itemsOf(grabs), buffers, push, constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
@@ -110,10 +108,8 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
                                   particles.step, corrections};
     const layout::GrabPush push = pushOf(grabs, substep, substeps, Kick::half);
     ProgramBuilder::Constants constants;
-    const vk::ShaderCode& code =
-        forces::formFor(particles, {&kernels::solveGrabsOpen, &kernels::solveGrabsOpenForces},
-                        &forces::Forces::ofGrabs, buffers, constants);
-    program.dispatchIndirect(code, itemsOf(grabs), buffers, push, constants);
+    forces::bindTo(particles, &forces::Forces::ofGrabs, buffers, constants);
+    program.dispatchIndirect(kernels::solveGrabsOpen, itemsOf(grabs), buffers, push, constants);
 }
 
 bool GrabRequests::areFree() const noexcept {

@@ -3,13 +3,15 @@
 
 #include "common/layout.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace sinew::sim {
 
 namespace {
 
-constexpr std::uint32_t reversedId = 0; // constant_id of isReversed in kernel.glsl
+// constant_id of isReversed in kernel.glsl, usesTexels in fetched.glsl, runsListed in kernel.glsl
+constexpr std::uint32_t reversedId = 0, usesTexelsId = USES_TEXELS_ID, runsListedId = RUNS_LISTED_ID;
 
 bool touches(vk::Access access, vk::Access part) {
     return (static_cast<unsigned>(access) & static_cast<unsigned>(part)) != 0;
@@ -19,13 +21,18 @@ bool touches(vk::Access access, vk::Access part) {
     throw std::logic_error(std::string("kernel ") + code.name + ": " + why);
 }
 
+const vk::KernelBinding& bindingOf(const vk::KernelInterface& interface, const BufferUse& use) {
+    return *std::ranges::find(interface.bindings, use.binding, &vk::KernelBinding::binding);
+}
+
 // A compiler may assume that bindings are different buffers, unless both are decorated Aliased.
 void checkAliases(const vk::ShaderCode& code, const vk::KernelInterface& interface, const Pass& pass,
                   const std::vector<BufferSpec>& buffers) {
     const auto& uses = pass.uses;
     for (std::size_t a = 0; a < uses.size(); ++a)
         for (std::size_t b = a + 1; b < uses.size(); ++b) {
-            const vk::KernelBinding &first = interface.bindings[a], &second = interface.bindings[b];
+            const vk::KernelBinding& first = bindingOf(interface, uses[a]);
+            const vk::KernelBinding& second = bindingOf(interface, uses[b]);
             const bool isWritten =
                 touches(uses[a].access, vk::Access::write) || touches(uses[b].access, vk::Access::write);
             if (uses[a].buffer == uses[b].buffer && isWritten && !(first.isAliased && second.isAliased))
@@ -36,6 +43,22 @@ void checkAliases(const vk::ShaderCode& code, const vk::KernelInterface& interfa
 }
 
 } // namespace
+
+std::vector<BufferId> boundBuffers(const StepProgram& program, const Pass& pass) {
+    const KernelUse& kernel = program.kernels[pass.kernel];
+    const auto texels = kernel.constants.find(usesTexelsId);
+    const bool usesTexels = texels != kernel.constants.end() && texels->second != 0;
+    const auto used = [&](std::uint32_t binding) {
+        const auto use = std::ranges::find(boundUses(pass), binding, &BufferUse::binding);
+        return use == boundUses(pass).end() ? unbound : use->buffer;
+    };
+    std::vector<BufferId> buffers;
+    for (const vk::KernelBinding& binding : kernel.interface.bindings)
+        buffers.push_back(!binding.isTwin() ? used(binding.binding)
+                          : usesTexels      ? used(binding.binding - vk::texelTwins)
+                                            : unbound);
+    return buffers;
+}
 
 void planBarriers(std::span<Pass> passes, std::size_t bufferCount, Recording recording) {
     std::vector<bool> isRead(bufferCount), isWritten(bufferCount);
@@ -67,13 +90,20 @@ void ProgramBuilder::beginPhase(std::string name) {
     program_.phases.push_back(std::move(name));
 }
 
-std::uint32_t ProgramBuilder::kernelIndex(const vk::ShaderCode& code, const Constants& constants) {
-    Constants all = constants;
-    all[reversedId] = isReversed_;
+const vk::KernelInterface& ProgramBuilder::interfaceOf(const vk::ShaderCode& code) {
+    const auto [found, isNew] = interfaces_.try_emplace(&code);
+    if (isNew) found->second = vk::readInterface(code);
+    return found->second;
+}
+
+std::uint32_t ProgramBuilder::kernelIndex(const vk::ShaderCode& code, Constants constants) {
+    const vk::KernelInterface& interface = interfaceOf(code);
+    constants[reversedId] = isReversed_;
+    if (interface.hasConstant(usesTexelsId)) constants[usesTexelsId] = usesTexels_;
     for (std::uint32_t k = 0; k < program_.kernels.size(); ++k) {
-        if (program_.kernels[k].code == &code && program_.kernels[k].constants == all) return k;
+        if (program_.kernels[k].code == &code && program_.kernels[k].constants == constants) return k;
     }
-    program_.kernels.push_back({&code, vk::readInterface(code), std::move(all)});
+    program_.kernels.push_back({&code, interface, std::move(constants)});
     return static_cast<std::uint32_t>(program_.kernels.size() - 1);
 }
 
@@ -91,11 +121,44 @@ void ProgramBuilder::dispatchDirect(const vk::ShaderCode& code, std::uint32_t it
                                     const Constants& constants) {
     if (!indirection_ || skinList_ || isCut_ || isRefreshing_ || isInitialising_)
         return dispatchBytes(code, items, buffers, push, constants);
-    const IndirectForm form = indirection_(code, items);
-    std::vector<BufferId> all(buffers.begin(), buffers.end());
-    if (form.last != BufferId{}) all.push_back(form.last);
-    dispatchBytes(*form.code, form.items.most, all, push, constants);
+    const IndirectForm form = indirection_(interfaceOf(code), items);
+    if (form.listed != BufferId{})
+        dispatchListedBytes(code, form.items.most, buffers, form.listed, push, constants);
+    else
+        dispatchBytes(code, form.items.most, buffers, push, constants);
     makeLastIndirect(form.items);
+}
+
+void ProgramBuilder::dispatchListedBytes(const vk::ShaderCode& code, std::uint32_t items,
+                                         std::span<const BufferId> buffers, BufferId listed,
+                                         std::span<const std::byte> push, Constants constants) {
+    std::vector<BufferId> all(buffers.begin(), buffers.end());
+    all.push_back(listed);
+    constants[runsListedId] = true;
+    dispatchBytes(code, items, all, push, constants);
+}
+
+void ProgramBuilder::bind(const vk::ShaderCode& code, Pass& pass, std::span<const BufferId> buffers) {
+    const KernelUse& kernel = program_.kernels[pass.kernel];
+    const auto& bindings = kernel.interface.bindings;
+    auto count =
+        static_cast<std::size_t>(std::ranges::count_if(bindings, [](const auto& b) { return !b.isTwin(); }));
+    // Kernels that may run over listed groups need no list if they run over all.
+    if (kernel.interface.hasConstant(runsListedId) && !kernel.constants.contains(runsListedId)) --count;
+    if (buffers.size() != count)
+        refuse(code, "takes " + std::to_string(count) + " buffers, got " + std::to_string(buffers.size()));
+    for (std::size_t b = 0; b < buffers.size(); ++b) {
+        if (buffers[b] == unbound) continue;
+        if (buffers[b].index >= program_.buffers.size())
+            refuse(code, "binding " + bindings[b].name + " got a buffer that does not exist");
+        const BufferSpec& spec = program_.buffers[buffers[b].index];
+        if (!bindings[b].takes(spec.stride))
+            refuse(code, "binding " + bindings[b].name + " has stride " + std::to_string(bindings[b].stride) +
+                             ", buffer " + spec.label + " has " +
+                             std::to_string(spec.stride)); // 0: texels of 4, 8 or 16 n bytes
+        pass.uses.push_back({buffers[b], bindings[b].access, bindings[b].binding});
+    }
+    checkAliases(code, kernel.interface, pass, program_.buffers);
 }
 
 void ProgramBuilder::dispatchBytes(const vk::ShaderCode& code, std::uint32_t items,
@@ -107,27 +170,11 @@ void ProgramBuilder::dispatchBytes(const vk::ShaderCode& code, std::uint32_t ite
               .items = items};
     const vk::KernelInterface& interface = program_.kernels[pass.kernel].interface;
     if (items == 0) refuse(code, "nothing to do: leave the pass out");
-    if (interface.bindings.size() != buffers.size()) {
-        refuse(code, "takes " + std::to_string(interface.bindings.size()) + " buffers, got " +
-                         std::to_string(buffers.size()));
-    }
     if (interface.pushConstantSize != push.size()) {
         refuse(code, "takes " + std::to_string(interface.pushConstantSize) +
                          " bytes of push constants, got " + std::to_string(push.size()));
     }
-    for (std::size_t b = 0; b < buffers.size(); ++b) {
-        if (buffers[b].index >= program_.buffers.size()) {
-            refuse(code, "binding " + interface.bindings[b].name + " got a buffer that does not exist");
-        }
-        const BufferSpec& spec = program_.buffers[buffers[b].index];
-        if (!interface.bindings[b].takes(spec.stride)) {
-            refuse(code, "binding " + interface.bindings[b].name + " has stride " +
-                             std::to_string(interface.bindings[b].stride) + ", buffer " + spec.label +
-                             " has " + std::to_string(spec.stride)); // 0: texels of 4, 8 or 16 n bytes
-        }
-        pass.uses.push_back({buffers[b], interface.bindings[b].access});
-    }
-    checkAliases(code, interface, pass, program_.buffers);
+    bind(code, pass, buffers);
     pass.push.assign(push.begin(), push.end());
     append(std::move(pass));
 }

@@ -27,6 +27,13 @@ struct BufferId {
     bool operator==(const BufferId&) const = default;
 };
 
+/// Leaves a binding empty: that of a feature which the constants of a dispatch switch off.
+inline constexpr BufferId unbound{0xfffffffeu};
+/// The buffer, or none.
+constexpr BufferId boundIf(bool isBound, BufferId buffer) {
+    return isBound ? buffer : unbound;
+}
+
 struct BufferSpec {
     std::string label;
     std::uint64_t count = 0;        ///< elements
@@ -41,6 +48,7 @@ struct BufferSpec {
 struct BufferUse {
     BufferId buffer;
     vk::Access access = vk::Access::readWrite;
+    std::uint32_t binding = 0; ///< of a dispatch: the binding of the kernel
 };
 
 /// A kernel with the specialisation constants that make it a pipeline.
@@ -87,9 +95,11 @@ constexpr Recording plainStep{.hasBlade = false, .isCalm = false},
 struct Pass {
     PassKind kind = PassKind::dispatch;
     std::string label;
-    std::uint32_t kernel = 0;    ///< index into StepProgram::kernels (dispatch)
-    std::uint32_t items = 0;     ///< invocations wanted (dispatch); the maximum if indirect
-    std::vector<BufferUse> uses; ///< in binding order; then the arguments of an indirect dispatch
+    std::uint32_t kernel = 0; ///< index into StepProgram::kernels (dispatch)
+    std::uint32_t items = 0;  ///< invocations wanted (dispatch); the maximum if indirect
+    /// In binding order, without bindings of a feature that is off and without texel twins; then the
+    /// arguments of an indirect dispatch.
+    std::vector<BufferUse> uses;
     std::vector<std::byte> push;
     std::uint32_t value = 0;
     bool isIndirect = false;   ///< groups come from the device: element `value` of the last use
@@ -110,7 +120,7 @@ inline bool hasBarrier(Recording recording, const Pass& pass) {
     return isIn(recording, pass) && pass.barriers[recording.index()];
 }
 
-/// The uses that a dispatch binds to its kernel: all except the arguments.
+/// The uses of a dispatch other than its arguments.
 inline std::span<const BufferUse> boundUses(const Pass& pass) {
     return std::span(pass.uses).first(pass.uses.size() - (pass.isIndirect ? 1 : 0));
 }
@@ -124,12 +134,10 @@ struct IndirectItems {
     bool isOfLists = false; ///< 0 groups unless contact lists are rebuilt
 };
 
-/// Replacement of a direct dispatch by an indirect one: the form of the kernel, its groups, and the buffer
-/// that this form binds in addition.
+/// Replacement of a direct dispatch by an indirect one: its groups, and the list of groups that run.
 struct IndirectForm {
-    const vk::ShaderCode* code = nullptr;
     IndirectItems items;
-    BufferId last; ///< bound last; invalid = none
+    BufferId listed; ///< groups that run; invalid = all
 };
 
 /// A buffer of the state between steps: a take-over copies `from` of the other program, which is valid also
@@ -279,6 +287,11 @@ struct StepProgram {
     std::uint64_t sweeps = 0; ///< number of times that every constraint is read in one step
 };
 
+/// The buffers of all bindings of a dispatch, in the order of its kernel's interface. The executor binds a
+/// small buffer of its own where one is `unbound`: to bindings of a feature that is off, and to texel twins
+/// in programs without texels.
+std::vector<BufferId> boundBuffers(const StepProgram& program, const Pass& pass);
+
 /// Walks the passes of a recording, which run front to back on one queue, and sets which need a barrier
 /// before them. Keeps the buffers read and written since the last barrier: a pass that touches a written one,
 /// or writes a read one, gets a barrier and both sets are cleared. This is correct because every barrier
@@ -306,7 +319,9 @@ std::uint64_t declaredBytes(const StepProgram& program);
 /// the SPIR-V.
 class ProgramBuilder {
 public:
-    explicit ProgramBuilder(bool isReversed) : isReversed_(isReversed) {}
+    /// `usesTexels`: kernels read buffers with a texel twin as texels (Forms::usesTexels).
+    explicit ProgramBuilder(bool isReversed, bool usesTexels = true)
+        : isReversed_(isReversed), usesTexels_(usesTexels) {}
 
     template <typename T>
     requires std::is_trivially_copyable_v<T> BufferId upload(std::string label, std::span<const T> elements) {
@@ -333,8 +348,9 @@ public:
     bool isAfterFirstSubstep() const { return substep_ > 1; }
 
     using Constants = std::map<std::uint32_t, std::uint32_t>;
-    /// Appends a dispatch of `items` > 0 invocations; `buffers` in binding order; `push` is the kernel's push
-    /// constant struct.
+    /// Appends a dispatch of `items` > 0 invocations; `buffers` in binding order, without texel twins;
+    /// `unbound` for bindings of features that `constants` switch off. `push` is the kernel's push constant
+    /// struct.
     template <typename Push>
     void dispatch(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
                   const Push& push, const Constants& constants = {}) {
@@ -359,9 +375,19 @@ public:
                           const Constants& constants = {}) {
         dispatchIndirect(code, items, std::span(buffers.begin(), buffers.size()), push, constants);
     }
+    /// The same for the work groups in `listed`; the kernel must be one that may run over listed groups
+    /// (kernel.glsl: MAY_RUN_LISTED).
+    template <typename Push>
+    void dispatchListed(const vk::ShaderCode& code, const IndirectItems& items,
+                        std::span<const BufferId> buffers, BufferId listed, const Push& push,
+                        const Constants& constants = {}) {
+        dispatchListedBytes(code, items.most, buffers, listed, std::as_bytes(std::span(&push, 1)), constants);
+        makeLastIndirect(items);
+    }
     /// A function that replaces the direct dispatches that follow, by kernel and number of items; none = they
     /// stay direct.
-    using Indirection = std::function<IndirectForm(const vk::ShaderCode& code, std::uint32_t items)>;
+    using Indirection =
+        std::function<IndirectForm(const vk::KernelInterface& interface, std::uint32_t items)>;
     void setIndirection(Indirection indirection) { indirection_ = std::move(indirection); }
     /// Adds [index] to the label of the last pass, for passes that differ only in their range.
     void numberLast(std::uint32_t index);
@@ -435,19 +461,26 @@ private:
     }
     Pass& last() { return list().back(); }
     void makeLastIndirect(const IndirectItems& items);
-    std::uint32_t kernelIndex(const vk::ShaderCode& code, const Constants& constants);
+    const vk::KernelInterface& interfaceOf(const vk::ShaderCode& code);
+    std::uint32_t kernelIndex(const vk::ShaderCode& code, Constants constants);
+    void bind(const vk::ShaderCode& code, Pass& pass, std::span<const BufferId> buffers);
     void dispatchDirect(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
                         std::span<const std::byte> push, const Constants& constants);
     void dispatchBytes(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
                        std::span<const std::byte> push, const Constants& constants);
 
+    void dispatchListedBytes(const vk::ShaderCode& code, std::uint32_t items,
+                             std::span<const BufferId> buffers, BufferId listed,
+                             std::span<const std::byte> push, Constants constants);
+
     StepProgram program_;
+    std::map<const vk::ShaderCode*, vk::KernelInterface> interfaces_;
     std::vector<BufferId> restoredOnUndo_, keptForRepeat_;
     std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
     Indirection indirection_;
     std::vector<Pass> StepProgram::*skinList_ = nullptr; // null: passes belong to the step
-    bool isReversed_ = false, isRefreshing_ = false, isInitialising_ = false, isCut_ = false,
-         isSurface_ = false;
+    bool isReversed_ = false, usesTexels_ = true;
+    bool isRefreshing_ = false, isInitialising_ = false, isCut_ = false, isSurface_ = false;
     std::uint32_t substep_ = 0;
 };
 

@@ -20,7 +20,7 @@ bool isSameBuffer(const BufferSpec& a, const BufferSpec& b) {
 // Whether two passes are equal except for their push constants.
 bool isSamePass(const Pass& a, const Pass& b) {
     const auto isSameUse = [](const BufferUse& x, const BufferUse& y) {
-        return x.buffer == y.buffer && x.access == y.access;
+        return x.buffer == y.buffer && x.access == y.access && x.binding == y.binding;
     };
     return a.kind == b.kind && a.kernel == b.kernel && a.items == b.items && a.value == b.value &&
            a.isIndirect == b.isIndirect && a.isOfCut == b.isOfCut && a.isOfLists == b.isOfLists &&

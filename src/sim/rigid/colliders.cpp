@@ -14,6 +14,7 @@ namespace sinew::sim::rigid::colliders {
 
 namespace {
 
+constexpr std::uint32_t hasReboundId = 6, hasContactsId = 7; // constant_ids in solve_colliders.comp
 constexpr std::uint32_t colliderCountId = 2, isMovingId = 3,
                         hostColliderCountId = 4; // constant_id in colliders.glsl
 
@@ -133,7 +134,6 @@ Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& setti
                         .areMoving = settings.hostColliders > 0 ||
                                      std::ranges::any_of(scene.colliders, moves) ||
                                      std::ranges::any_of(scene.driven, moves)};
-    colliders.usesTexels = settings.forms.usesTexels;
     colliders.hasRebound =
         colliders.count > 0 &&
         (std::ranges::any_of(scene.colliders, rebounds) || std::ranges::any_of(scene.planes, rebounds) ||
@@ -161,27 +161,22 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
              std::uint32_t substep, Kick kick, const ParticleBuffers* predicted) {
     if (colliders.count == 0) return;
-    std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
-                                  particles.positions, particles.velocities, particles.step};
-    const auto plain = [&](const vk::ShaderCode& texels, const vk::ShaderCode& loads) {
-        return colliders.usesTexels ? &texels : &loads;
-    };
-    forces::Forms forms{plain(kernels::solveColliders, kernels::solveCollidersLoads),
-                        &kernels::solveCollidersForces};
-    if (colliders.hasRebound) {
-        buffers.push_back(colliders.before);
-        forms = {plain(kernels::solveCollidersRebound, kernels::solveCollidersReboundLoads),
-                 &kernels::solveCollidersReboundForces};
-    } else if (predicted) {
-        buffers.insert(buffers.end(), {predicted->positions, predicted->velocities});
-        forms = {plain(kernels::solveCollidersContacts, kernels::solveCollidersContactsLoads),
-                 &kernels::solveCollidersContactsForces};
-    }
+    std::vector<BufferId> buffers{colliders.shapes,
+                                  colliders.poses,
+                                  colliders.contactOffsets,
+                                  particles.positions,
+                                  particles.velocities,
+                                  particles.step,
+                                  boundIf(colliders.hasRebound, colliders.before)};
+    const bool hasContacts = predicted && !colliders.hasRebound;
+    buffers.insert(buffers.end(), {hasContacts ? predicted->positions : unbound,
+                                   hasContacts ? predicted->velocities : unbound});
     ProgramBuilder::Constants constants = constantsOf(colliders);
+    constants.insert({{hasReboundId, colliders.hasRebound}, {hasContactsId, hasContacts}});
     constants.merge(remainderConstants(particles.layout));
-    const vk::ShaderCode& code =
-        forces::formFor(particles, forms, &forces::Forces::ofColliders, buffers, constants);
-    dispatchTouching(program, colliders, code, buffers, pushOf(colliders, substep, kick), constants);
+    forces::bindTo(particles, &forces::Forces::ofColliders, buffers, constants);
+    dispatchTouching(program, colliders, kernels::solveColliders, buffers, pushOf(colliders, substep, kick),
+                     constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
@@ -191,12 +186,9 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
                                   particles.positions, particles.velocities, particles.step,
                                   corrections};
     ProgramBuilder::Constants constants = constantsOf(colliders);
-    const vk::ShaderCode& code = forces::formFor(
-        particles,
-        {colliders.usesTexels ? &kernels::solveCollidersOpen : &kernels::solveCollidersOpenLoads,
-         &kernels::solveCollidersOpenForces},
-        &forces::Forces::ofColliders, buffers, constants);
-    dispatchTouching(program, colliders, code, buffers, pushOf(colliders, substep, Kick::half), constants);
+    forces::bindTo(particles, &forces::Forces::ofColliders, buffers, constants);
+    dispatchTouching(program, colliders, kernels::solveCollidersOpen, buffers,
+                     pushOf(colliders, substep, Kick::half), constants);
 }
 
 } // namespace sinew::sim::rigid::colliders

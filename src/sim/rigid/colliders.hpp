@@ -17,8 +17,7 @@ struct Colliders {
     std::uint32_t placed = 0;        ///< poses of a substep: colliders, then driven bodies
     bool areMoving = false;          ///< whether any of these poses can change
     bool hasRebound = false;
-    bool usesTexels = true; ///< as in sinew::sim::Forms
-    BufferId shapes;        ///< of colliders, then spheres around driven bodies
+    BufferId shapes; ///< of colliders, then spheres around driven bodies
     BufferId
         hostColliderArguments; ///< of passes that only host colliders need; invalid without host colliders
     BufferId poses, contactOffsets, before;

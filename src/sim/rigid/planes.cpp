@@ -15,11 +15,10 @@ namespace {
 constexpr std::uint32_t planeCountId = 2; // constant_id in planes.glsl
 static_assert(ranges::mostPlanes == MOST_PLANES);
 
-// Appends a pass over all particles, in the form that keeps forces if the step does.
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const forces::Forms& forms,
+// Appends a pass over all particles.
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const vk::ShaderCode& code,
              std::vector<BufferId> buffers, ProgramBuilder::Constants constants) {
-    const vk::ShaderCode& code =
-        forces::formFor(particles, forms, &forces::Forces::ofPlanes, buffers, constants);
+    forces::bindTo(particles, &forces::Forces::ofPlanes, buffers, constants);
     program.dispatch(code, particles.count, buffers, layout::CountPush{particles.count}, constants);
 }
 
@@ -52,7 +51,7 @@ Planes add(ProgramBuilder& program, const Scene& scene, const StateLayout& layou
 void addTouch(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
               const Planes& planes) {
     if (planes.count == 0) return;
-    addPass(program, particles, {&kernels::projectOntoPlanes, &kernels::projectOntoPlanesForces},
+    addPass(program, particles, kernels::projectOntoPlanes,
             {particles.positions, particles.velocities, corrections, planes.planes, planes.contactOffsets,
              particles.step},
             planes.constants());
@@ -72,23 +71,17 @@ void addOpen(ProgramBuilder& program, const ParticleBuffers& particles, const Co
 
 void addSolve(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
     if (contacts.planes.count == 0) return;
-    addPass(program, particles, {&kernels::solvePlanes, &kernels::solvePlanesForces},
+    addPass(program, particles, kernels::solvePlanes,
             {particles.positions, particles.velocities, contacts.contacts, contacts.planes.planes,
              contacts.planes.contactOffsets, particles.step},
             contacts.planes.constants());
 }
 
 void addVelocityUpdate(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
-    if (contacts.planes.count == 0) {
-        program.dispatch(kernels::updateVelocity, particles.count, {particles.velocities, particles.step},
-                         layout::CountPush{particles.count});
-    } else {
-        std::vector<BufferId> buffers{particles.velocities, particles.step, contacts.contacts,
-                                      contacts.planes.planes};
-        if (particles.forces) buffers.push_back(particles.positions);
-        addPass(program, particles, {&kernels::updateVelocityPlanes, &kernels::updateVelocityPlanesForces},
-                std::move(buffers), contacts.planes.constants());
-    }
+    addPass(program, particles, kernels::updateVelocity,
+            {particles.velocities, particles.step, contacts.contacts, contacts.planes.planes,
+             boundIf(particles.forces != nullptr, particles.positions)},
+            contacts.planes.constants());
 }
 
 } // namespace sinew::sim::rigid::planes

@@ -11,7 +11,7 @@ namespace sinew::sim::rigid::planes {
 /// Constant data of all planes, for any solver. `count` 0 = the scene has none and no buffer exists.
 struct Planes {
     std::uint32_t count = 0;
-    BufferId planes, contactOffsets;
+    BufferId planes = unbound, contactOffsets = unbound;
     ProgramBuilder::Constants constants() const; ///< specialises planeCount
 };
 Planes add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
@@ -23,7 +23,7 @@ void addTouch(ProgramBuilder& program, const ParticleBuffers& particles, BufferI
 /// Buffers of planes that `jacobi` needs within a substep.
 struct Contacts {
     Planes planes;
-    BufferId contacts;
+    BufferId contacts = unbound;
 };
 Contacts addContacts(ProgramBuilder& program, const Scene& scene);
 void addOpen(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts);

@@ -76,18 +76,11 @@ IndirectItems itemsOf(Sleep& sleep, std::uint32_t kind, std::uint32_t items, std
     return {sleep.arguments, element, items};
 }
 
-const vk::ShaderCode* awakeForm(const vk::ShaderCode& code) {
-    for (const auto& [form, awake] : k::awakeForms)
-        if (form == &code) return awake;
-    return nullptr;
-}
-
 // Passes over particles run for listed groups; any other pass runs entirely or not at all.
-IndirectForm indirectForm(Sleep& sleep, const vk::ShaderCode& code, std::uint32_t items) {
-    const std::uint32_t groupSize = vk::readInterface(code).groupSize[0];
-    const vk::ShaderCode* awake = awakeForm(code);
-    if (!awake) return {&code, itemsOf(sleep, SLEEP_ALL, items, groupSize), {}};
-    return {awake, itemsOf(sleep, SLEEP_LISTED, items, groupSize), sleep.listed};
+IndirectForm indirectForm(Sleep& sleep, const vk::KernelInterface& interface, std::uint32_t items) {
+    const std::uint32_t groupSize = interface.groupSize[0];
+    if (!interface.hasConstant(RUNS_LISTED_ID)) return {itemsOf(sleep, SLEEP_ALL, items, groupSize), {}};
+    return {itemsOf(sleep, SLEEP_LISTED, items, groupSize), sleep.listed};
 }
 
 IndirectItems wakingItems(const Sleep& sleep, std::uint32_t element, std::uint32_t items) {
@@ -113,8 +106,8 @@ void addWakingTouched(ProgramBuilder& program, Sleep& sleep, BufferId velocities
 }
 
 void makeIndirect(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) {
-    program.setIndirection([sleep](const vk::ShaderCode& code, std::uint32_t items) {
-        return indirectForm(*sleep, code, items);
+    program.setIndirection([sleep](const vk::KernelInterface& interface, std::uint32_t items) {
+        return indirectForm(*sleep, interface, items);
     });
 }
 
@@ -122,9 +115,10 @@ void makeIndirect(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) 
 void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuffers& particles) {
     const auto& status = program.program().status;
     const BufferId positions = particles.positions, velocities = particles.velocities;
-    const auto add = [&](const vk::ShaderCode& code, const std::vector<BufferId>& buffers) {
+    const auto add = [&](const vk::ShaderCode& code, const std::vector<BufferId>& buffers,
+                         const ProgramBuilder::Constants& constants = {}) {
         program.dispatchIndirect(code, wakingItems(sleep, SLEEP_RESTING, sleep.push.count), buffers,
-                                 sleep.push);
+                                 sleep.push, constants);
     };
     program.setIndirection({});
     program.dispatch(k::closeSleep, GROUP_ITEMS,
@@ -140,7 +134,7 @@ void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuf
     for (const SeenRows& rows : sleep.rows) {
         std::vector<BufferId> buffers{sleep.weights, velocities, sleep.islands};
         buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());
-        add(*rows.join, buffers);
+        add(k::joinRows, buffers, rows.constants);
     }
     add(k::findIslands, {sleep.weights, velocities, sleep.rests, sleep.islands, sleep.least});
     program.dispatchIndirect(
@@ -243,10 +237,6 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
     });
 }
 
-const vk::ShaderCode& listedForm(const vk::ShaderCode& code) {
-    return *awakeForm(code);
-}
-
 void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
     if (!predicted.sleep) return;
     Sleep& sleep = *predicted.sleep;
@@ -264,8 +254,8 @@ void addRowTouches(ProgramBuilder& program, const ParticleBuffers& predicted, co
     std::vector<BufferId> buffers{sleep.weights, predicted.velocities, sleep.islands, sleep.marks,
                                   sleep.state};
     buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());
-    program.dispatchIndirect(*rows.wake, itemsOf(sleep, SLEEP_MIXED_ALL, sleep.push.count, GROUP_ITEMS),
-                             buffers, sleep.push);
+    program.dispatchIndirect(k::wakeRows, itemsOf(sleep, SLEEP_MIXED_ALL, sleep.push.count, GROUP_ITEMS),
+                             buffers, sleep.push, rows.constants);
     addWakingTouched(program, sleep, predicted.velocities);
 }
 

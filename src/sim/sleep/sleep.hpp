@@ -12,11 +12,11 @@
 
 namespace sinew::sim::sleep {
 
-/// Face or edge contacts that wake and join islands: the two kernels, and the buffers that both bind last.
+/// Face or edge contacts that wake and join islands: the buffers that both kernels bind last, and their
+/// constants.
 struct SeenRows {
-    const vk::ShaderCode* wake = nullptr;
-    const vk::ShaderCode* join = nullptr;
     std::vector<BufferId> buffers;
+    ProgramBuilder::Constants constants;
 };
 
 struct Sleep {
@@ -41,10 +41,6 @@ std::shared_ptr<Sleep> add(ProgramBuilder& program, const Scene& scene, const Se
 void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
                 const constraints::attachment::Attachments& attachments = {},
                 const rigid::colliders::Colliders& colliders = {});
-
-/// The form of a kernel over particles that runs for listed work groups; it binds the list last.
-const vk::ShaderCode& listedForm(const vk::ShaderCode& code);
-
 /// Appends passes in a substep, before contacts of `predicted` are counted: touched particles wake.
 void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted);
 /// Appends passes in a substep, after contacts with faces, or between edges, were found: touched particles

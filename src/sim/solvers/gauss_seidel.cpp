@@ -17,22 +17,11 @@ namespace sinew::sim::solvers::gaussSeidel {
 
 namespace {
 
-// A pass between sweeps: without boundary planes, with them, and with planes if forces are kept.
-struct Form {
-    const vk::ShaderCode *plain, *planes, *forces;
-    bool isWarm;
+// A pass between sweeps.
+struct Between {
+    bool closes, opens; // the substep before it, that after it
 };
-constexpr Form openCold{&kernels::openSubstep, nullptr, nullptr, false};
-constexpr Form openWarm{&kernels::openSubstepWarm, nullptr, nullptr, true};
-constexpr Form openWarmLoads{&kernels::openSubstepWarmLoads, nullptr, nullptr, true};
-constexpr Form advanceCold{&kernels::advanceSubstep, &kernels::advanceSubstepPlanes,
-                           &kernels::advanceSubstepPlanesForces, false};
-constexpr Form advanceWarm{&kernels::advanceSubstepWarm, &kernels::advanceSubstepWarmPlanes,
-                           &kernels::advanceSubstepWarmPlanesForces, true};
-constexpr Form advanceWarmLoads{&kernels::advanceSubstepWarmLoads, &kernels::advanceSubstepWarmLoadsPlanes,
-                                &kernels::advanceSubstepWarmPlanesForces, true};
-constexpr Form close{&kernels::closeSubstep, &kernels::closeSubstepPlanes, &kernels::closeSubstepPlanesForces,
-                     false};
+constexpr Between open{false, true}, advance{true, true}, close{true, false};
 
 // The buffers that the passes of a step use.
 struct Work {
@@ -44,28 +33,31 @@ struct Work {
     bool hasColliders = false; // other than planes, which then come before them
 };
 
-constexpr std::uint32_t hasCollidersId = 11; // constant_id in close_substep.glsl
+constexpr std::uint32_t opensId = 3, closesId = 4; // constant_ids in advance_substep.comp
+constexpr std::uint32_t hasCollidersId = 11;       // constant_id in close_substep.glsl
 
-void addBetween(ProgramBuilder& program, const Work& work, const Form& form, bool isFirst) {
+void addBetween(ProgramBuilder& program, const Work& work, Between between, bool isFirst) {
     const ParticleBuffers& particles = work.particles;
-    std::vector<BufferId> buffers{particles.positions, particles.velocities, work.corrections,
-                                  particles.step};
+    const bool isWarm = between.opens && work.edges.degree > 0;
+    std::vector<BufferId> buffers{particles.positions,
+                                  particles.velocities,
+                                  work.corrections,
+                                  particles.step,
+                                  boundIf(isWarm, work.edges.links),
+                                  boundIf(isWarm, work.edges.multipliers)};
     ProgramBuilder::Constants constants = remainderConstants(particles.layout);
-    if (form.isWarm) {
-        buffers.insert(buffers.end(), {work.edges.links, work.edges.multipliers});
-        constants.merge(work.edges.constants());
-    }
-    const bool hasPlanes = form.planes && work.planes.count > 0;
-    if (hasPlanes) {
-        buffers.insert(buffers.end(), {work.planes.planes, work.planes.contactOffsets});
+    constants.insert({{opensId, between.opens}, {closesId, between.closes}});
+    if (isWarm) constants.merge(work.edges.constants());
+    const bool meetsPlanes = between.closes && work.planes.count > 0;
+    buffers.insert(buffers.end(), {boundIf(meetsPlanes, work.planes.planes),
+                                   boundIf(meetsPlanes, work.planes.contactOffsets)});
+    if (meetsPlanes) {
         constants.merge(work.planes.constants());
-        if (work.hasColliders) constants[hasCollidersId] = 1;
+        constants[hasCollidersId] = work.hasColliders;
     }
-    const vk::ShaderCode& code = hasPlanes ? forces::formFor(particles, {form.planes, form.forces},
-                                                             &forces::Forces::ofPlanes, buffers, constants)
-                                           : *form.plain;
-    program.dispatch(code, particles.count, buffers, layout::SubstepPush{particles.count, isFirst},
-                     constants);
+    forces::bindTo(particles, &forces::Forces::ofPlanes, buffers, constants);
+    program.dispatch(kernels::advanceSubstep, particles.count, buffers,
+                     layout::SubstepPush{particles.count, isFirst}, constants);
 }
 
 // Sweeps of a substep. Without constraints there is nothing to repeat.
@@ -104,9 +96,6 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
     const auto colliders = rigid::colliders::add(program, scene, settings, particles.layout);
     work.hasColliders = colliders.count > 0;
     const bool isDamped = scene.dampingTime > 0 && !work.edges.colors.empty();
-    const bool isWarm = work.edges.degree > 0, usesTexels = settings.forms.usesTexels;
-    const Form& open = !isWarm ? openCold : usesTexels ? openWarm : openWarmLoads;
-    const Form& advance = !isWarm ? advanceCold : usesTexels ? advanceWarm : advanceWarmLoads;
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         const bool isFirst = substep == 0;
         program.beginSubstep();

@@ -56,13 +56,9 @@ struct Common {
     const StateLayout& layout;
     rigid::planes::Planes planes;
 
-    const vk::ShaderCode& form(const Kernel& kernel) const {
-        return kernel.form(settings.forms.usesTexels, planes.count > 0);
-    }
     Gather gather() const {
         ProgramBuilder::Constants constants = remainderConstants(layout);
         if (settings.keepsForces) constants.merge(forces::pullConstants());
-        if (planes.count == 0) return {{}, std::move(constants), {}};
         constants.merge(planes.constants());
         return {{planes.planes, planes.contactOffsets}, std::move(constants), {}};
     }
@@ -89,8 +85,8 @@ std::vector<constraints::distance::GatherLink> listedLinks(const Common& common)
 }
 
 template <typename Push>
-void setDispatch(const Common& common, Gather& gather, const Kernel& kernel, Push push) {
-    gather.dispatch = [&program = common.program, &code = common.form(kernel), constants = gather.constants,
+void setDispatch(const Common& common, Gather& gather, const vk::ShaderCode& code, Push push) {
+    gather.dispatch = [&program = common.program, &code, constants = gather.constants,
                        push](std::span<const BufferId> buffers, bool isFirst) mutable {
         push.isFirst = isFirst;
         program.dispatch(code, push.count, buffers, push, constants);
@@ -152,23 +148,21 @@ Gather generalGather(const Common& common, std::span<const constraints::distance
         if (isCut) cutting::addListFilter(common.program, gather.buffers.back(), allOf(links), false);
         gather.buffers.push_back(common.program.upload("distance.first_links", links.first));
     } else {
-        auto links = constraints::distance::gatherLinks(listed, count);
-        if (links.degree == 0) constraints::distance::pad(links, 1);
+        const auto links = constraints::distance::gatherLinks(listed, count);
         gather.constants[degreeId] = links.degree;
-        gather.buffers.push_back(common.program.upload("distance.links", links.links));
-        if (isCut) cutting::addListFilter(common.program, gather.buffers.back(), allOf(links), false);
+        gather.buffers.push_back(links.degree > 0 ? common.program.upload("distance.links", links.links)
+                                                  : unbound);
+        if (isCut && links.degree > 0)
+            cutting::addListFilter(common.program, gather.buffers.back(), allOf(links), false);
     }
-    if (bends.degree > 0) {
-        gather.constants[bendDegreeId] = bends.degree;
-        gather.buffers.push_back(common.program.upload("bends", bends.bends));
-        if (isCut) cutting::addListFilter(common.program, gather.buffers.back(), allOf(bends), true);
-    }
+    gather.constants[bendDegreeId] = bends.degree;
+    gather.buffers.push_back(bends.degree > 0 ? common.program.upload("bends", bends.bends) : unbound);
+    if (isCut && bends.degree > 0)
+        cutting::addListFilter(common.program, gather.buffers.back(), allOf(bends), true);
     gather.alternatesVelocities = !listed.empty() && common.scene.dampingTime > 0;
-    const Kernel& kernel = generalKernel(isRanged, bends.degree > 0, gather.alternatesVelocities);
-    if (gather.alternatesVelocities)
-        setDispatch(common, gather, kernel, layout::DampedSubstepPush{count, 0, common.scene.dampingTime});
-    else
-        setDispatch(common, gather, kernel, layout::SubstepPush{count, 0});
+    gather.constants[hasDampingId] = gather.alternatesVelocities;
+    setDispatch(common, gather, isRanged ? k::gatherSplitRanged : k::gatherSplit,
+                layout::DampedSubstepPush{count, 0, common.scene.dampingTime});
     return gather;
 }
 
@@ -183,7 +177,7 @@ Gather packedGather(const Common& common, const constraints::distance::GatherLin
     for (std::uint32_t group = 0; group + 1 < PACKED_GROUPS; ++group)
         gather.constants[firstGroupEndId + group] =
             links.groups[std::min<std::size_t>(group, links.groups.size() - 1)].endSlot;
-    setDispatch(common, gather, packed, push);
+    setDispatch(common, gather, k::gatherSplitPacked, push);
     return gather;
 }
 
@@ -194,13 +188,9 @@ Gather listedGather(const Common& common, std::uint32_t count) {
                                                       stiffness::omegaOfBends(common.settings));
     const bool isDamped = !listed.empty() && common.scene.dampingTime > 0;
     const bool isRanged = constraints::distance::isIrregular(listed, count);
-    if (bends.degree > 0 || isDamped || isRanged || cutting::haveLists(common.program.program(), count))
+    if (listed.empty() || bends.degree > 0 || isDamped || isRanged ||
+        cutting::haveLists(common.program.program(), count))
         return generalGather(common, listed, isRanged, bends, count);
-    if (listed.empty()) {
-        Gather gather = common.gather();
-        setDispatch(common, gather, drift, layout::SubstepPush{count, 0});
-        return gather;
-    }
     const auto links = constraints::distance::gatherLinks(listed, count);
     const auto packedLinks = constraints::distance::pack(links);
     return packedLinks.links.empty() ? generalGather(common, listed, false, bends, count)
@@ -259,7 +249,7 @@ void addResident(const Common& common, const ParticleBuffers& particles) {
         std::vector<BufferId> buffers{particles.positions, particles.velocities, particles.step};
         buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
         buffers.push_back(common.program.upload("grid.bodies", batch.bodies));
-        const vk::ShaderCode& code = common.form(residentKernelFor(batch, common.settings.forms));
+        const vk::ShaderCode& code = residentKernelFor(batch, common.settings.forms);
         layout::LatticePush push = batch.push;
         push.count = static_cast<std::uint32_t>(batch.bodies.size()) * vk::readInterface(code).groupSize[0];
         common.program.dispatch(code, push.count, buffers, push, gather.constants);
@@ -348,17 +338,12 @@ struct Touching {
         std::vector<BufferId> buffers{predicted.positions, predicted.velocities, next.step, next.positions,
                                       next.velocities};
         ProgramBuilder::Constants constants = remainderConstants(next.layout);
-        if (planes.count > 0) {
-            buffers.insert(buffers.end(), {before, planes.planes, planes.contactOffsets});
-            constants.merge(planes.constants());
-        }
-        const vk::ShaderCode* code = &kernels::finishAfterSurfaces;
-        if (planes.count > 0)
-            code = &forces::formFor(
-                next, {&kernels::finishAfterSurfacesPlanes, &kernels::finishAfterSurfacesPlanesForces},
-                &forces::Forces::ofPlanes, buffers, constants);
+        buffers.insert(buffers.end(), {before, planes.planes, planes.contactOffsets});
+        constants.merge(planes.constants());
+        forces::bindTo(next, &forces::Forces::ofPlanes, buffers, constants);
         buffers.push_back(particles);
-        program.dispatch(*code, particleCount, buffers, layout::CountPush{particleCount}, constants);
+        program.dispatch(kernels::finishAfterSurfaces, particleCount, buffers,
+                         layout::CountPush{particleCount}, constants);
     }
     // Appends restitution after all contacts of a substep; velocities alternate.
     void addBounces(ProgramBuilder& program, const ParticleBuffers& met, ParticleBuffers& current) {

@@ -84,14 +84,12 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
     std::vector<BufferId> buffers{
         drawn.state,       built.cutting.links, surface.rest, surface.source.particles, built.positions,
         surface.gradients, surface.near,        drawn.rest,   drawn.vertices,           surface.turns};
-    const bool isHung = surface.hung.prismCount > 0;
-    if (isHung)
-        buffers.insert(buffers.end(),
-                       {built.skinVertices, surface.hung.vertices, surface.hung.moved, surface.hung.grids});
-    program.dispatchIndirect(isHung
-                                 ? (surface.usesTexels ? k::placeCutPointsHung : k::placeCutPointsHungLoads)
-                                 : (surface.usesTexels ? k::placeCutPoints : k::placeCutPointsLoads),
-                             points, buffers, room);
+    const bool hasHung = surface.hung.prismCount > 0;
+    for (const BufferId buffer :
+         {built.skinVertices, surface.hung.vertices, surface.hung.moved, surface.hung.grids})
+        buffers.push_back(boundIf(hasHung, buffer));
+    constexpr std::uint32_t hasHungId = 1; // constant_id in place_cut_points.comp
+    program.dispatchIndirect(k::placeCutPoints, points, buffers, room, {{hasHungId, hasHung}});
     program.dispatchIndirect(k::placePieceCorners, outside,
                              {drawn.state, drawn.rest, built.positions, surface.gradients, drawn.vertices,
                               built.skinVertices, surface.turns},
@@ -101,9 +99,8 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
 } // namespace
 
 std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene, CutBodies bodies,
-                                          const CutSource& source, bool usesTexels) {
+                                          const CutSource& source) {
     auto surface = std::make_shared<CutSurface>();
-    surface->usesTexels = usesTexels;
     surface->source = source;
     surface->skins = bodies.skins;
     surface->push = {.chunks = chunksFor(bodies.rest.size() + bodies.prisms.size()),
@@ -180,7 +177,7 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, Buf
     addWholeMarks(program, surface);
     const layout::CountPush faces{surface.faces};
     program.dispatch(
-        surface.usesTexels ? k::hideFaces : k::hideFacesLoads, faces.count,
+        k::hideFaces, faces.count,
         {surface.counts, drawn.state, surface.skinFaces, surface.allIndices, program.program().skinIndices},
         faces);
     program.endSurface();

@@ -56,7 +56,6 @@ struct HungSurface {
 struct CutSurface {
     CutSource source;
     layout::SurfacePush push{};
-    bool usesTexels = true; ///< Forms::usesTexels
     std::uint32_t faces = 0, slots = 0, items = 0;
     BufferId complex, partitions, near, owned, counts, starts, sums, listed, arguments, rest, skinFaces,
         allIndices, gradients;
@@ -78,7 +77,7 @@ struct CutSurface {
 /// Adds the buffers, and the index buffer of skins, which cuts change. Call it after the buffers of
 /// StepProgram::cutting were added, to whose topology these are added.
 std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene, CutBodies bodies,
-                                          const CutSource& source, bool usesTexels);
+                                          const CutSource& source);
 
 /// Appends, in the phase "cut" after positions were saved, the positions that a blade uses. Returns their
 /// buffer.

@@ -39,12 +39,12 @@ void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId blade
     const HungSurface& hung = surface.hung;
     program.fill(hung.counts, 0);
     for (const HungRange& range : hung.ranges)
-        program.dispatch(surface.usesTexels ? k::listPrisms : k::listPrismsLoads, range.slots.count,
+        program.dispatch(k::listPrisms, range.slots.count,
                          {bladePlaces, placesBefore, blade, hung.slots, hung.hanging, hung.prisms, status,
                           cutting.dirty, hung.counts, hung.nears, hung.parted, hung.slotFlags, points},
                          range.slots);
     for (const HungRange& range : hung.ranges)
-        program.dispatch(surface.usesTexels ? k::listVertices : k::listVerticesLoads, range.slots.count,
+        program.dispatch(k::listVertices, range.slots.count,
                          {bladePlaces, placesBefore, blade, hung.slots, hung.hanging, status, hung.slotFlags,
                           hung.counts, hung.listed, hung.placed, points},
                          range.slots);
@@ -120,23 +120,19 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
     const HungSurface& hung = surface.hung;
     if (hung.prismCount == 0) return;
     addLists(program, surface, bladePlaces, placesBefore, blade, points);
-    const bool usesTexels = surface.usesTexels;
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(usesTexels ? k::placeVertices : k::placeVerticesLoads,
-                                 listOf(hung, range.vertices, SKIN_VERTICES),
+        program.dispatchIndirect(k::placeVertices, listOf(hung, range.vertices, SKIN_VERTICES),
                                  {bladePlaces, placesBefore, blade, cutting.savedLinks, cutting.places,
                                   surface.rest, hung.vertices, surface.partitions, hung.counts, hung.listed,
                                   hung.placed},
                                  range.vertices);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(usesTexels ? k::intersectSkinEdges : k::intersectSkinEdgesLoads,
-                                 listOf(hung, range.prisms, SKIN_NEAR),
+        program.dispatchIndirect(k::intersectSkinEdges, listOf(hung, range.prisms, SKIN_NEAR),
                                  {bladePlaces, placesBefore, blade, cutting.savedLinks, points, hung.prisms,
                                   hung.placed, hung.hits, hung.counts, hung.nears},
                                  range.prisms);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(usesTexels ? k::snapRimsToBlade : k::snapRimsToBladeLoads,
-                                 listOf(hung, range.vertices, SKIN_VERTICES),
+        program.dispatchIndirect(k::snapRimsToBlade, listOf(hung, range.vertices, SKIN_VERTICES),
                                  {bladePlaces, placesBefore, blade, cutting.savedLinks, cutting.places,
                                   surface.rest, hung.vertices, points, cutting.links, hung.moved, hung.rims,
                                   program.program().status, hung.counts, hung.listed, hung.placed,
@@ -189,8 +185,7 @@ void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
             {hung.vertices, surface.partitions, hung.moved, hung.counts, hung.listed}, range.vertices);
     addPlan(program, hung);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(surface.usesTexels ? k::placeSplitVertices : k::placeSplitVerticesLoads,
-                                 listOf(hung, range.vertices, SKIN_SPLIT),
+        program.dispatchIndirect(k::placeSplitVertices, listOf(hung, range.vertices, SKIN_SPLIT),
                                  {hung.vertices, built.cutting.links, surface.rest, surface.source.particles,
                                   built.positions, surface.gradients, surface.near, hung.moved, hung.counts,
                                   hung.listed, built.skinVertices},
@@ -206,10 +201,11 @@ void addRimNormals(ProgramBuilder& program, const CutSurface& surface) {
         built.positions, surface.gradients,   surface.near, hung.vertices,
         hung.grids,      built.skinVertices};
     const bool isSplit = surface.wholeCount > 0;
-    if (isSplit) buffers.push_back(surface.wholeMarks);
-    program.dispatchIndirect(isSplit ? k::rotateRimNormalsSplit : k::rotateRimNormals,
+    buffers.push_back(boundIf(isSplit, surface.wholeMarks));
+    constexpr std::uint32_t isSplitId = 1; // constant_id in rotate_rim_normals.comp
+    program.dispatchIndirect(k::rotateRimNormals,
                              {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount}, buffers,
-                             pushOf(surface, hung.vertexCount));
+                             pushOf(surface, hung.vertexCount), {{isSplitId, isSplit}});
 }
 
 } // namespace sinew::sim::surface

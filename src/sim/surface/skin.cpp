@@ -15,12 +15,9 @@ namespace {
 
 namespace k = kernels;
 
-constexpr NormalForm ofAll{&k::skinNormals, &k::skinNormalsLoads};
-
 struct Skins {
     const std::vector<Skin>& all;
     std::vector<BufferId> holders; // the particles or cells of their vertices
-    bool usesTexels = true;
 };
 
 struct Fans {
@@ -69,7 +66,7 @@ template <typename Count> void addVertices(ProgramBuilder& program, const Skins&
         const Skin& skin = skins.all[s];
         if (skin.vertexCount() == 0) continue;
         const layout::SkinPush push{count(skin), firstVertex};
-        const vk::ShaderCode& ofCells = skins.usesTexels ? k::skinCells : k::skinCellsLoads;
+        const vk::ShaderCode& ofCells = k::skinCells;
         program.dispatch(skin.particles.empty() ? ofCells : k::skinParticles, push.count,
                          {built.positions, skins.holders[s], built.skinVertices}, push);
         firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
@@ -110,8 +107,8 @@ void addWholeSkins(ProgramBuilder& program, const Skins& skins) {
     program.program().wholeIndices = program.upload("skin.whole_indices", indices);
     addVertices(program, skins, wholeVertices);
     const std::uint32_t vertexCount = std::ranges::max(indices) + 1;
-    addNormals(program, ofAll, skins.usesTexels, program.program().wholeIndices,
-               uploadFans(program, indices, vertexCount, "skin.whole"), {}, layout::CountPush{vertexCount});
+    addNormals(program, program.program().wholeIndices,
+               uploadFans(program, indices, vertexCount, "skin.whole"), {vertexCount, vertexCount});
 }
 
 std::uint32_t allVertices(const Skin& skin) {
@@ -132,7 +129,16 @@ std::vector<std::uint32_t> joinIndices(const std::vector<Skin>& skins) {
         skins, [](const Skin& skin) -> const auto& { return skin.triangles; });
 }
 
-void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins, bool usesTexels) {
+void addNormals(ProgramBuilder& program, BufferId indices, const VertexFans& fans,
+                const layout::WholePush& push, const WholeVertices& wholes) {
+    constexpr std::uint32_t isOfWholesId = 1; // constant_id in skin_normals.comp
+    program.dispatch(
+        k::skinNormals, push.count,
+        {program.program().skinVertices, indices, fans.fans, fans.triangles, wholes.hung, wholes.marks}, push,
+        {{isOfWholesId, wholes.hung != unbound}});
+}
+
+void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
     StepProgram& built = program.program();
     std::uint32_t vertexCount = 0;
     for (const Skin& skin : skins) vertexCount += allVertices(skin);
@@ -144,13 +150,13 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins, bool uses
     built.skinVertices =
         program.scratch<layout::SkinVertex>("skin.vertices", vertexCount + built.pieceVertices);
     if (built.skinIndices == BufferId{}) built.skinIndices = program.upload("skin.indices", indices);
-    Skins all{skins, {}, usesTexels};
+    Skins all{skins, {}};
     for (const Skin& skin : skins)
         all.holders.push_back(skin.vertexCount() > 0 ? uploadHolders(program, skin) : BufferId{});
     addVertices(program, all, allVertices);
     for (const auto& addMore : program.skinMiddles()) addMore();
-    addNormals(program, ofAll, usesTexels, built.skinIndices,
-               uploadFans(program, indices, vertexCount, "skin"), {}, layout::CountPush{vertexCount});
+    addNormals(program, built.skinIndices, uploadFans(program, indices, vertexCount, "skin"),
+               {vertexCount, vertexCount});
     for (const auto& addMore : program.skinEndings()) addMore();
     addWholeSkins(program, all);
 }

@@ -2,6 +2,7 @@
 // scene is drawn.
 #pragma once
 
+#include "common/layout.h"
 #include "sim/program/program.hpp"
 #include "sinew/scene.hpp"
 
@@ -19,22 +20,16 @@ VertexFans uploadFans(ProgramBuilder& program, const std::vector<std::uint32_t>&
 
 /// Appends the skin passes, and those of whole skins if some were split, and sets the program's skin buffers;
 /// nothing if `skins` is empty. Skins are consecutive in one vertex and one index buffer, in the order of the
-/// scene. `usesTexels` is Forms::usesTexels.
-void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins, bool usesTexels);
+/// scene.
+void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins);
 
-/// Appends smooth normals of the vertices of one variant of skin_normals.comp, with texels or loads. `more`
-/// are the additional buffers of the variant.
-struct NormalForm {
-    const vk::ShaderCode *texels, *loads;
+/// Bound vertices, and marks of those beside a cut.
+struct WholeVertices {
+    BufferId hung = unbound, marks = unbound;
 };
-template <typename Push>
-void addNormals(ProgramBuilder& program, const NormalForm& form, bool usesTexels, BufferId indices,
-                const VertexFans& fans, std::initializer_list<BufferId> more, const Push& push) {
-    const BufferId vertices = program.program().skinVertices;
-    std::vector<BufferId> buffers{vertices, indices, fans.fans, fans.triangles};
-    if (usesTexels) buffers.push_back(vertices);
-    buffers.insert(buffers.end(), more);
-    program.dispatch(usesTexels ? *form.texels : *form.loads, push.count, buffers, push);
-}
+
+/// Appends smooth normals: of `push.count` vertices, or of so many bound vertices of whole triangles.
+void addNormals(ProgramBuilder& program, BufferId indices, const VertexFans& fans,
+                const layout::WholePush& push, const WholeVertices& wholes = {});
 
 } // namespace sinew::sim::surface

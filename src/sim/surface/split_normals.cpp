@@ -42,7 +42,7 @@ void addWholeMarks(ProgramBuilder& program, const CutSurface& surface) {
     if (surface.wholeCount == 0) return;
     program.fill(surface.wholeStates, 0);
     program.fill(surface.wholeMarks, 0);
-    program.dispatch(surface.usesTexels ? k::findCutTriangles : k::findCutTrianglesLoads, surface.faces,
+    program.dispatch(k::findCutTriangles, surface.faces,
                      {surface.counts, program.program().cutSurface.state, surface.skinFaces,
                       surface.hung.prisms, surface.hung.vertices, surface.hung.moved, surface.partitions,
                       surface.wholeStates},
@@ -55,9 +55,9 @@ void addWholeMarks(ProgramBuilder& program, const CutSurface& surface) {
 void addWholeNormals(ProgramBuilder& program, const CutSurface& surface) {
     if (surface.wholeCount == 0) return;
     const std::uint32_t hung = surface.hung.vertexCount;
-    addNormals(program, {&k::skinNormalsWhole, &k::skinNormalsWholeLoads}, surface.usesTexels,
-               surface.wholeIndices, surface.wholeFans, {surface.hung.vertices, surface.wholeMarks},
-               layout::WholePush{.count = hung, .vertices = surface.wholeVertices});
+    addNormals(program, surface.wholeIndices, surface.wholeFans,
+               {.count = hung, .vertices = surface.wholeVertices},
+               {surface.hung.vertices, surface.wholeMarks});
 }
 
 void addPartNormals(ProgramBuilder& program, const CutSurface& surface) {

@@ -3,7 +3,7 @@
 // whole triangle was lit before the cut, so that a cut changes no color away from it.
 //
 // In a step with a cut: find_cut_triangles (which whole triangles are beside the cut), mark_cut_corners
-// (their corners). When somebody draws: skin_normals_whole (corners of whole triangles away from cuts, from
+// (their corners). When somebody draws: skin_normals (corners of whole triangles away from cuts, from
 // those triangles), then interpolate_part_normals (vertices that only parts have, by interpolation between
 // the corners).
 #pragma once

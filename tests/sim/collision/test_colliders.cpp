@@ -444,13 +444,14 @@ TEST(Colliders, AreNoPassOfASceneWithoutThem) {
 // Static colliders need no pass that places them, and colliders without restitution no pass that stores
 // speeds.
 TEST(Colliders, CompileToWhatTheyNeed) {
+    constexpr std::uint32_t hasRebound = 6; // constant_id in solve_colliders.comp
     Scene scene = test::particleAt({0, 0, 0});
     scene.colliders = {sphere(0.1, {0, -1, 0})};
-    EXPECT_TRUE(test::usesKernel(scene, "solve_colliders"));
+    EXPECT_TRUE(test::usesKernel(scene, "solve_colliders", {}, {{hasRebound, 0}}));
     EXPECT_FALSE(test::usesKernel(scene, "save_substep_start"));
     EXPECT_FALSE(test::usesKernel(scene, "place_colliders"));
     scene.colliders[0].restitution = 0.5f;
-    EXPECT_TRUE(test::usesKernel(scene, "solve_colliders_rebound"));
+    EXPECT_TRUE(test::usesKernel(scene, "solve_colliders", {}, {{hasRebound, 1}}));
     EXPECT_TRUE(test::usesKernel(scene, "save_substep_start"));
     scene.colliders[0].path = {{0, {}}, {1, {}}};
     EXPECT_TRUE(test::usesKernel(scene, "place_colliders"));

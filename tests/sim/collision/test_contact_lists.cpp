@@ -39,14 +39,14 @@ struct Cloud {
 // A program that only updates the lists of a cloud.
 class Device {
 public:
-    explicit Device(const Cloud& cloud) : count_(cloud.radii.size()), builder_(cloud.isReversed) {
+    explicit Device(const Cloud& cloud)
+        : count_(cloud.radii.size()), builder_(cloud.isReversed, cloud.usesTexels) {
         builder_.program().status = builder_.scratch<layout::StatusWords>("status", 1);
         positions_ = builder_.scratch<layout::vec4>("positions", count_);
         lists_ = lists::add(builder_, {.radii = cloud.radii,
                                        .margin = cloud.margin,
                                        .capacity = cloud.capacity,
-                                       .exclusions = cloud.exclusions,
-                                       .usesTexels = cloud.usesTexels});
+                                       .exclusions = cloud.exclusions});
         velocities_ = builder_.scratch<layout::vec4>("velocities", count_);
         const layout::StepParams step{.h = cloud.h};
         const BufferId parameters = builder_.upload("step", std::span(&step, 1));

@@ -50,7 +50,7 @@ public:
     explicit Device(bool isReversed, bool usesTexels, std::uint32_t capacity = 256,
                     std::vector<std::uint32_t> exclusions = std::vector<std::uint32_t>(edgeCount + 1,
                                                                                        edgeCount + 1))
-        : builder_(isReversed) {
+        : builder_(isReversed, usesTexels) {
         builder_.program().status = builder_.scratch<layout::StatusWords>("status", 1);
         const std::vector<layout::StepParams> step(1, layout::StepParams{.h = substep});
         particles_ = {.count = count,
@@ -62,7 +62,6 @@ public:
                                        .exclusions = exclusions,
                                        .margin = margin,
                                        .capacity = capacity,
-                                       .usesTexels = usesTexels,
                                        .particles = count});
         builder_.beginPhase("solve");
         builder_.fill(builder_.program().status, 0);

@@ -59,7 +59,7 @@ struct State {
 // A program that only updates the lists of a cloud.
 class Device {
 public:
-    explicit Device(const Cloud& cloud) : builder_(cloud.isReversed) {
+    explicit Device(const Cloud& cloud) : builder_(cloud.isReversed, cloud.usesTexels) {
         builder_.program().status = builder_.scratch<layout::StatusWords>("status", 1);
         const std::vector<layout::StepParams> step(1, layout::StepParams{.h = substep});
         particles_ = {.count = count,
@@ -75,8 +75,7 @@ public:
                                        .extents = cloud.extents,
                                        .exclusions = cloud.excluded(),
                                        .margin = cloud.margin,
-                                       .capacity = cloud.capacity,
-                                       .usesTexels = cloud.usesTexels});
+                                       .capacity = cloud.capacity});
         builder_.beginPhase("solve");
         builder_.fill(builder_.program().status, 0);
         lists::addListCheck(builder_, lists_, particles_);

@@ -154,10 +154,11 @@ TEST(OverlapAtLoad, CostsNothingWhereNothingOverlaps) {
                        ballAt({0, 1.9999f * ballRadius, 0})}; // overlaps by less than a substep's recovery
     const StepProgram program = compile(scene, {.substeps = 4});
     EXPECT_FALSE(hasBuffer(program, "pairs.memory"));
-    EXPECT_FALSE(usesKernel(scene, "count_contacts_recovery", {.substeps = 4}));
+    constexpr std::uint32_t hasRecovery = 4; // constant_id in count_contacts.comp
+    EXPECT_TRUE(usesKernel(scene, "count_contacts", {.substeps = 4}, {{hasRecovery, 0}}));
     scene.particles[1].position.x = 1.9f * ballRadius;
     EXPECT_TRUE(hasBuffer(compile(scene, {.substeps = 4}), "pairs.memory"));
-    EXPECT_TRUE(usesKernel(scene, "count_contacts_recovery", {.substeps = 4}));
+    EXPECT_TRUE(usesKernel(scene, "count_contacts", {.substeps = 4}, {{hasRecovery, 1}}));
 }
 
 // Linked particles that never touch and pairs of fixed particles do not recover.

@@ -82,7 +82,7 @@ std::string hashOf(const sim::StepProgram& program) {
     }
     for (const sim::Pass& pass : program.step) {
         hash.addValues(pass.kind, pass.kernel, pass.items, pass.value, hasBarrier({}, pass));
-        for (const sim::BufferUse& use : pass.uses) hash.addValues(use.buffer.index);
+        for (const sim::BufferUse& use : pass.uses) hash.addValues(use.buffer.index, use.binding);
         hash.add(pass.push);
     }
     return hash.text();

@@ -1,6 +1,6 @@
 #version 460
-// Marks the islands of particles and faces that touch in this substep, if one of the four particles of a contact is
-// awake and another is not. EDGES: those of edges that touch.
+// Marks the islands of particles and faces, or of edges, that touch in this substep, if one of the four particles of a contact is
+// awake and another is not.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 #include "sleep/sleep.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Joins the islands of a particle and the corners of the faces that it touched in the last substep. EDGES: joins the
-// ends of edges that touched; a particle handles the edges that end at it.
+// Joins the islands of a particle and the corners of the faces that it touched in the last substep, or of the ends of
+// edges that touched: a particle handles the edges that end at it.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 #include "sleep/islands.glsl"
