@@ -106,9 +106,13 @@ TEST_P(DegenerateCase, Case20AnAllPinnedSceneStandsStillAndHasNoConstraintPass) 
     for (std::uint32_t i = 0; i < 5; ++i) scene.fixed.push_back({i});
     const Trial trial = runTrial(scene, settings(), {.steps = 10});
     EXPECT_EQ(trial.x.back(), trial.x.front());
-    for (const Pass& pass : compile(scene, settings()).step)
-        for (const char* constraint : {"distance", "bends", "tethers", "corrections", "gather"})
+    const StepProgram program = compile(scene, settings());
+    for (const Pass& pass : program.step)
+        for (const char* constraint : {"distance", "bends", "tethers", "corrections"})
             EXPECT_EQ(pass.label.find(constraint), std::string::npos) << pass.label;
+    for (const BufferSpec& buffer : program.buffers) // a gather without links or bends has no list of them
+        for (const char* constraint : {"distance", "bends", "tethers"})
+            EXPECT_EQ(buffer.label.find(constraint), std::string::npos) << buffer.label;
 }
 
 TEST_P(DegenerateCase, Case33AnEmptySceneRuns) {

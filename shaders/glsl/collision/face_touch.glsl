@@ -75,6 +75,7 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit 
         left = overlapKept(remembered, overlap, isAtLoad() ? overlapBefore(m, side, isThrough) : 0.0, m.reach);
     }
     touch.depth = max(0.0, overlap - left);
+    mayPass = mayPass || touch.depth > push.quick;
     touch.remembered = m.isKept ? rememberedKept(restSide, touch.depth, left) : rememberedOf(side, touch.depth, left);
     if (CONTACT(element).x < push.sheets) return touch;
     // a recovering contact does not push, nor do the faces beside it
@@ -104,12 +105,25 @@ Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
     return touch;
 }
 
+// Notes whether a pair comes within reach, and whether it is so fast that it may pass, or be made to by others. Pairs that
+// come within reach are in lists whatever the margin: no other may decide anything.
+void noteMeeting(Meeting m) {
+    const vec3 one = m.vp - m.vb, other = m.vp - m.vc;
+    const float way2 = step.h * step.h * max(dot(m.vp, m.vp), max(dot(one, one), dot(other, other)));
+    vec3 b;
+    const vec3 start = nearestBefore(m).d;
+    meets = isWithinReach(m) || dot(start, start) < m.reach * m.reach || m.height * m.heightBefore < 0.0 && wentThrough(m, b);
+    mayPass = mayPass || way2 > push.quick * push.quick && meets;
+}
+
 // The contact with the face of a candidate. `through`: the side from which the point passes through a neighbouring
 // face, as a unit vector; 0 = none.
 Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
     const uvec2 candidate = CONTACT(element);
     const Meeting m = keptMeetingOf(i, candidate);
+    meets = false;
     if (isSliver(m.triangle)) return Touch(vec3(0.0), 0.0, vec3(0.0), 0.0, false, m.face);
+    noteMeeting(m);
     if (isSolid(candidate.x)) return touchOfSolid(i, list, element, m);
     const bool isForced = dot(through, through) > 0.0;
     float side = isForced ? (dot(m.normal, through) < 0.0 ? -1.0 : 1.0) : sideOf(MEMORY(element).w);

@@ -28,12 +28,18 @@ layout(constant_id = 3) const uint firstInner = ~0u; // faces from there to befo
 #include "collision/keeps_rest.glsl"
 #include "collision/recovery.glsl"
 #include "collision/hidden_faces.glsl"
+bool mayPass = false; // whether the point is so fast or so deep that it may pass a face
+bool meets = false;   // whether it comes within reach of the face that was looked at last
 #include "collision/face_touch.glsl"
+layout(std430, binding = 10) writeonly buffer Finding { DispatchArguments finding[]; }; // of the search for points that pass
+layout(std430, binding = 11) writeonly buffer Solving { DispatchArguments solving[]; };
+layout(std430, binding = 12) writeonly buffer Meets { uint meeting[]; }; // by element: 1 = comes within reach
 #include "collision/held_behind.glsl"
 
 void write(uint element, Touch touch) {
     directions[element] = vec4(touch.n, touch.depth);
     weights[element] = vec4(touch.b, touch.remembered);
+    meeting[element] = uint(meets);
 }
 
 // Of up to 32 elements from `from` on those to look at again after `passed`, as bits.
@@ -42,6 +48,13 @@ uint besides(uint from, uint end, uint passed, ContactFace face) {
     for (uint element = from; element < end; ++element)
         bits |= uint(element != passed && areNeighbours(faceAt(CONTACT(element).x), face)) << element - from;
     return bits;
+}
+
+// The first search for points that pass runs if one may; each solution and each other search runs if the pass before it has run or found any.
+void planSearch() {
+    if (gl_WorkGroupID.x == 0u && gl_LocalInvocationID.x == 0u)
+        for (uint round = 0u; round < ZONE_ROUNDS; ++round) solving[round].groupsX = 0u;
+    if (mayPass) finding[0].groupsX = gl_NumWorkGroups.x;
 }
 
 void main() {
@@ -74,4 +87,5 @@ void main() {
         through = passing.n;
     }
     if (passed == ~0u) hide(i, list.x, end);
+    planSearch();
 }

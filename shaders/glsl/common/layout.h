@@ -429,8 +429,9 @@ struct FacePush {
     float recoverySpeed; // recovery speed of overlaps that exist at load [m/s]
     uint moving; // faces below this index have a corner that moves; unused for edges
     uint sheets; // among those, faces below this index have two sides; the others are the surface of closed bodies
+    float quick; // motion in a substep up to which nothing can pass a face [m]
 };
-
+#include "common/zones_layout.h"
 struct StopPush {
     uint count; // points that move
     uint moving, faces; // faces from the first index to before the second are static or driven

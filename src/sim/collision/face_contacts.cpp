@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace sinew::sim::collision::face_contacts {
@@ -239,6 +240,19 @@ ProgramBuilder::Constants touchConstants(const Contacts& contacts, bool isFirst)
     return constants;
 }
 
+// Faces beyond which a loose point is tested with those of its list alone.
+constexpr std::uint32_t mostSearched = 10000;
+
+// Motion in a substep up to which nothing can pass: a part of the smallest distance at which two touch.
+float quickOf(const Scene& scene, const Faces& faces) {
+    float radius = std::numeric_limits<float>::max(), thickness = radius;
+    for (const Particle& particle : scene.particles)
+        if (particle.radius > 0) radius = std::min(radius, particle.radius);
+    for (const layout::ContactFace& face : faces.faces)
+        thickness = std::min(thickness, std::abs(face.thickness));
+    return 0.25f * (radius + thickness);
+}
+
 row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                            const ParticleBuffers& particles, const Faces& faces,
                            const face_lists::Lists& lists) {
@@ -256,6 +270,7 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
                  .recoverySpeed = scene.contacts.recoverySpeed,
                  .moving = find.moving,
                  .sheets = faces.sheets};
+    rows.push.quick = quickOf(scene, faces);
     rows.marks = rows.keepsRest || faces.sheets < faces.moving
                      ? program.upload("faces.marks", contact_lists::linkedMarks(scene, particles.layout))
                      : rows.surfaces.ofParticles;
@@ -263,6 +278,25 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
                       cornersOf(faces, inverseMasses(scene), particles.layout, settings.keepsForces),
                       particles);
     return rows;
+}
+
+// The points and faces of impact zones. Loose points have no links, and are no corner of a face.
+impact_zones::Request zonesOf(const Scene& scene, const StateLayout& layout, const Faces& faces,
+                              const face_lists::Lists& lists) {
+    impact_zones::Request request{.slots = layout.count,
+                                  .moving = faces.moving,
+                                  .sheets = faces.sheets,
+                                  .large = lists.push.large,
+                                  .room = lists.pooled.room,
+                                  .loose = std::vector<float>(layout.count, 0)};
+    if (faces.moving > mostSearched) return request;
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        if (scene.particles[i].inverseMass > 0) request.loose[layout.slot[i]] = scene.particles[i].radius;
+    for (const Face& face : scene.faces)
+        for (const std::uint32_t i : face.particles) request.loose[layout.slot[i]] = 0;
+    for (const DistanceConstraint& link : scene.distances)
+        request.loose[layout.slot[link.a]] = request.loose[layout.slot[link.b]] = 0;
+    return request;
 }
 
 void addStopBuffers(ProgramBuilder& program, const Scene& scene, const ParticleBuffers& particles,
@@ -318,6 +352,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     shown.faceLists = contacts.lists.pooled.ranges;
     if (std::ranges::find(faces.isOfCells, true) != faces.isOfCells.end())
         contacts.opened = program.scratch<std::uint32_t>("faces.opened", faces.faces.size());
+    contacts.zones = impact_zones::add(program, zonesOf(scene, particles.layout, faces, contacts.lists));
+    contacts.rows.touching = {contacts.zones.finding, contacts.zones.solving, contacts.zones.meeting};
     if (contacts.hasStops()) addStopBuffers(program, scene, particles, faces, contacts);
     // Without static or driven faces no kernel reads the first two.
     const bool hasRows = contacts.stopRows != BufferId{};
@@ -359,6 +395,19 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                                    boundIf(state.forces != nullptr, contacts.linkedPositions)});
     buffers.push_back(contacts.movingPoints);
     program.dispatch(k::stopAtFaces, push.count, buffers, push, constants);
+}
+
+void addZones(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+              const ParticleBuffers& state) {
+    const row_contacts::Rows& rows = contacts.rows;
+    impact_zones::addPasses(program, contacts.zones,
+                            {.faces = rows.shapes,
+                             .contacts = rows.lists.contacts,
+                             .lists = rows.lists.ranges,
+                             .searched = contacts.lists.searched,
+                             .large = contacts.lists.large,
+                             .groups = rows.particles.listed},
+                            predicted, state);
 }
 
 } // namespace sinew::sim::collision::face_contacts

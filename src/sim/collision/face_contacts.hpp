@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/collision/face_lists.hpp"
+#include "sim/collision/impact_zones.hpp"
 #include "sim/collision/row_contacts.hpp"
 #include "sim/model/state.hpp"
 
@@ -22,6 +23,7 @@ struct Contacts {
     std::uint32_t firstInner = 0; ///< from there to rows.push.moving: exist only once a cut exposes them
     /// By face: whether it is half of a square between two cells of a cuttable voxel body, or beside one.
     std::vector<bool> isOfCells;
+    impact_zones::Zones zones;
     BufferId opened; ///< by face: whether this step has opened it; only if some are of cells
     /// Positions and velocities after links; only if hasStops().
     BufferId linkedPositions, linkedVelocities;
@@ -47,6 +49,10 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
 /// Appends the pass that keeps particles exactly in front of static and driven faces: after all other passes
 /// of a substep except colliders, on `state`. Nothing if there is no such face.
 void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);
+
+/// Appends the passes after these: what still passes a moving face is stopped. `predicted` as in addPasses().
+void addZones(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+              const ParticleBuffers& state);
 
 /// Smallest distance, in spacings, from a face between four nodes of a lattice to a point that no link joins
 /// to one of its corners. Nodes are linked along edges (`kinds` 1), also along face diagonals (2), also along

@@ -354,7 +354,7 @@ struct Touching {
         std::swap(current.velocities, pairs->rebounding);
     }
     // Whether a particle may end a substep at another position than its velocity gives.
-    bool moveUnseen() const { return pairs || (faces && faces->hasStops()); }
+    bool moveUnseen() const { return pairs || (faces && (faces->hasStops() || faces->zones.exist())); }
     void joinIslands(sleep::Sleep& sleep) const {
         if (faces) collision::row_contacts::joinIslands(faces->rows, sleep);
         if (edges) collision::row_contacts::joinIslands(edges->rows, sleep);
@@ -422,7 +422,10 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
         grabs::addPass(program, current, substep, substeps, Kick::whole);
         constraints::tether::addPass(program, current, tethers);
-        if (contacts.faces) collision::face_contacts::addStops(program, *contacts.faces, current);
+        if (contacts.faces) {
+            collision::face_contacts::addZones(program, *contacts.faces, predicted, current);
+            collision::face_contacts::addStops(program, *contacts.faces, current);
+        }
         rigid::colliders::addPass(program, current, rigid, substep, Kick::whole,
                                   contacts.moveUnseen() ? &predicted : nullptr);
     }

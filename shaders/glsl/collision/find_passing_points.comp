@@ -1,0 +1,97 @@
+#version 460
+// Impact zones, search: finds points whose path in the substep leads through a face, or so near to it that rounding
+// may soon decide the side, after all contacts and constraints. Such a point and the corners of the face join one zone.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#define RUNS_LISTED
+#include "common/kernel.glsl"
+#include "common/triangle.glsl"
+
+layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 1) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; }; // that led to those positions [m/s]
+layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; };   // x + thetaH v
+layout(std430, binding = 3) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+layout(std140, binding = 4) uniform Step { StepParams step; };
+layout(std430, binding = 5) coherent volatile buffer Words { uint words[]; };
+layout(std430, binding = 6) writeonly buffer Pairs { ZonePair pairs[]; };
+layout(std430, binding = 7) readonly buffer Faces { ContactFace faces[]; };
+layout(std430, binding = 8) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
+layout(std430, binding = 9) readonly buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 10) writeonly buffer Solving { DispatchArguments solving[]; };
+layout(std430, binding = 11) readonly buffer SearchedFaces { uint searchedFaces[]; }; // small faces that exist; ~0 = none
+layout(std430, binding = 12) readonly buffer Large { uint large[]; };                 // wide ones
+layout(std430, binding = 13) readonly buffer Meets { uint meeting[]; }; // by element of lists: 1 = comes within reach (find_face_contacts)
+layout(push_constant) uniform Push { ZonePush push; };
+#include "collision/zone_test.glsl"
+#include "collision/zone_trees.glsl"
+
+void enlist(uint i) {
+    if (atomicCompSwap(PARENT(i), 0u, i + 1u) == 0u) MEMBER(atomicAdd(words[ZONE_MEMBER_COUNT], 1u)) = i;
+}
+
+// A root is only attached to a lower one, by an exchange that fails if another invocation was faster.
+void join(uint i, uint j) {
+    uint a = rootOf(i), b = rootOf(j);
+    while (a != b) {
+        const uint high = max(a, b), low = min(a, b);
+        if (atomicCompSwap(PARENT(high), high + 1u, low + 1u) == high + 1u) return;
+        a = rootOf(high);
+        b = rootOf(low);
+    }
+}
+
+void addPair(uint i, ContactFace face, float time) {
+    const uint corners[] = uint[](face.a, face.b, face.c);
+    enlist(i);
+    for (uint c = 0u; c < 3u; ++c) {
+        enlist(corners[c]);
+        join(i, corners[c]);
+    }
+    const uint place = atomicAdd(words[ZONE_PAIR_COUNT], 1u);
+    if (place < ZONE_PAIRS) pairs[place] = ZonePair(i, time);
+}
+
+// Whether a point and a face have been solved as one zone: they have one motion.
+bool areOne(uint i, ContactFace face) {
+    const uint zone = SOLVED(i);
+    return zone != 0u && SOLVED(face.a) == zone && SOLVED(face.b) == zone && SOLVED(face.c) == zone;
+}
+
+// Tests a point with a face that it touches at distances below `reach`; the sign bit is that of the thickness.
+void testPair(uint i, Path point, uint f, float reach) {
+    const ContactFace face = faces[f];
+    if (areOne(i, face)) return;
+    const bool isSolid = f >= push.sheets && f < push.moving;
+    const float front = floatBitsToUint(reach) >> 31 != 0u ? -1.0 : 1.0;
+    const float time = timeOfPassing(passageOf(point, face), abs(reach), isSolid ? front : 0.0);
+    if (time <= 1.0) addPair(i, face, time);
+}
+
+void searchFace(uint i, Path point, uint f) {
+    if (f >= push.moving) return; // it never moves, or a cut has removed it
+    const float thickness = faces[f].thickness, radius = uintBitsToFloat(LOOSE(i));
+    testPair(i, point, f, uintBitsToFloat(floatBitsToUint(radius + abs(thickness)) | floatBitsToUint(thickness) & 0x80000000u));
+}
+
+void searchAll(uint i, Path point) {
+    for (uint s = 0u; s < searchedFaces.length(); ++s) searchFace(i, point, searchedFaces[s]);
+    for (uint l = 0u; l < push.large; ++l) searchFace(i, point, large[l]);
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (gl_WorkGroupID.x == 0u && gl_LocalInvocationID.x == 0u) {
+        words[ZONE_GROUPS] = gl_NumWorkGroups.x;
+        solving[push.round].groupsX = 1u;
+    }
+    const Path point = pathOf(i);
+    const uvec2 list = lists[i];
+    bool isNear = false; // a face
+    for (uint element = list.x; element < list.x + list.y; ++element) isNear = isNear || meeting[element] != 0u;
+    if (isNear && LOOSE(i) != 0u) { // contacts may throw it through faces that are in no list
+        searchAll(i, point);
+        return;
+    }
+    for (uint element = list.x; element < list.x + list.y; ++element)
+        if (meeting[element] != 0u) testPair(i, point, contacts[element].x, uintBitsToFloat(contacts[element].y));
+}

@@ -1,0 +1,16 @@
+// The path of a point through a moving triangle in double precision: an independent judge of what has passed.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace sinew::test {
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// Whether a point and a triangle, whose corners and the point each move in a straight line in the same time,
+/// pass through each other.
+bool passesThrough(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Corners& before,
+                   const Corners& after);
+
+} // namespace sinew::test

@@ -1,0 +1,276 @@
+// Tests of shots at bodies that give way: cloth in a frame, cloth hung by a row, voxel bodies with faces,
+// still and moving. Balls have 0.5 to 100 times the spacing as radius, 1 to 1,000 m/s, 4 to 64 substeps in
+// 1/60 s. Each substep is a step of its own, so that a judge sees the whole path of each ball: none may lead
+// through a face.
+#include "sim/collision/passage.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
+#include "support/full.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <string>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr int shotsOfScene = 10;
+constexpr double frames = 2.5, dt = 1.0 / 60; // [s]
+constexpr double apart = 60;                  // distance between shots of a scene [m]
+constexpr float spacing = 0.05f;              // [m]
+
+enum class Target : std::uint8_t { framed, hung, faced };
+
+struct Kind {
+    const char* name;
+    Target target;
+    bool isMoving;
+};
+
+struct Shot {
+    Vector3d middle, velocity, targetVelocity = Vector3d::Zero();
+    double ratio = 1; // of the radius to the spacing
+    std::uint32_t ball = 0;
+    std::vector<Face> faces; // judged
+    bool hasPassed = false;
+};
+
+class BodyShots : public testing::TestWithParam<Kind> {
+protected:
+    double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+
+    Shot shotAt(int place) {
+        Shot shot;
+        shot.middle = {0, apart * (place % 5 - 2), apart * (place / 5 - 2)};
+        const double speed = std::pow(10, 3 * unit()), angle = 0.5 * unit(), turn = 2 * M_PI * unit();
+        if (GetParam().isMoving)
+            shot.targetVelocity = speed * Vector3d(-unit(), unit() - 0.5, unit() - 0.5) / 2;
+        shot.velocity =
+            shot.targetVelocity + speed * Vector3d(std::cos(angle), std::sin(angle) * std::cos(turn),
+                                                   std::sin(angle) * std::sin(turn));
+        shot.ratio = 0.5 * std::pow(200, unit());
+        return shot;
+    }
+
+    // Moves the body of a shot, and holds these particles.
+    void start(Scene& scene, const Shot& shot, std::uint32_t first, const std::vector<std::uint32_t>& held) {
+        for (std::size_t i = first; i < scene.particles.size(); ++i)
+            scene.particles[i].velocity = test::toFloats(shot.targetVelocity);
+        for (const std::uint32_t i : held) {
+            scene.particles[i].inverseMass = 0;
+            scene.particles[i].velocity = {};
+        }
+        if (!GetParam().isMoving || held.empty()) return;
+        DrivenBody driven{.firstParticle = held.front(), .particleCount = 1};
+        driven.particles.assign(held.begin() + 1, held.end());
+        driven.path = {{0, {}}, {1, {.position = test::toFloats(shot.targetVelocity)}}};
+        scene.driven.push_back(driven);
+    }
+
+    void addCloth(Scene& scene, Shot& shot, bool isFramed) {
+        const auto n = static_cast<std::uint32_t>(std::clamp(shot.ratio + 6, 7.0, 12.0));
+        const std::size_t firstFace = scene.faces.size();
+        ClothSheet sheet{.name = "cloth" + std::to_string(scene.bodies.size()),
+                         .right = {0, 1, 0},
+                         .down = {0, 0, 1},
+                         .size = {n, n},
+                         .spacing = spacing,
+                         .membraneStiffness = 1000,
+                         .thickness = 0.3f * spacing};
+        const double half = (n - 1) * double{spacing} / 2;
+        sheet.origin = test::toFloats(shot.middle - Vector3d(0, half, half));
+        const std::uint32_t first = sim::addCloth(scene, sheet);
+        std::vector<std::uint32_t> held;
+        for (std::uint32_t i = 0; i < n * n; ++i) {
+            const std::uint32_t u = i % n, v = i / n;
+            if (v == 0 || (isFramed && (u == 0 || u == n - 1 || v == n - 1))) held.push_back(first + i);
+        }
+        start(scene, shot, first, held);
+        shot.faces.assign(scene.faces.begin() + static_cast<std::ptrdiff_t>(firstFace), scene.faces.end());
+        aim(scene, shot, half);
+    }
+
+    void addVoxels(Scene& scene, Shot& shot) {
+        const auto n = static_cast<std::uint32_t>(std::clamp(shot.ratio + 4, 5.0, 8.0));
+        const double half = n * double{spacing} / 2;
+        const auto first = static_cast<std::uint32_t>(scene.particles.size());
+        const std::size_t firstFace = scene.faces.size();
+        const LatticeCorners corners =
+            addLattice(scene, {.name = "body" + std::to_string(scene.bodies.size()),
+                               .origin = test::toFloats(shot.middle - Vector3d(0, half, half)),
+                               .cells = {3, n, n},
+                               .spacing = spacing,
+                               .radius = 0.45f * spacing});
+        addSurfaceFaces(scene, scene.grids.back());
+        shot.faces.assign(scene.faces.begin() + static_cast<std::ptrdiff_t>(firstFace), scene.faces.end());
+        std::vector<std::uint32_t> held;
+        if (unit() < 0.5)
+            for (std::uint32_t k = 0; k <= n; ++k)
+                for (std::uint32_t j = 0; j <= n; ++j)
+                    if (j == 0 || k == 0 || j == n || k == n) held.push_back(corners.at(3, j, k));
+        std::ranges::sort(held);
+        start(scene, shot, first, held);
+        aim(scene, shot, half);
+    }
+
+    void aim(Scene& scene, Shot& shot, double half) {
+        const Vector3d relative = shot.velocity - shot.targetVelocity, way = relative.normalized();
+        const double radius = shot.ratio * spacing;
+        const double gap = GetParam().target == Target::faced ? 0.5 : 0.2; // slow balls must arrive
+        const Vector3d at = shot.middle + half * Vector3d(0, unit() - 0.5, unit() - 0.5);
+        const double nearest = (1.0005 * radius + gap * double{spacing}) / way.x();
+        shot.ball = static_cast<std::uint32_t>(scene.particles.size());
+        scene.particles.push_back(
+            {.position = test::toFloats(at - (nearest + 1.5 * unit() * relative.norm() * dt) * way),
+             .velocity = test::toFloats(shot.velocity),
+             .inverseMass = static_cast<float>(std::pow(10, 2 * unit() - 1)),
+             .contactOffset = static_cast<float>(radius),
+             .radius = static_cast<float>(radius)});
+    }
+
+    std::vector<Shot> addShots(Scene& scene, int count) {
+        std::vector<Shot> shots;
+        for (int s = 0; s < count; ++s) shots.push_back(shotAt(s));
+        for (Shot& shot : shots) {
+            const Target target = GetParam().target;
+            if (target == Target::framed || target == Target::hung)
+                addCloth(scene, shot, target == Target::framed);
+            else
+                addVoxels(scene, shot);
+        }
+        return shots;
+    }
+
+    std::mt19937 random_{31};
+};
+
+test::Corners cornersOf(const Face& face, const std::vector<Vector3d>& x) {
+    return {x[face.particles[0]], x[face.particles[1]], x[face.particles[2]]};
+}
+
+// Solid faces hold only what is in front of them.
+bool isInFront(const Face& face, const Vector3d& x, const test::Corners& corners) {
+    return !face.isSolid || (corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(x - corners[0]) > 0;
+}
+
+bool passes(const Shot& shot, const std::vector<Vector3d>& before, const std::vector<Vector3d>& after) {
+    const Vector3d &from = before[shot.ball], &to = after[shot.ball];
+    return std::ranges::any_of(shot.faces, [&](const Face& face) {
+        const test::Corners first = cornersOf(face, before);
+        return isInFront(face, from, first) && test::passesThrough(from, to, first, cornersOf(face, after));
+    });
+}
+
+// Whether the ball or some corner of the body has another velocity than at the start.
+bool hasHit(const Shot& shot, const std::vector<Vector3d>& v) {
+    const double least = 0.01 * (shot.velocity - shot.targetVelocity).norm();
+    if ((v[shot.ball] - shot.velocity).norm() > least) return true;
+    return std::ranges::any_of(shot.faces, [&](const Face& face) {
+        const Vector3d& corner = v[face.particles[0]];
+        return (corner - shot.targetVelocity).norm() > least && corner.norm() > least;
+    });
+}
+
+std::string nameOf(const testing::TestParamInfo<Kind>& info) {
+    return std::string(info.param.name) + (info.param.isMoving ? "Moving" : "Still");
+}
+
+} // namespace
+
+TEST_P(BodyShots, NonePasses) {
+    const int shotsOfKind = test::isFull() ? 500 : 20;
+    const std::vector<int> substeps = {4, 16, 8, 24, 64};
+    int shots = 0, passed = 0, hit = 0;
+    for (int trial = 0; shots < shotsOfKind; ++trial) {
+        Scene scene;
+        scene.gravity = {};
+        std::vector<Shot> all = addShots(scene, shotsOfScene);
+        const int each = substeps[trial % substeps.size()];
+        test::Runner runner(scene, {.substeps = 1, .contactRoom = 512});
+        std::vector<Vector3d> before = runner.positions();
+        for (int step = 0; step < frames * each; ++step) {
+            const Status status = runner.step(static_cast<float>(dt / each));
+            ASSERT_FALSE(status.isUndone) << "trial " << trial << ", step " << step << ", room "
+                                          << status.contactRoom << " " << status.nonFinite;
+            std::vector<Vector3d> after = runner.positions();
+            for (Shot& shot : all) {
+                if (shot.hasPassed || !passes(shot, before, after)) continue;
+                shot.hasPassed = true;
+                ++passed;
+                std::printf(
+                    "trial %d, shot %d, step %d: %d substeps, %.1f m/s, ratio %.2f, inverse mass %.2f\n",
+                    trial, static_cast<int>(&shot - all.data()), step, each,
+                    (shot.velocity - shot.targetVelocity).norm(), shot.ratio,
+                    double{scene.particles[shot.ball].inverseMass});
+            }
+            before = std::move(after);
+        }
+        const auto v = runner.velocities();
+        for (const Shot& shot : all) hit += hasHit(shot, v) ? 1 : 0;
+        shots += shotsOfScene;
+    }
+    std::printf("%d shots, %d hit, %d passed\n", shots, hit, passed);
+    EXPECT_EQ(passed, 0);
+    EXPECT_GE(hit, shots * 3 / 4) << "shots that hit nothing show nothing";
+}
+
+TEST_P(BodyShots, HaveTheSameBitsInReversedOrder) {
+    Scene scene;
+    scene.gravity = {};
+    addShots(scene, 3);
+    const auto hash = [&](bool isReversed) {
+        test::Runner runner(scene, {.substeps = 4, .contactRoom = 256, .isReversed = isReversed});
+        EXPECT_FALSE(runner.run(2).isUndone);
+        return runner.stateHash();
+    };
+    const std::uint64_t forward = hash(false);
+    EXPECT_EQ(forward, hash(true));
+    std::printf("state_hash %016llx\n", static_cast<unsigned long long>(forward));
+}
+
+TEST(BodyShot, KeepsMomentumAndItsImpulse) {
+    Scene scene;
+    scene.gravity = {};
+    addCloth(scene, {.right = {0, 1, 0},
+                     .down = {0, 0, 1},
+                     .size = {9, 9},
+                     .spacing = spacing,
+                     .membraneStiffness = 1000,
+                     .thickness = 0.3f * spacing});
+    // Between two particles of a row, so that contacts alone let it through.
+    scene.particles.push_back(
+        {.position = {-0.5f, 0.21f, 0.23f}, .velocity = {400, 0, 0}, .inverseMass = 100, .radius = 0.04f});
+    const auto momentum = [&](const std::vector<Vector3d>& v) {
+        Vector3d sum = Vector3d::Zero();
+        for (std::size_t i = 0; i < v.size(); ++i) sum += v[i] / double{scene.particles[i].inverseMass};
+        return sum;
+    };
+    test::Runner runner(scene, {.substeps = 8, .contactRoom = 512, .keepsForces = true});
+    const Vector3d before = momentum(runner.velocities());
+    const Status status = runner.run(1);
+    ASSERT_FALSE(status.isUndone);
+    const auto v = runner.velocities();
+    EXPECT_LT(v.back().x(), 390) << "has hit";
+    EXPECT_LT((momentum(v) - before).norm(), 1e-5 * before.norm());
+    const Vector3d lost = (Vector3d(400, 0, 0) - v.back()) / double{scene.particles.back().inverseMass};
+    const Impulses impulses = runner.simulation().forces(status.frame);
+    EXPECT_LT((test::toVector(impulses.bodies[0].contacts.linear) - lost).norm(), 1e-3 * lost.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, BodyShots,
+                         testing::Values(Kind{"Framed", Target::framed, false},
+                                         Kind{"Framed", Target::framed, true},
+                                         Kind{"Hung", Target::hung, false}, Kind{"Hung", Target::hung, true},
+                                         Kind{"Faced", Target::faced, false},
+                                         Kind{"Faced", Target::faced, true}),
+                         nameOf);
