@@ -387,7 +387,6 @@ std::string contents(const std::string& path) {
 
 } // namespace
 
-// SINEW_UPDATE_GOLDEN=1 rewrites the files. A commit that does so must justify the new program.
 TEST(Program, SearchesForLinksOnlyWhereABodyMayBeCut) {
     constexpr std::uint32_t hasLinks = 1; // constant_id in face_search.glsl
     const StepProgram program = compile(thickSheet(), {.substeps = 2});
@@ -400,6 +399,23 @@ TEST(Program, SearchesForLinksOnlyWhereABodyMayBeCut) {
     EXPECT_EQ(searches, 1u);
 }
 
+// Particles of bodies start no zone: zones of a sheet that folds tangled it.
+TEST(Program, HasImpactZonesOnlyWithALooseBall) {
+    const auto hasZones = [](const Scene& scene) {
+        const StepProgram program = compile(scene, {.substeps = 2});
+        return std::ranges::any_of(program.kernels,
+                                   [](const KernelUse& use) { return use.code == &kernels::solveZones; });
+    };
+    Scene scene = thickSheet();
+    EXPECT_FALSE(hasZones(scene));
+    scene.particles.push_back(test::particleAt({0, 1, 0}).particles.front());
+    scene.particles.back().radius = 0.03f;
+    EXPECT_TRUE(hasZones(scene));
+    scene.particles.back().inverseMass = 0;
+    EXPECT_FALSE(hasZones(scene)) << "a ball that never moves";
+}
+
+// SINEW_UPDATE_GOLDEN=1 rewrites the files. A commit that does so must justify the new program.
 TEST(Describe, PrintsTheGoldenText) {
     for (const Golden& golden : goldens()) {
         const std::string path = std::string(SINEW_GOLDEN_FOLDER) + "/" + golden.file;

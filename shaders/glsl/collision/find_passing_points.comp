@@ -1,5 +1,5 @@
 #version 460
-// Impact zones, search: finds points whose path in the substep leads through a face, or so near to it that rounding
+// Impact zones, search: finds loose points whose path in the substep leads through a face, or so near to it that rounding
 // may soon decide the side, after all contacts and constraints. Such a point and the corners of the face join one zone.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -84,11 +84,12 @@ void main() {
         words[ZONE_GROUPS] = gl_NumWorkGroups.x;
         solving[push.round].groupsX = 1u;
     }
+    if (LOOSE(i) == 0u) return;
     const Path point = pathOf(i);
     const uvec2 list = lists[i];
     bool isNear = false; // a face
     for (uint element = list.x; element < list.x + list.y; ++element) isNear = isNear || meeting[element] != 0u;
-    if (isNear && LOOSE(i) != 0u) { // contacts may throw it through faces that are in no list
+    if (isNear && uintBitsToFloat(LOOSE(i)) > 0.0) { // contacts may throw it through faces that are in no list
         searchAll(i, point);
         return;
     }

@@ -280,7 +280,8 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
     return rows;
 }
 
-// The points and faces of impact zones. Loose points have no links, and are no corner of a face.
+// The points and faces of impact zones. Loose points have no links, and are no corner of a face; without one
+// there are no zones.
 impact_zones::Request zonesOf(const Scene& scene, const StateLayout& layout, const Faces& faces,
                               const face_lists::Lists& lists) {
     impact_zones::Request request{.slots = layout.count,
@@ -289,13 +290,15 @@ impact_zones::Request zonesOf(const Scene& scene, const StateLayout& layout, con
                                   .large = lists.push.large,
                                   .room = lists.pooled.room,
                                   .loose = std::vector<float>(layout.count, 0)};
-    if (faces.moving > mostSearched) return request;
+    const float sign = faces.moving > mostSearched ? -1.f : 1.f;
     for (std::size_t i = 0; i < scene.particles.size(); ++i)
-        if (scene.particles[i].inverseMass > 0) request.loose[layout.slot[i]] = scene.particles[i].radius;
+        if (scene.particles[i].inverseMass > 0 && scene.particles[i].radius > 0)
+            request.loose[layout.slot[i]] = sign * scene.particles[i].radius;
     for (const Face& face : scene.faces)
         for (const std::uint32_t i : face.particles) request.loose[layout.slot[i]] = 0;
     for (const DistanceConstraint& link : scene.distances)
         request.loose[layout.slot[link.a]] = request.loose[layout.slot[link.b]] = 0;
+    if (std::ranges::all_of(request.loose, [](float r) { return r == 0; })) request.moving = 0;
     return request;
 }
 

@@ -1,9 +1,10 @@
-// Impact zones: what passes a face in a substep after all contacts and constraints, although contacts act
-// against it. Contacts divide a particle among all that it touches, so a fast or heavy ball may pass cloth
-// whose particles are held by others. A search finds each point whose path leads through a face. The point
-// and the corners of the face join one zone, which moves on like one rigid body that does not turn: momentum
-// is exact, and nothing passes within the zone. A zone may then pass other faces, so searches and solutions
-// alternate, ZONE_ROUNDS times at most. Where nothing is fast or deep enough to pass, all passes are empty.
+// Impact zones: a loose point that passes a face in a substep after all contacts and constraints, although
+// contacts act against it. Contacts divide a particle among all that it touches, so a fast or heavy ball may
+// pass cloth whose particles are held by others. A search finds each loose point whose path leads through a
+// face. The point and the corners of the face join one zone, which moves on like one rigid body that does
+// not turn: momentum is exact, and nothing passes within the zone. A zone may then pass other faces, so
+// searches and solutions alternate, ZONE_ROUNDS times at most. Where nothing is fast or deep enough to pass,
+// all passes are empty.
 #pragma once
 
 #include "sim/model/state.hpp"
@@ -16,8 +17,9 @@ struct Request {
     std::uint32_t sheets = 0;
     std::uint32_t large = 0; ///< as in layout::FaceFindPush
     std::uint32_t room = 0;  ///< elements of the lists
-    std::vector<float>
-        loose; ///< by slot: radius of a point without links that is no corner of a face [m], else 0
+    /// By slot: radius [m] of a point without links that is no corner of a face, else 0. Below 0, the point
+    /// is tested with the faces of its list alone.
+    std::vector<float> loose;
 };
 
 struct Zones {
