@@ -123,7 +123,7 @@ Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
     const Meeting m = keptMeetingOf(i, candidate);
     meets = false;
     if (isSliver(m.triangle)) return Touch(vec3(0.0), 0.0, vec3(0.0), 0.0, false, m.face);
-    noteMeeting(m);
+    if (hasZones) noteMeeting(m);
     if (isSolid(candidate.x)) return touchOfSolid(i, list, element, m);
     const bool isForced = dot(through, through) > 0.0;
     float side = isForced ? (dot(m.normal, through) < 0.0 ? -1.0 : 1.0) : sideOf(MEMORY(element).w);

@@ -24,6 +24,7 @@ layout(std430, binding = 7) buffer Weights { vec4 weights[]; };       // b; w: s
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FacePush push; };
 #define MARKS_BINDING 9
+layout(constant_id = 5) const bool hasZones = false; // the scene has impact zones; else bindings 10 to 12 are empty
 layout(constant_id = 3) const uint firstInner = ~0u; // faces from there to before push.moving can be opened by a cut; ~0 = there are none
 #include "collision/keeps_rest.glsl"
 #include "collision/recovery.glsl"
@@ -39,7 +40,7 @@ layout(std430, binding = 12) writeonly buffer Meets { uint meeting[]; }; // by e
 void write(uint element, Touch touch) {
     directions[element] = vec4(touch.n, touch.depth);
     weights[element] = vec4(touch.b, touch.remembered);
-    meeting[element] = uint(meets);
+    if (hasZones) meeting[element] = uint(meets);
 }
 
 // Of up to 32 elements from `from` on those to look at again after `passed`, as bits.
@@ -87,5 +88,5 @@ void main() {
         through = passing.n;
     }
     if (passed == ~0u) hide(i, list.x, end);
-    planSearch();
+    if (hasZones) planSearch();
 }

@@ -233,10 +233,12 @@ std::vector<std::array<std::uint32_t, 2>> stopRowsOf(const Faces& faces, const f
 }
 
 ProgramBuilder::Constants touchConstants(const Contacts& contacts, bool isFirst) {
-    constexpr std::uint32_t firstInnerId = 3, hasSolidId = 4; // constant_ids in find_face_contacts.comp
+    // constant_ids in find_face_contacts.comp
+    constexpr std::uint32_t firstInnerId = 3, hasSolidId = 4, hasZonesId = 5;
     ProgramBuilder::Constants constants = row_contacts::restConstants(contacts.rows.keepsRest, isFirst);
     if (contacts.hasInner()) constants[firstInnerId] = contacts.firstInner;
     constants[hasSolidId] = contacts.hasSolid();
+    constants[hasZonesId] = contacts.zones.exist();
     return constants;
 }
 
@@ -280,8 +282,7 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
     return rows;
 }
 
-// The points and faces of impact zones. Loose points have no links, and are no corner of a face; without one
-// there are no zones.
+// The points and faces of impact zones. Loose points have no links, and are no corner of a face.
 impact_zones::Request zonesOf(const Scene& scene, const StateLayout& layout, const Faces& faces,
                               const face_lists::Lists& lists) {
     impact_zones::Request request{.slots = layout.count,
@@ -298,7 +299,6 @@ impact_zones::Request zonesOf(const Scene& scene, const StateLayout& layout, con
         for (const std::uint32_t i : face.particles) request.loose[layout.slot[i]] = 0;
     for (const DistanceConstraint& link : scene.distances)
         request.loose[layout.slot[link.a]] = request.loose[layout.slot[link.b]] = 0;
-    if (std::ranges::all_of(request.loose, [](float r) { return r == 0; })) request.moving = 0;
     return request;
 }
 

@@ -24,20 +24,20 @@ std::vector<std::uint32_t> wordsOf(const Request& request) {
 } // namespace
 
 Zones add(ProgramBuilder& program, const Request& request) {
+    const bool hasLoose = std::ranges::any_of(request.loose, [](float radius) { return radius != 0; });
+    if (request.moving == 0 || !hasLoose) return {};
     const std::vector<layout::DispatchArguments> none(ZONE_ROUNDS, {0, 1, 1, 0});
-    Zones zones{.push = {.count = static_cast<std::uint32_t>(request.slots),
-                         .moving = request.moving,
-                         .sheets = request.sheets,
-                         .large = request.large,
-                         .round = 0},
-                .finding = program.upload("zones.finding", none),
-                .solving = program.upload("zones.solving", none),
-                .meeting = program.scratch<std::uint32_t>("zones.meeting", request.room)};
-    if (request.moving == 0) return zones;
-    zones.words = program.upload("zones.words", wordsOf(request));
-    zones.pairs = program.scratch<layout::ZonePair>("zones.pairs", ZONE_PAIRS);
-    zones.zones = program.scratch<layout::Zone>("zones", request.slots / 4 + 1); // a zone has four members
-    return zones;
+    return {.push = {.count = static_cast<std::uint32_t>(request.slots),
+                     .moving = request.moving,
+                     .sheets = request.sheets,
+                     .large = request.large,
+                     .round = 0},
+            .finding = program.upload("zones.finding", none),
+            .solving = program.upload("zones.solving", none),
+            .meeting = program.scratch<std::uint32_t>("zones.meeting", request.room),
+            .words = program.upload("zones.words", wordsOf(request)),
+            .pairs = program.scratch<layout::ZonePair>("zones.pairs", ZONE_PAIRS),
+            .zones = program.scratch<layout::Zone>("zones", request.slots / 4 + 1)}; // four members at least
 }
 
 void addPasses(ProgramBuilder& program, const Zones& zones, const Found& found,

@@ -24,15 +24,15 @@ struct Request {
 
 struct Zones {
     layout::ZonePush push{};
-    /// Work groups of the search and of the solution. The kernel that finds contacts writes them.
-    BufferId finding, solving;
-    BufferId meeting;             ///< by element of the lists: whether the pair comes within reach
-    BufferId words, pairs, zones; ///< only if a face moves
+    /// Work groups of the search and of the solution, written by the kernel that finds contacts.
+    BufferId finding = unbound, solving = unbound;
+    BufferId meeting = unbound; ///< by element of the lists: whether the pair comes within reach
+    BufferId words = unbound, pairs = unbound, zones = unbound;
 
-    bool exist() const { return words != BufferId{}; }
+    bool exist() const { return words != unbound; }
 };
 
-/// Without a moving face only the buffers that the kernel binds which finds contacts.
+/// Without a moving face or a loose point there are no zones, and all buffers are unbound.
 Zones add(ProgramBuilder& program, const Request& request);
 
 /// Contacts of points with faces.
@@ -42,7 +42,7 @@ struct Found {
     BufferId groups;          ///< work groups that have a point with candidates
 };
 
-/// Appends the passes; nothing without a moving face. `predicted`: positions and velocities before contacts
+/// Appends the passes; nothing if there are no zones. `predicted`: positions and velocities before contacts
 /// end the substep; `state` after it.
 void addPasses(ProgramBuilder& program, const Zones& zones, const Found& found,
                const ParticleBuffers& predicted, const ParticleBuffers& state);
