@@ -71,12 +71,13 @@ accessedBindings(const vk::ShaderCode& code, const std::map<std::uint32_t, std::
     const std::string stem = "sinew_specialised_" + std::to_string(std::hash<std::string>{}(code.name));
     const fs::path from = folder / (stem + ".spv"), to = folder / (stem + ".out.spv");
     write(from, withDefaults({code.words.begin(), code.words.end()}, constants));
-    const std::string command = "spirv-opt --freeze-spec-const --fold-spec-const-op-composite "
-                                "--inline-entry-points-exhaustive --convert-local-access-chains "
-                                "--eliminate-local-single-block --eliminate-local-single-store --ssa-rewrite "
-                                "--ccp --eliminate-dead-branches --ccp --eliminate-dead-branches "
-                                "--eliminate-dead-code-aggressive --eliminate-dead-variables " +
-                                from.string() + " -o " + to.string() + " 2>/dev/null";
+    const std::string command =
+        "spirv-opt --freeze-spec-const --fold-spec-const-op-composite "
+        "--merge-return --inline-entry-points-exhaustive --convert-local-access-chains "
+        "--eliminate-local-single-block --eliminate-local-single-store --ssa-rewrite "
+        "--ccp --eliminate-dead-branches --ccp --eliminate-dead-branches "
+        "--eliminate-dead-code-aggressive --eliminate-dead-variables " +
+        from.string() + " -o " + to.string();
     if (std::system(command.c_str()) != 0) return std::nullopt;
     const Words words = read(to);
     fs::remove(from);

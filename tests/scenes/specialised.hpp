@@ -1,5 +1,5 @@
-// What is left of a kernel once its specialisation constants have their values, by the optimiser of SPIR-V
-// tools.
+// The bindings that a kernel uses once its specialisation constants have values, by spirv-opt of SPIR-V
+// Tools.
 #pragma once
 
 #include "sinew/vk/shader_code.hpp"
@@ -12,7 +12,7 @@
 namespace sinew::test {
 
 /// The bindings that the kernel may still access with these constants, by id; those without a value keep the
-/// default. Empty if spirv-opt is not installed.
+/// default. Empty if spirv-opt is not installed or fails; it then says why on stderr.
 std::optional<std::set<std::uint32_t>>
 accessedBindings(const vk::ShaderCode& code, const std::map<std::uint32_t, std::uint32_t>& constants);
 
