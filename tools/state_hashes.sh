@@ -16,10 +16,12 @@ steps=60
 hash_of() {
     local threads=$1
     shift
-    LP_NUM_THREADS=$threads "$sinew" run "$@" --frames $steps 2>&1 | sed -n 's/^state hash: //p'
+    local output
+    output=$(LP_NUM_THREADS=$threads "$sinew" run "$@" --frames $steps 2>&1) || { echo "$output" >&2 && exit 1; }
+    sed -n 's/^state hash: //p' <<<"$output"
 }
 
-device=$("$sinew" devices 2>/dev/null | sed -n 's/^\* *[0-9]* *//p' | head -n1)
+device=$("$sinew" devices | sed -n 's/^\* *[0-9][0-9]* *//p')
 lines="device: $device"
 failed=0
 for scene in scenes/*.toml; do
