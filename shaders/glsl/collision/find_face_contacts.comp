@@ -43,7 +43,7 @@ void write(uint element, Touch touch) {
     if (hasZones) meeting[element] = uint(meets);
 }
 
-// Of up to 32 elements from `from` on those to look at again after `passed`, as bits.
+// Elements to look at again after `passed`, as bits: of those from `from` to `end`, at most 32.
 uint besides(uint from, uint end, uint passed, ContactFace face) {
     uint bits = 0u;
     for (uint element = from; element < end; ++element)

@@ -20,7 +20,7 @@ vec3 placeAt(uint i) {
 #define FAN(i) fanAt(i)
 #define TRIANGLE(k) triangleAt(k)
 #define VERTEX(i) placeAt(i)
-// Of all vertices, or of corners of whole triangles around which none is beside a cut.
+// Computes all vertices, or only corners of whole triangles around which none is beside a cut.
 layout(constant_id = 1) const bool isOfWholes = false;
 layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 5) readonly buffer Marks { uint marks[]; }; // one per bound vertex

@@ -27,7 +27,7 @@
 
 namespace sinew::sim::collision::row_contacts {
 
-/// What differs between the two kinds of rows.
+/// The differences between contacts of points with faces and contacts of edges.
 struct Kind {
     const char* name = nullptr; ///< of buffers
     bool areEdges = false;
