@@ -81,6 +81,14 @@ function(add_kernels target)
         string(APPEND declarations "extern const vk::ShaderCode ${identifier};\n")
         string(APPEND all "    &${identifier},\n")
     endforeach()
+    # Files of kernels that no longer exist are deleted: a test reads the whole folder.
+    file(GLOB files ${folder}/*.spv ${folder}/*.spv.d ${folder}/*.comp.cpp)
+    foreach(file IN LISTS files)
+        string(REGEX REPLACE "([.]spv|[.]spv[.]d|[.]cpp)$" ".cpp" embedded ${file})
+        if(NOT embedded IN_LIST embeddings)
+            file(REMOVE ${file})
+        endif()
+    endforeach()
     file(CONFIGURE OUTPUT ${folder}/${ARG_HEADER} @ONLY CONTENT
 "// Generated from the shader files by cmake/Shaders.cmake.
 #pragma once
