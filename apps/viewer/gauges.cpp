@@ -50,7 +50,7 @@ void add(std::vector<PassLine>& lines, const sim::StepProgram& program, const si
     PassLine line{.phase = program.phases[pass.phase],
                   .label = withoutNumber(pass.label),
                   .items = isDispatch ? pass.items : 0,
-                  .isOfCut = pass.isOfCut};
+                  .isOfCut = pass.isOfCut()};
     const auto same = [&](const PassLine& other) {
         return other.phase == line.phase && other.label == line.label && other.isOfCut == line.isOfCut &&
                (other.items == 0) == (line.items == 0);
@@ -62,7 +62,7 @@ void add(std::vector<PassLine>& lines, const sim::StepProgram& program, const si
 }
 
 void addProgram(SceneFacts& facts, const sim::StepProgram& program) {
-    for (const sim::Pass& pass : program.step) add(facts.passes, program, pass);
+    for (const sim::Pass& pass : program[sim::List::step]) add(facts.passes, program, pass);
     const sim::PassCounts counts = sim::countPasses(program, sim::plainStep);
     facts.dispatches += counts.dispatches;
     facts.barriers += counts.barriers;

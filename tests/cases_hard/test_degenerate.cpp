@@ -107,7 +107,7 @@ TEST_P(DegenerateCase, Case20AnAllPinnedSceneStandsStillAndHasNoConstraintPass) 
     const Trial trial = runTrial(scene, settings(), {.steps = 10});
     EXPECT_EQ(trial.x.back(), trial.x.front());
     const StepProgram program = compile(scene, settings());
-    for (const Pass& pass : program.step)
+    for (const Pass& pass : program[List::step])
         for (const char* constraint : {"distance", "bends", "tethers", "corrections"})
             EXPECT_EQ(pass.label.find(constraint), std::string::npos) << pass.label;
     for (const BufferSpec& buffer : program.buffers) // a gather without links or bends has no list of them

@@ -439,7 +439,8 @@ TEST_P(HardCase, Case34TheWorkOfADispatchAndOfAStepIsBounded) {
             constraints +=
                 paddedCount(1) * colorByParticles(named.scene, inverseMasses(named.scene)).colorCount();
         const std::size_t most = std::max<std::size_t>(program.particleCount, constraints);
-        for (const Pass& pass : program.step) EXPECT_LE(pass.items, most) << named.name << ' ' << pass.label;
+        for (const Pass& pass : program[List::step])
+            EXPECT_LE(pass.items, most) << named.name << ' ' << pass.label;
     }
     Scene hub;
     hub.particles.resize(70'000);

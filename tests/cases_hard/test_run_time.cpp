@@ -50,7 +50,7 @@ Scene hub(std::uint32_t spokes) {
 
 std::uint64_t invocationsOf(const StepProgram& program) {
     std::uint64_t sum = 0;
-    for (const Pass& pass : program.step) sum += pass.items;
+    for (const Pass& pass : program[List::step]) sum += pass.items;
     return sum;
 }
 
@@ -123,7 +123,8 @@ TEST_P(RunTimeCase, ABrokenStateIsNoMoreWorkThanACalmOne) {
     for (Scene calm : {test::block(4, 0.1f, 1e5f), test::sheet(8, 1e-4f), test::chain(20, {1e-4f})}) {
         SCOPED_TRACE(calm.name);
         const StepProgram usual = compile(calm, settings());
-        EXPECT_TRUE(std::ranges::none_of(usual.step, &Pass::isIndirect)) << "nothing decided on the device";
+        EXPECT_TRUE(std::ranges::none_of(usual[List::step], &Pass::isIndirect))
+            << "nothing decided on the device";
         Scene flat = calm, mirrored = calm, collapsed = calm, wild = calm;
         for (Particle& particle : flat.particles) particle.position.y = 0;
         for (Particle& particle : mirrored.particles) particle.position.x *= -1;

@@ -63,17 +63,15 @@ struct Maker {
     std::set<Gaps> gaps{};
 
     void record(const sim::StepProgram& program) {
-        for (const auto* list :
-             {&program.step, &program.skin, &program.wholeSkin, &program.refresh, &program.initialise})
-            for (const sim::Pass& pass : *list) {
-                if (pass.kind != sim::PassKind::dispatch) continue;
-                const sim::KernelUse& use = program.kernels[pass.kernel];
-                Gaps found{use.code, use.constants, {}};
-                const std::vector<sim::BufferId> buffers = sim::boundBuffers(program, pass);
-                for (std::size_t b = 0; b < buffers.size(); ++b)
-                    if (buffers[b] == sim::unbound) found.bindings.insert(use.interface.bindings[b].binding);
-                if (!found.bindings.empty()) gaps.insert(std::move(found));
-            }
+        sim::forEachPass(program, [&](const sim::Pass& pass) {
+            if (pass.kind != sim::PassKind::dispatch) return;
+            const sim::KernelUse& use = program.kernels[pass.kernel];
+            Gaps found{use.code, use.constants, {}};
+            const std::vector<sim::BufferId> buffers = sim::boundBuffers(program, pass);
+            for (std::size_t b = 0; b < buffers.size(); ++b)
+                if (buffers[b] == sim::unbound) found.bindings.insert(use.interface.bindings[b].binding);
+            if (!found.bindings.empty()) gaps.insert(std::move(found));
+        });
     }
 
     void make(const sim::Scene& scene, const sim::Settings& settings) {

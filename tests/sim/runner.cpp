@@ -216,7 +216,7 @@ std::uint64_t hashOfRun(const sim::Scene& scene, const sim::Settings& settings, 
 bool usesKernel(const sim::Scene& scene, const std::string& kernel, const sim::Settings& settings,
                 const std::map<std::uint32_t, std::uint32_t>& constants) {
     const sim::StepProgram program = sim::compile(scene, settings);
-    return std::ranges::any_of(program.step, [&](const sim::Pass& pass) {
+    return std::ranges::any_of(program[sim::List::step], [&](const sim::Pass& pass) {
         if (pass.label != kernel) return false;
         const auto& own = program.kernels[pass.kernel].constants;
         return std::ranges::all_of(constants, [&](const auto& constant) {

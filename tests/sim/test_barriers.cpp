@@ -140,8 +140,8 @@ TEST(Barriers, AreSafeAndNeededInTheProgramsOfAllScenes) {
                 SCOPED_TRACE(named.name + " " + solverName(solver) + " x" + std::to_string(substeps));
                 ASSERT_LE(program.buffers.size(), mostBuffers);
                 for (const Recording recording : allRecordings)
-                    ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program.step, recording));
-                ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program.skin));
+                    ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program[List::step], recording));
+                ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program[List::skin]));
             }
         }
     }
@@ -156,12 +156,11 @@ TEST(Barriers, AreSafeAndNeededWhereAMeshIsCut) {
     for (const bool usesTexels : {true, false}) {
         const StepProgram program = compile(scene, {.substeps = 2, .forms = {.usesTexels = usesTexels}});
         ASSERT_LE(program.buffers.size(), mostBuffers);
-        for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin}) {
-            ASSERT_FALSE(list->empty());
-            ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(*list));
-        }
+        for (const List list : {List::step, List::skin, List::wholeSkin}) ASSERT_FALSE(program[list].empty());
+        for (const std::vector<Pass>& list : program.lists)
+            ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(list));
         for (const Recording recording : allRecordings)
-            ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program.step, recording));
+            ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program[List::step], recording));
     }
 }
 
@@ -176,7 +175,7 @@ TEST(Barriers, AreSafeAndNeededWhereParticlesTouch) {
         SCOPED_TRACE(friction);
         ASSERT_LE(program.buffers.size(), mostBuffers);
         for (const Recording recording : allRecordings)
-            ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program.step, recording));
+            ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program[List::step], recording));
         EXPECT_LT(countPasses(program, calmStep).passes, countPasses(program, plainStep).passes);
     }
 }
@@ -184,7 +183,7 @@ TEST(Barriers, AreSafeAndNeededWhereParticlesTouch) {
 TEST(Barriers, OfSplitAreOneASubstepAndThreeAround) {
     const auto count = [](std::uint32_t substeps) {
         const StepProgram program = compile(test::block(3, 0.1f, 1e5f), {.substeps = substeps});
-        const auto barriers = barriersOf(program.step);
+        const auto barriers = barriersOf(program[List::step]);
         return std::count(barriers.begin(), barriers.end(), true);
     };
     EXPECT_EQ(count(2), 4); // one before each substep, one before measuring, one before publishing

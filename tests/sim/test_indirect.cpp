@@ -54,8 +54,8 @@ TEST(Indirect, WaitsForItsArgumentsAndIsWaitedForBeforeTheyChange) {
     toggled.builder.beginPhase("solve");
     for (int turn = 0; turn < 4; ++turn) toggled.addTurn();
     const StepProgram program = toggled.builder.finish();
-    for (std::size_t p = 1; p < program.step.size(); ++p)
-        EXPECT_TRUE(hasBarrier({}, program.step[p])) << "pass " << p;
+    for (std::size_t p = 1; p < program[List::step].size(); ++p)
+        EXPECT_TRUE(hasBarrier({}, program[List::step][p])) << "pass " << p;
     GpuExecutor executor(test::device(), program);
     const VkCommandBuffer buffer = test::queue().begin();
     vk::Commands commands(test::device(), buffer);

@@ -201,7 +201,7 @@ TEST(KeptForces, CostNothingWhereNobodyAsks) {
             return named.label.find("forces") != std::string::npos || named.label == "extract_hold_impulses";
         };
         EXPECT_EQ(std::ranges::any_of(program.buffers, isOfForces), keeps);
-        EXPECT_EQ(std::ranges::any_of(program.step, isOfForces), keeps);
+        EXPECT_EQ(std::ranges::any_of(program[List::step], isOfForces), keeps);
         EXPECT_EQ(program.forces.sums == BufferId{}, !keeps);
     }
     Settings settings = withForces();

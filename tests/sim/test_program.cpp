@@ -42,13 +42,13 @@ bool hasBuffer(const StepProgram& program, const std::string& part) {
 }
 
 std::size_t countPasses(const StepProgram& program, const std::string& label) {
-    return static_cast<std::size_t>(std::count_if(program.step.begin(), program.step.end(),
+    return static_cast<std::size_t>(std::count_if(program[List::step].begin(), program[List::step].end(),
                                                   [&](const Pass& pass) { return pass.label == label; }));
 }
 
 std::set<std::string> labels(const StepProgram& program) {
     std::set<std::string> result;
-    for (const Pass& pass : program.step) result.insert(pass.label);
+    for (const Pass& pass : program[List::step]) result.insert(pass.label);
     return result;
 }
 
@@ -64,10 +64,10 @@ TEST(ProgramBuilder, TakesWhatAgreesWithTheKernel) {
     p.builder.beginPhase("solve");
     p.builder.dispatch(kernels::predict, 8, {p.positions, p.velocities, p.step}, p.count);
     const StepProgram program = p.builder.finish();
-    ASSERT_EQ(program.step.size(), 1u);
-    EXPECT_EQ(program.step[0].label, "predict");
-    EXPECT_EQ(program.step[0].uses[0].access, vk::Access::readWrite);
-    EXPECT_EQ(program.step[0].uses[2].access, vk::Access::read);
+    ASSERT_EQ(program[List::step].size(), 1u);
+    EXPECT_EQ(program[List::step][0].label, "predict");
+    EXPECT_EQ(program[List::step][0].uses[0].access, vk::Access::readWrite);
+    EXPECT_EQ(program[List::step][0].uses[2].access, vk::Access::read);
 }
 
 TEST(ProgramBuilder, RefusesABufferTwiceWhereTheKernelDoesNotSayThatItMayBeOne) {
@@ -146,9 +146,9 @@ TEST(ProgramBuilder, LeavesUnboundBindingsOutOfUsesAndBarriers) {
     p.builder.dispatch(kernels::updateVelocity, 8, {others, p.step, unbound, unbound, unbound, unbound},
                        p.count);
     const StepProgram program = p.builder.finish();
-    ASSERT_EQ(program.step[0].uses.size(), 2u);
-    EXPECT_FALSE(program.step[1].barriers[0]) << "the two share no buffer";
-    const std::vector<BufferId> buffers = boundBuffers(program, program.step[0]);
+    ASSERT_EQ(program[List::step][0].uses.size(), 2u);
+    EXPECT_FALSE(program[List::step][1].barriers[0]) << "the two share no buffer";
+    const std::vector<BufferId> buffers = boundBuffers(program, program[List::step][0]);
     ASSERT_EQ(buffers.size(), 6u);
     EXPECT_EQ(buffers[0], p.velocities);
     EXPECT_EQ(std::count(buffers.begin(), buffers.end(), unbound), 4);
@@ -159,7 +159,7 @@ TEST(ProgramBuilder, BindsTexelTwinsOnlyWhereTheProgramFetchesTexels) {
         const StepProgram program =
             compile(test::sheet(8), {.substeps = 2, .forms = {.usesTexels = usesTexels}});
         std::size_t twins = 0;
-        for (const Pass& pass : program.step) {
+        for (const Pass& pass : program[List::step]) {
             if (pass.kind != PassKind::dispatch) continue;
             const auto& bindings = program.kernels[pass.kernel].interface.bindings;
             const std::vector<BufferId> buffers = boundBuffers(program, pass);
@@ -186,12 +186,12 @@ TEST(ProgramBuilder, TakesAListOfGroupsForKernelsThatMayRunOverOne) {
     p.builder.dispatch(kernels::saveSubstepStart, 8, buffers, push);
     p.builder.dispatchListed(kernels::saveSubstepStart, {arguments, 0, 8}, buffers, listed, push);
     const StepProgram program = p.builder.finish();
-    EXPECT_EQ(boundUses(program.step[0]).size(), 4u);
-    ASSERT_EQ(boundUses(program.step[1]).size(), 5u);
-    EXPECT_EQ(boundUses(program.step[1]).back().buffer, listed);
-    EXPECT_EQ(boundUses(program.step[1]).back().binding, lastBinding);
-    EXPECT_EQ(boundBuffers(program, program.step[0]).back(), unbound);
-    EXPECT_EQ(program.kernels[program.step[1].kernel].constants.at(runsListed), 1u);
+    EXPECT_EQ(boundUses(program[List::step][0]).size(), 4u);
+    ASSERT_EQ(boundUses(program[List::step][1]).size(), 5u);
+    EXPECT_EQ(boundUses(program[List::step][1]).back().buffer, listed);
+    EXPECT_EQ(boundUses(program[List::step][1]).back().binding, lastBinding);
+    EXPECT_EQ(boundBuffers(program, program[List::step][0]).back(), unbound);
+    EXPECT_EQ(program.kernels[program[List::step][1].kernel].constants.at(runsListed), 1u);
 }
 
 TEST(ProgramBuilder, RefusesAnEmptyDispatchAndAPassWithoutPhase) {
@@ -263,9 +263,11 @@ TEST(Program, OfSplitIsOneDispatchASubstepAndOneCopyWhereSubstepsAreOdd) {
     };
     for (const std::uint32_t substeps : {1u, 2u, 7u, 32u}) {
         const StepProgram program = compile(inRoom(test::block(2, 0.1f, 1e5f)), {.substeps = substeps});
-        EXPECT_EQ(std::count_if(program.step.begin(), program.step.end(), isInSubstep), substeps);
+        EXPECT_EQ(std::count_if(program[List::step].begin(), program[List::step].end(), isInSubstep),
+                  substeps);
         EXPECT_EQ(countPasses(program, "copy"), substeps % 2);
-        EXPECT_EQ(program.step.size(), 2 + substeps + substeps % 2 + 2); // update, fill ... measure, publish
+        EXPECT_EQ(program[List::step].size(),
+                  2 + substeps + substeps % 2 + 2); // update, fill ... measure, publish
         EXPECT_EQ(program.sweeps, substeps);
     }
 }
@@ -283,7 +285,7 @@ TEST(Program, OfGaussSeidelIsOneDispatchAColorAndOneMoreASubstep) {
     Settings settings{.solver = Solver::gaussSeidel, .substeps = 5};
     const StepProgram sheet = compile(test::sheet(8), settings);
     // update, fill, 5 x (open or advance, 8 colors), close, measure, publish, publish the multipliers
-    EXPECT_EQ(sheet.step.size(), 2u + 5 * 9 + 4);
+    EXPECT_EQ(sheet[List::step].size(), 2u + 5 * 9 + 4);
     EXPECT_EQ(countPasses(sheet, "solve_distance_color[7]"), 5u);
     EXPECT_EQ(sheet.sweeps, 5u);
     settings.warmStart = 0;
@@ -311,7 +313,7 @@ TEST(Program, OfGaussSeidelKeepsMultipliersOnlyWhereSomethingNeedsThem) {
 TEST(Program, OfAnEmptySceneHasNoPass) {
     for (const Solver solver : {Solver::jacobi, Solver::split, Solver::gaussSeidel}) {
         const StepProgram program = compile({}, {.solver = solver});
-        EXPECT_TRUE(program.step.empty() && program.skin.empty());
+        EXPECT_TRUE(program[List::step].empty() && program[List::skin].empty());
         EXPECT_EQ(declaredBytes(program), 0u);
     }
 }

@@ -170,7 +170,7 @@ TEST(Recording, OfAThousandSubstepsCostsSoMuchADispatch) {
     Simulation simulation(application.device, test::block(2, 0.1f, 1e5f), {.substeps = 1000});
     application.reset(simulation);
     std::size_t dispatches = 0;
-    for (const Pass& pass : simulation.program().step) dispatches += pass.kind == PassKind::dispatch;
+    for (const Pass& pass : simulation.program()[List::step]) dispatches += pass.kind == PassKind::dispatch;
     ASSERT_EQ(dispatches, 1002u);
     double best = 1e30;
     for (std::uint64_t frame = 0; frame < 20; ++frame) {

@@ -73,7 +73,7 @@ struct Groups {
 Groups groupsOf(test::Runner& runner) {
     const StepProgram& program = runner.simulation().program();
     Groups groups;
-    for (const Pass& pass : program.step) {
+    for (const Pass& pass : program[List::step]) {
         if (pass.kind != PassKind::dispatch) continue;
         const std::uint32_t size = program.kernels[pass.kernel].interface.groupSize[0];
         if (!pass.isIndirect) {
@@ -479,7 +479,7 @@ TEST(Sleep, IsRefusedBySolversWithoutAFormForIt) {
 TEST(Sleep, IsSaidWhereAStepIsDescribed) {
     const StepProgram program = compile(heap(3), {.substeps = 2, .sleeps = true});
     std::size_t indirect = 0, direct = 0;
-    for (const Pass& pass : program.step) {
+    for (const Pass& pass : program[List::step]) {
         if (pass.kind != PassKind::dispatch) continue;
         indirect += pass.isIndirect && pass.uses.back().buffer == program.sleep.arguments ? 1 : 0;
         direct += pass.isIndirect ? 0 : 1;

@@ -392,8 +392,8 @@ TEST(Remainders, AreNoPassAndNoRoomOfASceneWithoutThem) {
         return std::uint64_t{0};
     };
     const std::uint64_t near = bytesOf();
-    const std::size_t passes = compile(scene, {.substeps = 4}).step.size();
+    const std::size_t passes = compile(scene, {.substeps = 4})[List::step].size();
     scene.particles[0].position.x = 15;
     EXPECT_EQ(bytesOf(), 2 * near);
-    EXPECT_EQ(compile(scene, {.substeps = 4}).step.size(), passes);
+    EXPECT_EQ(compile(scene, {.substeps = 4})[List::step].size(), passes);
 }

@@ -103,7 +103,7 @@ TEST(CellVolume, AddsNothingToABodyThatDoesNotAsk) {
     EXPECT_FALSE(test::usesKernel(body({3, 3, 3}, {0.3f, 0}), "gather_lattice"));
     const StepProgram with = compile(body({3, 3, 3}, {0.3f, 0}), {}),
                       without = compile(body({3, 3, 3}, {}), {});
-    EXPECT_EQ(with.step.size(), without.step.size()) << "still one pass a substep";
+    EXPECT_EQ(with[List::step].size(), without[List::step].size()) << "still one pass a substep";
     EXPECT_EQ(with.buffers.size(), without.buffers.size());
 }
 
@@ -205,7 +205,7 @@ TEST(CellVolume, IsResidentWhereABodyFits) {
         return compile(body({3, 3, 3}, {0.45f, 0}), {.substeps = 8, .forms = {.residentBytes = bytes}});
     };
     const auto has = [](const StepProgram& built, const char* label) {
-        return std::ranges::any_of(built.step, [&](const Pass& pass) { return pass.label == label; });
+        return std::ranges::any_of(built[List::step], [&](const Pass& pass) { return pass.label == label; });
     };
     EXPECT_TRUE(has(program(32768), "resident_lattice_volume"));
     EXPECT_FALSE(has(program(0), "resident_lattice_volume"));

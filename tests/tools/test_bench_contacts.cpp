@@ -21,20 +21,21 @@ sim::Pass passOf(sim::PassKind kind, std::uint32_t substep, bool isIndirect = fa
 sim::StepProgram program() {
     using enum sim::PassKind;
     sim::StepProgram program;
-    program.step.push_back(passOf(update, 0));
+    program[sim::List::step].push_back(passOf(update, 0));
     for (const std::uint32_t substep : {1u, 2u}) {
-        program.step.push_back(passOf(copy, substep, false, false));
-        program.step.push_back(passOf(dispatch, substep));
-        program.step.push_back(passOf(dispatch, substep));
-        program.step.push_back(passOf(dispatch, substep, true));
+        program[sim::List::step].push_back(passOf(copy, substep, false, false));
+        program[sim::List::step].push_back(passOf(dispatch, substep));
+        program[sim::List::step].push_back(passOf(dispatch, substep));
+        program[sim::List::step].push_back(passOf(dispatch, substep, true));
     }
-    program.step.push_back(passOf(dispatch, 2, true));
-    program.step.back().isOfLists = true;
-    program.step.back().barriers[sim::calmStep.index()] = true; // for a recording without this pass
-    program.step.push_back(passOf(dispatch, 0));
+    program[sim::List::step].push_back(passOf(dispatch, 2, true));
+    program[sim::List::step].back().isOfLists = true;
+    program[sim::List::step].back().barriers[sim::calmStep.index()] =
+        true; // for a recording without this pass
+    program[sim::List::step].push_back(passOf(dispatch, 0));
     sim::Pass ofCut = passOf(dispatch, 1);
-    ofCut.isOfCut = true;
-    program.step.push_back(ofCut);
+    ofCut.when = sim::When::cut;
+    program[sim::List::step].push_back(ofCut);
     return program;
 }
 

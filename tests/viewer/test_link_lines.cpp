@@ -52,7 +52,7 @@ TEST(LinkClasses, AreThoseOfTheColoredSolver) {
 
     sim::Settings settings{.solver = sim::Solver::gaussSeidel, .substeps = 1};
     std::set<std::string> passes;
-    for (const sim::Pass& pass : sim::compile(scene, settings).step)
+    for (const sim::Pass& pass : sim::compile(scene, settings)[sim::List::step])
         if (pass.label.starts_with("solve_distance_color")) passes.insert(pass.label);
     EXPECT_EQ(classes.count(), passes.size()) << "a pass of the step each";
     EXPECT_NE(classes.note.find(std::to_string(passes.size()) + " classes"), std::string::npos);

@@ -227,7 +227,7 @@ Json measureRow(Session& session, const ContactRow& row, double seconds) {
 SubstepCounts countSubstep(const sim::StepProgram& program, sim::Recording recording) {
     SubstepCounts counts;
     std::uint32_t substeps = 0;
-    for (const sim::Pass& pass : program.step) {
+    for (const sim::Pass& pass : program[sim::List::step]) {
         if (pass.substep == 0 || !isIn(recording, pass)) continue;
         const bool isDispatch = pass.kind == sim::PassKind::dispatch;
         substeps = std::max(substeps, pass.substep);
@@ -243,7 +243,7 @@ SubstepCounts countSubstep(const sim::StepProgram& program, sim::Recording recor
 
 double predictedUs(const sim::StepProgram& program, sim::Recording recording) {
     double us = 0;
-    for (const sim::Pass& pass : program.step)
+    for (const sim::Pass& pass : program[sim::List::step])
         if (pass.kind == sim::PassKind::dispatch && isIn(recording, pass))
             us += pass.isIndirect ? emptyUs : directUs;
     return us;

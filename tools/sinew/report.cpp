@@ -20,7 +20,7 @@ namespace {
 std::vector<std::string> distinctPasses(const sim::StepProgram& program) {
     std::vector<std::string> labels;
     std::set<std::string> seen;
-    for (const sim::Pass& pass : program.step)
+    for (const sim::Pass& pass : program[sim::List::step])
         if (seen.insert(pass.label).second) labels.push_back(pass.label);
     return labels;
 }

@@ -24,17 +24,17 @@ layout::CutPush pushOf(const CutRun& run) {
 
 void addFilter(ProgramBuilder& program, const Contacts& contacts) {
     const CuttingBuffers cutting = program.program().cutting;
-    program.beginCut();
-    for (std::uint32_t r = 0; r < cutting.runs.size(); ++r) {
-        layout::CutPush push = pushOf(cutting.runs[r]);
-        push.run = r;
-        program.dispatchIndirect(k::filterExcluded, {cutting.listedArguments, r, push.count},
-                                 {cutting.links, cutting.savedLinks, cutting.listedCounts,
-                                  contacts.allExcluded, contacts.lists.excluded, contacts.lists.grid.bounds,
-                                  cutting.listed},
-                                 push);
-    }
-    program.endCut();
+    program.only(When::cut, [&] {
+        for (std::uint32_t r = 0; r < cutting.runs.size(); ++r) {
+            layout::CutPush push = pushOf(cutting.runs[r]);
+            push.run = r;
+            program.dispatchIndirect(k::filterExcluded, {cutting.listedArguments, r, push.count},
+                                     {cutting.links, cutting.savedLinks, cutting.listedCounts,
+                                      contacts.allExcluded, contacts.lists.excluded,
+                                      contacts.lists.grid.bounds, cutting.listed},
+                                     push);
+        }
+    });
 }
 
 } // namespace
@@ -61,13 +61,14 @@ void addContactFilter(ProgramBuilder& program, const Contacts& contacts) {
 void addContactOpening(ProgramBuilder& program, const Contacts& contacts) {
     if (!contacts.isCuttable()) return;
     const CuttingBuffers cutting = program.program().cutting;
-    program.beginCut();
-    for (const CutRun& run : cutting.runs)
-        program.dispatch(k::recordCutOverlaps, run.count,
-                         {cutting.links, cutting.savedLinks, cutting.places, contacts.lists.pooled.contacts,
-                          contacts.lists.pooled.ranges, contacts.lists.pooled.memory->memory},
-                         pushOf(run));
-    program.endCut();
+    program.only(When::cut, [&] {
+        for (const CutRun& run : cutting.runs)
+            program.dispatch(k::recordCutOverlaps, run.count,
+                             {cutting.links, cutting.savedLinks, cutting.places,
+                              contacts.lists.pooled.contacts, contacts.lists.pooled.ranges,
+                              contacts.lists.pooled.memory->memory},
+                             pushOf(run));
+    });
 }
 
 } // namespace sinew::sim::collision

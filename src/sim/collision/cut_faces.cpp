@@ -93,11 +93,7 @@ std::vector<layout::CutEdge> edgesOf(const CutRun& run, std::span<const layout::
 
 // Appends a dispatch before the substeps, and one after links were restored.
 void addTwice(ProgramBuilder& program, const std::function<void()>& addPass) {
-    const auto add = [&program, addPass] {
-        program.beginCut();
-        addPass();
-        program.endCut();
-    };
+    const auto add = [&program, addPass] { program.only(When::cut, addPass); };
     add();
     program.atEnd(add);
 }
@@ -170,13 +166,13 @@ void addFaceOpening(ProgramBuilder& program, const face_contacts::Contacts& cont
                     const ParticleBuffers& predicted) {
     if (!contacts.hasInner()) return;
     const face_lists::Lists& lists = contacts.lists;
-    program.beginCut();
-    program.dispatch(k::recordCutFaceOverlaps, contacts.rows.push.count,
-                     {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
-                      lists.pooled.ranges, lists.pooled.memory->memory, predicted.step, contacts.opened,
-                      contacts.rows.marks},
-                     contacts.rows.push);
-    program.endCut();
+    program.only(When::cut, [&] {
+        program.dispatch(k::recordCutFaceOverlaps, contacts.rows.push.count,
+                         {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
+                          lists.pooled.ranges, lists.pooled.memory->memory, predicted.step, contacts.opened,
+                          contacts.rows.marks},
+                         contacts.rows.push);
+    });
 }
 
 void addEdgeFilter(ProgramBuilder& program, const edge_contacts::Contacts& contacts) {

@@ -74,10 +74,10 @@ void addWeights(ProgramBuilder& program, const ParticleBuffers& particles) {
     for (const StateBuffer& stateBuffer : program.program().stateBuffers)
         if (stateBuffer.to == particles.positions && stateBuffer.from != particles.positions)
             targets.push_back(stateBuffer.from);
-    program.beginRefreshing();
-    for (const BufferId target : targets)
-        program.dispatch(kernels::setWeights, count, {target, initial}, layout::CountPush{count});
-    program.endRefreshing();
+    program.into(List::refresh, [&] {
+        for (const BufferId target : targets)
+            program.dispatch(kernels::setWeights, count, {target, initial}, layout::CountPush{count});
+    });
 }
 
 void skipContacts(ProgramBuilder& program, const Scene& scene) {

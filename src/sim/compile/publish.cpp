@@ -65,15 +65,16 @@ void addInitialising(ProgramBuilder& program, const ParticleBuffers& particles, 
     const StepProgram& built = program.program();
     ProgramBuilder::Constants constants = remainderConstants(particles.layout);
     constants.merge(ProgramBuilder::Constants(rule.constants));
-    program.beginInitialising();
-    program.dispatch(
-        k::initialiseState, particles.count,
-        {particles.positions, particles.velocities, built.positions, built.velocities, rule.table}, rule.push,
-        constants);
-    for (const StateBuffer& stateBuffer : std::vector(built.stateBuffers))
-        for (const BufferId state : {particles.positions, particles.velocities})
-            if (stateBuffer.to == state && stateBuffer.from != state) program.copy(state, stateBuffer.from);
-    program.endInitialising();
+    program.into(List::initialise, [&] {
+        program.dispatch(
+            k::initialiseState, particles.count,
+            {particles.positions, particles.velocities, built.positions, built.velocities, rule.table},
+            rule.push, constants);
+        for (const StateBuffer& stateBuffer : built.stateBuffers)
+            for (const BufferId state : {particles.positions, particles.velocities})
+                if (stateBuffer.to == state && stateBuffer.from != state)
+                    program.copy(state, stateBuffer.from);
+    });
 }
 
 void addState(ProgramBuilder& program, const ParticleBuffers& particles) {

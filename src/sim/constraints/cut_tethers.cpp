@@ -28,10 +28,10 @@ void addTetherFilter(ProgramBuilder& program, BufferId list, std::span<const Lis
     program.addToState(list, list);
     const BufferId uploaded = program.upload("cut.tethers", parted);
     program.atEnd([&program, uploaded, list, count = static_cast<std::uint32_t>(parted.size())] {
-        program.beginCut();
-        program.dispatch(kernels::disableCutTethers, count,
-                         {program.program().cutting.labels, uploaded, list}, layout::CountPush{count});
-        program.endCut();
+        program.only(When::cut, [&] {
+            program.dispatch(kernels::disableCutTethers, count,
+                             {program.program().cutting.labels, uploaded, list}, layout::CountPush{count});
+        });
     });
 }
 

@@ -181,11 +181,10 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                          run.push);
     addWholeCells(program, cut); // cells that an undone step has restored
     addFindingPieces(program, cut, particles);
-    program.beginSurface();
-    addTriangleHiding(program, cut.stretched);
-    program.endSurface();
+    program.only(When::surface, [&] { addTriangleHiding(program, cut.stretched); });
     if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface, cut.blade);
-    if (cut.sheets) surface::addSheetPasses(program, *cut.sheets, !cut.surface);
+    if (cut.sheets)
+        program.only(When::surface, [&] { surface::addSheetPasses(program, *cut.sheets, !cut.surface); });
 }
 
 } // namespace
@@ -197,13 +196,9 @@ void add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
     cut.bladePlaces = cut.buffers.places;
     addDebris(program, scene, cut, particles);
     program.beginPhase("cut");
-    program.beginCut();
-    addOpening(program, cut, particles);
-    program.endCut();
+    program.only(When::cut, [&] { addOpening(program, cut, particles); });
     program.atEnd([&program, cut, particles] {
-        program.beginCut();
-        addClosing(program, cut, particles);
-        program.endCut();
+        program.only(When::cut, [&] { addClosing(program, cut, particles); });
     });
 }
 

@@ -126,14 +126,8 @@ void addListFilter(ProgramBuilder& program, BufferId list, std::span<const Liste
         program.dispatch(areBends ? k::partBends : k::disableCutLinks, static_cast<std::uint32_t>(count),
                          {links, uploaded, list}, layout::CountPush{static_cast<std::uint32_t>(count)});
     };
-    const auto addPass = [&program, addDispatch] {
-        program.beginCut();
-        addDispatch();
-        program.endCut();
-    };
-    program.beginRefreshing();
-    addDispatch();
-    program.endRefreshing();
+    const auto addPass = [&program, addDispatch] { program.only(When::cut, addDispatch); };
+    program.into(List::refresh, addDispatch);
     addPass();
     program.atEnd(addPass); // after links were restored
 }

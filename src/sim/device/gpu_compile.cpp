@@ -10,25 +10,23 @@ namespace {
 
 std::uint64_t mostTexels(const StepProgram& program) {
     std::uint64_t most = 0;
-    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin})
-        for (const Pass& pass : *list) {
-            if (pass.kind != PassKind::dispatch) continue;
-            const std::vector<BufferId> buffers = boundBuffers(program, pass);
-            for (std::size_t b = 0; b < buffers.size(); ++b) {
-                if (program.kernels[pass.kernel].interface.bindings[b].kind != vk::BlockKind::texels)
-                    continue;
-                if (buffers[b] == unbound) continue;
-                const BufferSpec& spec = program.buffers[buffers[b].index];
-                most = std::max(most, vk::KernelBinding::texelsIn(spec.bytes(), spec.stride));
-            }
+    forEachPass(program, [&](const Pass& pass) {
+        if (pass.kind != PassKind::dispatch) return;
+        const std::vector<BufferId> buffers = boundBuffers(program, pass);
+        for (std::size_t b = 0; b < buffers.size(); ++b) {
+            if (program.kernels[pass.kernel].interface.bindings[b].kind != vk::BlockKind::texels) continue;
+            if (buffers[b] == unbound) continue;
+            const BufferSpec& spec = program.buffers[buffers[b].index];
+            most = std::max(most, vk::KernelBinding::texelsIn(spec.bytes(), spec.stride));
         }
+    });
     return most;
 }
 
 /// Makes one phase for each pass label of the step, in the order of first appearance.
 void makePhasesOfPasses(StepProgram& program) {
     program.phases.clear();
-    for (Pass& pass : program.step) {
+    for (Pass& pass : program[List::step]) {
         const auto phase = std::ranges::find(program.phases, pass.label);
         pass.phase = static_cast<std::uint32_t>(phase - program.phases.begin());
         if (phase == program.phases.end()) program.phases.push_back(pass.label);

@@ -26,9 +26,9 @@ vk::BufferView emptyView(const vk::Buffer& empty, vk::Access access, std::size_t
 // By buffer: whether it holds the arguments of an indirect dispatch.
 std::vector<bool> holdArguments(const StepProgram& program) {
     std::vector<bool> result(program.buffers.size());
-    for (const std::vector<Pass>* list : {&program.step, &program.skin})
-        for (const Pass& pass : *list)
-            if (pass.isIndirect) result[pass.uses.back().buffer.index] = true;
+    forEachPass(program, [&](const Pass& pass) {
+        if (pass.isIndirect) result[pass.uses.back().buffer.index] = true;
+    });
     return result;
 }
 
@@ -101,16 +101,13 @@ struct SetPlan {
 
 SetPlan planSets(const StepProgram& program) {
     SetPlan plan;
-    for (const std::vector<Pass>* list :
-         {&program.step, &program.skin, &program.wholeSkin, &program.refresh, &program.initialise}) {
-        for (const Pass& pass : *list) {
-            if (pass.kind != PassKind::dispatch) continue;
-            const auto isSame = [&](const Pass* other) { return isSameDispatch(*other, pass); };
-            const auto found = std::find_if(plan.distinct.begin(), plan.distinct.end(), isSame);
-            plan.setOfPass.push_back(static_cast<std::size_t>(found - plan.distinct.begin()));
-            if (found == plan.distinct.end()) plan.distinct.push_back(&pass);
-        }
-    }
+    forEachPass(program, [&](const Pass& pass) {
+        if (pass.kind != PassKind::dispatch) return;
+        const auto isSame = [&](const Pass* other) { return isSameDispatch(*other, pass); };
+        const auto found = std::find_if(plan.distinct.begin(), plan.distinct.end(), isSame);
+        plan.setOfPass.push_back(static_cast<std::size_t>(found - plan.distinct.begin()));
+        if (found == plan.distinct.end()) plan.distinct.push_back(&pass);
+    });
     return plan;
 }
 
@@ -140,17 +137,11 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     if (!requests.empty()) sets_.emplace_back(device, requests);
     setOfPass_ = plan.setOfPass;
     std::size_t nextSet = 0;
-    step_ = resolve(program.step, nextSet);
-    skin_ = resolve(program.skin, nextSet);
-    wholeSkin_ = resolve(program.wholeSkin, nextSet);
-    refresh_ = resolve(program.refresh, nextSet);
-    initialise_ = resolve(program.initialise, nextSet);
-    checkGroups(step_, device.limits().maxGroupCount);
-    checkGroups(skin_, device.limits().maxGroupCount);
-    checkGroups(wholeSkin_, device.limits().maxGroupCount);
-    checkGroups(refresh_, device.limits().maxGroupCount);
-    checkGroups(initialise_, device.limits().maxGroupCount);
-    for (const Recorded& pass : step_) {
+    for (std::size_t list = 0; list < listCount; ++list) {
+        lists_[list] = resolve(program.lists[list], nextSet);
+        checkGroups(lists_[list], device.limits().maxGroupCount);
+    }
+    for (const Recorded& pass : lists_[static_cast<std::size_t>(List::step)]) {
         if (timedPhases_.empty() || timedPhases_.back() != pass.phase) timedPhases_.push_back(pass.phase);
     }
 }
@@ -172,7 +163,7 @@ std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>&
         Recorded recorded{.kind = pass.kind,
                           .isIn = {},
                           .hasBarrier = {},
-                          .isOfSurface = pass.isOfSurface,
+                          .when = pass.when,
                           .isIndirect = pass.isIndirect,
                           .phase = pass.phase,
                           .groups = 0,
@@ -212,23 +203,11 @@ void GpuExecutor::upload(vk::Commands& commands) noexcept {
 
 void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
                        Recording recording) noexcept {
-    record(commands, step_, host, timestamps, recording);
+    record(commands, lists_[static_cast<std::size_t>(List::step)], host, timestamps, recording);
 }
 
-void GpuExecutor::skin(vk::Commands& commands) noexcept {
-    record(commands, skin_, {}, nullptr);
-}
-
-void GpuExecutor::wholeSkin(vk::Commands& commands) noexcept {
-    record(commands, wholeSkin_, {}, nullptr);
-}
-
-void GpuExecutor::refresh(vk::Commands& commands) noexcept {
-    record(commands, refresh_, {}, nullptr);
-}
-
-void GpuExecutor::initialise(vk::Commands& commands) noexcept {
-    record(commands, initialise_, {}, nullptr);
+void GpuExecutor::record(vk::Commands& commands, List list) noexcept {
+    record(commands, lists_[static_cast<std::size_t>(list)], {}, nullptr);
 }
 
 const vk::Buffer* GpuExecutor::stagingOf(BufferId buffer) const noexcept {
@@ -248,8 +227,8 @@ void GpuExecutor::replace(vk::Commands& commands, BufferId buffer, const vk::Buf
 }
 
 void GpuExecutor::surface(vk::Commands& commands) noexcept {
-    for (const Recorded& pass : step_) {
-        if (!pass.isOfSurface) continue;
+    for (const Recorded& pass : lists_[static_cast<std::size_t>(List::step)]) {
+        if (pass.when != When::surface) continue;
         commands.barrier(); // it is rare, and no barriers are planned for these passes alone
         recordPass(commands, pass, {});
     }

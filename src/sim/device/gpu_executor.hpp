@@ -26,13 +26,8 @@ public:
     /// Records the passes of a step with the planned barriers. `timestamps` receives one span per phase.
     void step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
               Recording recording = {}) noexcept;
-    void skin(vk::Commands& commands) noexcept;
-    void wholeSkin(vk::Commands& commands) noexcept;
-    /// Records the passes that recompute what follows from the scene alone (StepProgram::refresh).
-    void refresh(vk::Commands& commands) noexcept;
-    /// Records the passes that initialise this program's state from the public state
-    /// (StepProgram::initialise).
-    void initialise(vk::Commands& commands) noexcept;
+    /// Records the passes of a list other than the step.
+    void record(vk::Commands& commands, List list) noexcept;
     /// Copies a buffer's initial contents into it, if it has some.
     void restore(vk::Commands& commands, BufferId buffer) noexcept;
     /// Replaces a buffer's initial contents by `contents`, of equal size; the buffer itself changes too
@@ -51,7 +46,8 @@ private:
     struct Recorded {
         PassKind kind;
         std::array<bool, recordingCount> isIn, hasBarrier; // by Recording
-        bool isOfSurface, isIndirect;
+        When when;
+        bool isIndirect;
         std::uint32_t phase, groups, value;
         const vk::Kernel* kernel;
         VkDescriptorSet set;
@@ -72,7 +68,7 @@ private:
     std::vector<std::shared_ptr<const vk::Kernel>> kernels_;
     std::vector<vk::BindingSets> sets_;
     std::vector<std::size_t> setOfPass_;
-    std::vector<Recorded> step_, skin_, wholeSkin_, refresh_, initialise_;
+    std::array<std::vector<Recorded>, listCount> lists_; // by List
     std::vector<std::uint32_t> timedPhases_;
 };
 

@@ -52,8 +52,8 @@ bool hasTexelForms(const Scene& scene, Settings settings) {
     settings.substeps = 1;
     settings.forms.usesTexels = true;
     const StepProgram program = compile(scene, settings);
-    return std::ranges::any_of(program.step, [&](const Pass& pass) {
-        if (pass.kind != PassKind::dispatch || pass.isOfCut) return false;
+    return std::ranges::any_of(program[List::step], [&](const Pass& pass) {
+        if (pass.kind != PassKind::dispatch || pass.isOfCut()) return false;
         const auto& bindings = program.kernels[pass.kernel].interface.bindings;
         return std::ranges::any_of(bindings, &vk::KernelBinding::isTwin);
     });

@@ -26,7 +26,7 @@ std::string line(const StepProgram& program, const Pass& pass) {
     }
     if (pass.isIndirect)
         text << ' ' << program.buffers[pass.uses.back().buffer.index].label << '[' << pass.value << "]:i";
-    if (pass.isOfCut) text << "  (with a blade)";
+    if (pass.when != When::always) text << "  (with a blade)";
     if (pass.isOfLists) text << "  (not in a calm step)";
     return text.str();
 }
@@ -89,8 +89,8 @@ std::string megabytes(std::uint64_t bytes) {
 std::string sleepText(const StepProgram& program) {
     if (program.sleep.arguments == BufferId{}) return {};
     std::size_t all = 0, listed = 0, whole = 0, always = 0;
-    for (const Pass& pass : program.step) {
-        if (pass.isOfCut || pass.kind != PassKind::dispatch) continue;
+    for (const Pass& pass : program[List::step]) {
+        if (pass.isOfCut() || pass.kind != PassKind::dispatch) continue;
         const bool isOfSleep = pass.isIndirect && pass.uses.back().buffer == program.sleep.arguments;
         const bool isListed = isOfSleep && boundUses(pass).back().buffer == program.sleep.listed;
         ++all;
@@ -116,13 +116,13 @@ std::uint64_t keyOf(const StepProgram& program) noexcept {
         add(std::as_bytes(std::span(&size, 1)));
         add(buffer.initial);
     }
-    for (const Pass& pass : program.step) add(std::as_bytes(std::span(pass.label)));
+    for (const Pass& pass : program[List::step]) add(std::as_bytes(std::span(pass.label)));
     return key;
 }
 
 PassCounts countPasses(const StepProgram& program, Recording recording) {
     PassCounts counts;
-    for (const Pass& pass : program.step) {
+    for (const Pass& pass : program[List::step]) {
         if (!isIn(recording, pass)) continue;
         ++counts.passes;
         counts.dispatches += pass.kind == PassKind::dispatch ? 1 : 0;
@@ -133,8 +133,8 @@ PassCounts countPasses(const StepProgram& program, Recording recording) {
 
 std::uint64_t declaredBytes(const StepProgram& program) {
     std::uint64_t bytes = 0;
-    for (const Pass& pass : program.step) {
-        if (pass.isOfCut) continue;
+    for (const Pass& pass : program[List::step]) {
+        if (pass.isOfCut()) continue;
         for (const BufferUse& use : pass.uses) {
             const std::uint64_t size = program.buffers[use.buffer.index].bytes();
             bytes += use.access == vk::Access::readWrite ? 2 * size : size;
@@ -157,9 +157,7 @@ std::string describe(const StepProgram& program) {
             text << std::setw(9) << buffer.count << " x " << std::setw(3) << buffer.stride << " B\n";
     }
     text << '\n';
-    print(text, program, program.step);
-    if (!program.skin.empty()) print(text, program, program.skin);
-    if (!program.wholeSkin.empty()) print(text, program, program.wholeSkin);
+    for (const List list : {List::step, List::skin, List::wholeSkin}) print(text, program, program[list]);
     const PassCounts counts = countPasses(program, plainStep), calm = countPasses(program, calmStep);
     text << "\nper step: " << counts.dispatches << " dispatches, " << counts.passes - counts.dispatches
          << " fills, copies and updates, " << counts.barriers << " barriers, "

@@ -111,15 +111,14 @@ void ProgramBuilder::append(Pass pass) {
     if (program_.phases.empty()) throw std::logic_error("pass " + pass.label + " belongs to no phase");
     pass.phase = static_cast<std::uint32_t>(program_.phases.size() - 1);
     pass.substep = substep_;
-    pass.isOfCut = isCut_;
-    pass.isOfSurface = isSurface_;
-    list().push_back(std::move(pass));
+    pass.when = when_;
+    program_[list_].push_back(std::move(pass));
 }
 
 void ProgramBuilder::dispatchDirect(const vk::ShaderCode& code, std::uint32_t items,
                                     std::span<const BufferId> buffers, std::span<const std::byte> push,
                                     const Constants& constants) {
-    if (!indirection_ || skinList_ || isCut_ || isRefreshing_ || isInitialising_)
+    if (!indirection_ || list_ != List::step || when_ != When::always)
         return dispatchBytes(code, items, buffers, push, constants);
     const IndirectForm form = indirection_(interfaceOf(code), items);
     if (form.listed != BufferId{})
@@ -229,11 +228,7 @@ void ProgramBuilder::update(BufferId buffer, HostData data) {
 
 StepProgram ProgramBuilder::finish() {
     for (const Recording recording : allRecordings)
-        planBarriers(program_.step, program_.buffers.size(), recording);
-    planBarriers(program_.skin, program_.buffers.size());
-    planBarriers(program_.wholeSkin, program_.buffers.size());
-    planBarriers(program_.refresh, program_.buffers.size());
-    planBarriers(program_.initialise, program_.buffers.size());
+        for (std::vector<Pass>& list : program_.lists) planBarriers(list, program_.buffers.size(), recording);
     return std::move(program_);
 }
 

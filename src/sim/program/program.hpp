@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #pragma push_macro("interface") // windows.h defines it
@@ -91,6 +92,13 @@ constexpr std::array<Recording, recordingCount> allRecordings{
 constexpr Recording plainStep{.hasBlade = false, .isCalm = false},
     calmStep{.hasBlade = false, .isCalm = true};
 
+/// The steps that record a pass.
+enum class When : std::uint8_t {
+    always,
+    cut,     ///< only those with a blade
+    surface, ///< these too; the pass rewrites the surface of cuts from the state of cells
+};
+
 /// An entry of a pass list.
 struct Pass {
     PassKind kind = PassKind::dispatch;
@@ -105,16 +113,16 @@ struct Pass {
     bool isIndirect = false;   ///< groups come from the device: element `value` of the last use
     std::uint32_t phase = 0;   ///< index into StepProgram::phases
     std::uint32_t substep = 0; ///< 1-based; 0 = outside the substeps
-    bool isOfCut = false;      ///< recorded only in a step with a blade
-    bool isOfSurface = false;  ///< in these steps: rewrites the surface of cuts from the state of cells
-    bool isOfLists = false;    ///< rebuilds contact lists after the first substep: not in a calm step
+    When when = When::always;
+    bool isOfCut() const { return when != When::always; }
+    bool isOfLists = false; ///< rebuilds contact lists after the first substep: not in a calm step
     /// By Recording, set by planBarriers: whether a barrier precedes the pass.
     std::array<bool, recordingCount> barriers{};
 };
 
 /// Whether `pass` is part of a recording, and whether it is and a barrier precedes it.
 inline bool isIn(Recording recording, const Pass& pass) {
-    return (recording.hasBlade || !pass.isOfCut) && (!recording.isCalm || !pass.isOfLists);
+    return (recording.hasBlade || !pass.isOfCut()) && (!recording.isCalm || !pass.isOfLists);
 }
 inline bool hasBarrier(Recording recording, const Pass& pass) {
     return isIn(recording, pass) && pass.barriers[recording.index()];
@@ -251,21 +259,27 @@ struct ForceBuffers {
                   holds = 0; ///< number of each
 };
 
+/// The pass lists of a program. Each is recorded by itself; any but the first may be empty.
+enum class List : std::uint8_t {
+    step, ///< for every step
+    skin, ///< to draw the skins
+    /// Instead of `skin` while nothing is cut, for wholeIndices; empty if no skin has whole triangles.
+    wholeSkin,
+    /// After a state of another material, or of other substeps, was put into the buffers: recomputes the
+    /// values that follow from the scene alone.
+    refresh,
+    /// After another solver's public state was put into the public buffers: initialises this solver's state
+    /// from it. Empty without public velocities.
+    initialise,
+};
+constexpr std::size_t listCount = 5;
+
 /// A compiled scene; immutable once built.
 struct StepProgram {
     std::vector<BufferSpec> buffers;
     std::vector<KernelUse> kernels;
-    std::vector<std::string> phases; ///< what is timed, in order
-    std::vector<Pass> step;          ///< recorded for every step
-    std::vector<Pass> skin;          ///< recorded to draw the skins; may be empty
-    /// Instead of `skin` while nothing is cut, for wholeIndices; empty if no skin has whole triangles.
-    std::vector<Pass> wholeSkin;
-    /// Recorded after a state of another material, or of other substeps, was put into the buffers: recomputes
-    /// the values that follow from the scene alone. May be empty.
-    std::vector<Pass> refresh;
-    /// Recorded after another solver's public state was put into the public buffers: initialises this
-    /// solver's state from it. Empty without public velocities.
-    std::vector<Pass> initialise;
+    std::vector<std::string> phases;                ///< what is timed, in order
+    std::array<std::vector<Pass>, listCount> lists; ///< by List
     std::uint64_t order = 0; ///< hash of the order of particles: programs with equal order exchange states
     std::vector<std::string> skipped;      ///< features that this scene does not need, for reports
     std::vector<StateBuffer> stateBuffers; ///< buffers copied when a simulation takes over another's state
@@ -285,7 +299,17 @@ struct StepProgram {
     std::uint32_t pieceVertices = 0; ///< vertices reserved for those parts, after those of all skins
     std::uint32_t particleCount = 0, constraintCount = 0;
     std::uint64_t sweeps = 0; ///< number of times that every constraint is read in one step
+
+    std::vector<Pass>& operator[](List list) & { return lists[static_cast<std::size_t>(list)]; }
+    const std::vector<Pass>& operator[](List list) const& { return lists[static_cast<std::size_t>(list)]; }
+    std::vector<Pass> operator[](List list) && { return std::move(lists[static_cast<std::size_t>(list)]); }
 };
+
+/// Calls `visit(pass)` for the passes of all lists, list by list.
+template <typename Visit> void forEachPass(const StepProgram& program, const Visit& visit) {
+    for (const std::vector<Pass>& list : program.lists)
+        for (const Pass& pass : list) visit(pass);
+}
 
 /// The buffers of all bindings of a dispatch, in the order of its kernel's interface. The executor binds a
 /// small buffer of its own where one is `unbound`: to bindings of a feature that is off, and to texel twins
@@ -429,22 +453,18 @@ public:
         update(blade, HostData::blade);
         update(points, HostData::bladePoints);
     }
-    /// Passes from here to endCut() are recorded only in steps with a blade; gates do not change them.
-    void beginCut() { isCut_ = true; }
-    void endCut() { isCut_ = false; }
-    /// Passes of a cut that rewrite the surface of cuts from the state of cells.
-    void beginSurface() { isSurface_ = true; }
-    void endSurface() { isSurface_ = false; }
-    /// All passes that follow belong to StepProgram::skin, or to another list of skins; gates do not change
-    /// them.
-    void beginSkin() { skinList_ = &StepProgram::skin; }
-    void beginWholeSkin() { skinList_ = &StepProgram::wholeSkin; }
-    /// Passes from here to endRefreshing() belong to StepProgram::refresh; gates do not change them.
-    void beginRefreshing() { isRefreshing_ = true; }
-    void endRefreshing() { isRefreshing_ = false; }
-    /// Passes from here to endInitialising() belong to StepProgram::initialise; gates do not change them.
-    void beginInitialising() { isInitialising_ = true; }
-    void endInitialising() { isInitialising_ = false; }
+    /// Calls `add()`; the passes that it appends are recorded only in such steps. Gates do not change them.
+    template <typename Add> void only(When when, const Add& add) {
+        const When before = std::exchange(when_, when);
+        add();
+        when_ = before;
+    }
+    /// Calls `add()`; the passes that it appends belong to `list`. Gates change those of the step alone.
+    template <typename Add> void into(List list, const Add& add) {
+        const List before = std::exchange(list_, list);
+        add();
+        list_ = before;
+    }
     void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
 
     StepProgram& program() { return program_; }
@@ -454,12 +474,7 @@ private:
     BufferId add(BufferSpec spec);
     void update(BufferId buffer, HostData data);
     void append(Pass pass);
-    std::vector<Pass>& list() {
-        if (isRefreshing_) return program_.refresh;
-        if (isInitialising_) return program_.initialise;
-        return skinList_ ? program_.*skinList_ : program_.step;
-    }
-    Pass& last() { return list().back(); }
+    Pass& last() { return program_[list_].back(); }
     void makeLastIndirect(const IndirectItems& items);
     const vk::KernelInterface& interfaceOf(const vk::ShaderCode& code);
     std::uint32_t kernelIndex(const vk::ShaderCode& code, Constants constants);
@@ -478,9 +493,9 @@ private:
     std::vector<BufferId> restoredOnUndo_, keptForRepeat_;
     std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
     Indirection indirection_;
-    std::vector<Pass> StepProgram::*skinList_ = nullptr; // null: passes belong to the step
+    List list_ = List::step;
+    When when_ = When::always;
     bool isReversed_ = false, usesTexels_ = true;
-    bool isRefreshing_ = false, isInitialising_ = false, isCut_ = false, isSurface_ = false;
     std::uint32_t substep_ = 0;
 };
 

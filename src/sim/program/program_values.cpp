@@ -23,8 +23,8 @@ bool isSamePass(const Pass& a, const Pass& b) {
         return x.buffer == y.buffer && x.access == y.access && x.binding == y.binding;
     };
     return a.kind == b.kind && a.kernel == b.kernel && a.items == b.items && a.value == b.value &&
-           a.isIndirect == b.isIndirect && a.isOfCut == b.isOfCut && a.isOfLists == b.isOfLists &&
-           a.isOfSurface == b.isOfSurface && a.phase == b.phase && a.push.size() == b.push.size() &&
+           a.isIndirect == b.isIndirect && a.when == b.when && a.isOfLists == b.isOfLists &&
+           a.phase == b.phase && a.push.size() == b.push.size() &&
            std::ranges::equal(a.uses, b.uses, isSameUse);
 }
 
@@ -32,30 +32,30 @@ bool haveOneShape(const StepProgram& a, const StepProgram& b) {
     return a.particleCount == b.particleCount && a.phases == b.phases &&
            std::ranges::equal(a.kernels, b.kernels, isSameKernel) &&
            std::ranges::equal(a.buffers, b.buffers, isSameBuffer) &&
-           std::ranges::equal(a.step, b.step, isSamePass) && std::ranges::equal(a.skin, b.skin, isSamePass) &&
-           std::ranges::equal(a.wholeSkin, b.wholeSkin, isSamePass) &&
-           std::ranges::equal(a.refresh, b.refresh, isSamePass);
+           std::ranges::equal(a.lists, b.lists, [&](const auto& list, const auto& other) {
+               return std::ranges::equal(list, other, isSamePass);
+           });
 }
 
-std::vector<ProgramValues::Push> pushesOf(const std::vector<Pass>& from, const std::vector<Pass>& to) {
+std::vector<ProgramValues::Push> pushesOf(const StepProgram& from, const StepProgram& to) {
     std::vector<ProgramValues::Push> pushes;
-    for (std::size_t p = 0; p < from.size(); ++p)
-        if (from[p].push != to[p].push) pushes.push_back({p, to[p].push});
+    for (std::size_t list = 0; list < listCount; ++list)
+        for (std::size_t p = 0; p < from.lists[list].size(); ++p)
+            if (const std::vector<std::byte>& push = to.lists[list][p].push; from.lists[list][p].push != push)
+                pushes.push_back({static_cast<List>(list), p, push});
     return pushes;
 }
 
-void markWritten(const std::vector<Pass>& passes, std::vector<bool>& isWritten) {
-    for (const Pass& pass : passes)
-        for (const BufferUse& use : pass.uses)
-            if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
+void markWritten(const Pass& pass, std::vector<bool>& isWritten) {
+    for (const BufferUse& use : pass.uses)
+        if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
 }
 
 } // namespace
 
 std::vector<bool> areWritten(const StepProgram& program) {
     std::vector<bool> isWritten(program.buffers.size());
-    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin, &program.refresh})
-        markWritten(*list, isWritten);
+    forEachPass(program, [&](const Pass& pass) { markWritten(pass, isWritten); });
     return isWritten;
 }
 
@@ -63,12 +63,8 @@ std::optional<ProgramValues> valuesOf(const StepProgram& from, const StepProgram
     if (!haveOneShape(from, to)) return std::nullopt;
     const std::vector<bool> isWritten = areWritten(from);
     std::vector<bool> isRefreshed(from.buffers.size());
-    markWritten(from.refresh, isRefreshed);
-    ProgramValues values{.buffers = {},
-                         .step = pushesOf(from.step, to.step),
-                         .skin = pushesOf(from.skin, to.skin),
-                         .wholeSkin = pushesOf(from.wholeSkin, to.wholeSkin),
-                         .refresh = pushesOf(from.refresh, to.refresh)};
+    for (const Pass& pass : from[List::refresh]) markWritten(pass, isRefreshed);
+    ProgramValues values{.buffers = {}, .pushes = pushesOf(from, to)};
     for (std::uint32_t b = 0; b < from.buffers.size(); ++b) {
         if (from.buffers[b].initial == to.buffers[b].initial) continue;
         if (isWritten[b] && !isRefreshed[b]) return std::nullopt;
@@ -80,13 +76,8 @@ std::optional<ProgramValues> valuesOf(const StepProgram& from, const StepProgram
 void take(StepProgram& program, ProgramValues values) noexcept {
     for (ProgramValues::Contents& contents : values.buffers)
         program.buffers[contents.buffer.index].initial = std::move(contents.initial);
-    const auto setPushes = [](std::vector<Pass>& passes, std::vector<ProgramValues::Push>& pushes) {
-        for (ProgramValues::Push& push : pushes) passes[push.pass].push = std::move(push.bytes);
-    };
-    setPushes(program.step, values.step);
-    setPushes(program.skin, values.skin);
-    setPushes(program.wholeSkin, values.wholeSkin);
-    setPushes(program.refresh, values.refresh);
+    for (ProgramValues::Push& push : values.pushes)
+        program[push.list][push.pass].push = std::move(push.bytes);
 }
 
 void requireSameParticles(const StepProgram& from, const StepProgram& to) {
@@ -100,9 +91,7 @@ void requireSameParticles(const StepProgram& from, const StepProgram& to) {
 
 std::vector<BufferId> writtenByStep(const StepProgram& program) {
     std::vector<bool> isWritten(program.buffers.size());
-    for (const Pass& pass : program.step)
-        for (const BufferUse& use : pass.uses)
-            if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
+    for (const Pass& pass : program[List::step]) markWritten(pass, isWritten);
     std::vector<BufferId> buffers;
     const ForceBuffers& forces = program.forces; // of one step: not part of the state between steps
     for (const BufferId buffer : {forces.terms, forces.parts, forces.rowParts, forces.sums})

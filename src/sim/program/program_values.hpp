@@ -17,11 +17,12 @@ struct ProgramValues {
         bool isOfState = false;         ///< steps write it; `refresh` recomputes what follows from the scene
     };
     struct Push {
+        List list = List::step;
         std::size_t pass = 0; ///< index in the list
         std::vector<std::byte> bytes;
     };
     std::vector<Contents> buffers;
-    std::vector<Push> step, skin, wholeSkin, refresh;
+    std::vector<Push> pushes;
 };
 
 /// The differences from `from` to `to`. Empty if the programs have different buffers, kernels or passes, or
@@ -38,7 +39,7 @@ void requireSameParticles(const StepProgram& from, const StepProgram& to);
 /// All buffers that passes of a step write; these contain the state between steps.
 std::vector<BufferId> writtenByStep(const StepProgram& program);
 
-/// By buffer: whether passes of a step, of the skins or of settling write it.
+/// By buffer: whether passes of any list write it.
 std::vector<bool> areWritten(const StepProgram& program);
 
 } // namespace sinew::sim

@@ -176,9 +176,9 @@ void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail) noexcept 
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     if (detail == SkinDetail::drawn && drawnSkins().areWhole)
-        state_->executor.wholeSkin(commands);
+        state_->executor.record(commands, List::wholeSkin);
     else
-        state_->executor.skin(commands);
+        state_->executor.record(commands, List::skin);
     commands.endStep();
 }
 

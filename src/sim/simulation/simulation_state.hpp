@@ -256,11 +256,11 @@ struct Simulation::State {
     // Records the passes that recompute values which follow from the scene alone, after a state was put into
     // the buffers.
     void recordSettling(vk::Commands& commands) noexcept {
-        if (program.refresh.empty()) return;
+        if (program[List::refresh].empty()) return;
         commands.barrier(); // the state was copied
         for (const BufferId list : program.cutting.lists) executor.restore(commands, list);
         commands.barrier();
-        executor.refresh(commands);
+        executor.record(commands, List::refresh);
     }
 
     // Calls use(index, buffer) for public positions and velocities, then for all carried buffers.

@@ -69,7 +69,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
     state_->recordTaking(commands, other, copy, isAlike);
     if (!isAlike) {
         commands.barrier();
-        state_->executor.initialise(commands);
+        state_->executor.record(commands, List::initialise);
     }
     state_->recordSettling(commands); // material, or h, may differ
     if (state_->hasMoreRoom(other)) state_->recordSurface(commands);

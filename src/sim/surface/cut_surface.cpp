@@ -96,6 +96,37 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
                              room);
 }
 
+// Appends the passes that rewrite the whole surface from the state of cells.
+void addRewriting(ProgramBuilder& program, const CutSurface& surface, BufferId blade) {
+    const CuttingBuffers& cutting = program.program().cutting;
+    const CutSurfaceBuffers& drawn = program.program().cutSurface;
+    const BufferId complex = surface.complex, partitions = surface.partitions, owned = surface.owned;
+    const layout::CountPush chunks{surface.push.chunks};
+    program.dispatch(k::sumSurface, chunks.count, {surface.counts, surface.sums}, chunks);
+    program.dispatch(k::scanSurface, GROUP_ITEMS,
+                     {surface.sums, surface.arguments, drawn.draws, drawn.state, surface.source.groups,
+                      cutting.counts, surface.listed, blade},
+                     surface.push);
+    program.dispatch(k::startSurface, chunks.count,
+                     {surface.counts, surface.sums, owned, surface.starts, surface.listed}, chunks);
+    const BufferId listed = surface.listed;
+    addListed(program, surface, k::writePoints,
+              {listed, owned, partitions, cutting.hits, surface.bladeRest, drawn.rest});
+    addRimPoints(program, surface);
+    addListed(program, surface, k::writeInside,
+              {complex, partitions, owned, listed, surface.starts, drawn.rest, drawn.indices, cutting.links});
+    addListed(program, surface, k::writeOutside,
+              {complex, partitions, owned, listed, surface.starts, drawn.state, surface.rest, drawn.rest,
+               drawn.indices, surface.source.particles});
+    addPrismTriangles(program, surface);
+    addWholeMarks(program, surface);
+    const layout::CountPush faces{surface.faces};
+    program.dispatch(
+        k::hideFaces, faces.count,
+        {surface.counts, drawn.state, surface.skinFaces, surface.allIndices, program.program().skinIndices},
+        faces);
+}
+
 } // namespace
 
 std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene, CutBodies bodies,
@@ -145,7 +176,6 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
 
 void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, BufferId blade) {
     const CuttingBuffers& cutting = program.program().cutting;
-    const CutSurfaceBuffers& drawn = program.program().cutSurface;
     const BufferId complex = surface.complex, partitions = surface.partitions, owned = surface.owned;
     addRuns(program, surface, k::partitionTetrahedra,
             {cutting.links, complex, cutting.listedCounts, partitions, surface.near, cutting.listed});
@@ -155,32 +185,7 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, Buf
         program, surface, k::countSurface,
         {complex, cutting.listedCounts, partitions, owned, surface.counts, cutting.links, cutting.listed});
     addPrismParting(program, surface);
-    program.beginSurface();
-    const layout::CountPush chunks{surface.push.chunks};
-    program.dispatch(k::sumSurface, chunks.count, {surface.counts, surface.sums}, chunks);
-    program.dispatch(k::scanSurface, GROUP_ITEMS,
-                     {surface.sums, surface.arguments, drawn.draws, drawn.state, surface.source.groups,
-                      cutting.counts, surface.listed, blade},
-                     surface.push);
-    program.dispatch(k::startSurface, chunks.count,
-                     {surface.counts, surface.sums, owned, surface.starts, surface.listed}, chunks);
-    const BufferId listed = surface.listed;
-    addListed(program, surface, k::writePoints,
-              {listed, owned, partitions, cutting.hits, surface.bladeRest, drawn.rest});
-    addRimPoints(program, surface);
-    addListed(program, surface, k::writeInside,
-              {complex, partitions, owned, listed, surface.starts, drawn.rest, drawn.indices, cutting.links});
-    addListed(program, surface, k::writeOutside,
-              {complex, partitions, owned, listed, surface.starts, drawn.state, surface.rest, drawn.rest,
-               drawn.indices, surface.source.particles});
-    addPrismTriangles(program, surface);
-    addWholeMarks(program, surface);
-    const layout::CountPush faces{surface.faces};
-    program.dispatch(
-        k::hideFaces, faces.count,
-        {surface.counts, drawn.state, surface.skinFaces, surface.allIndices, program.program().skinIndices},
-        faces);
-    program.endSurface();
+    program.only(When::surface, [&] { addRewriting(program, surface, blade); });
 }
 
 } // namespace sinew::sim::surface

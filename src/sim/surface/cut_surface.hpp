@@ -10,7 +10,7 @@
 // the particles they depend on), write_inside (indices, normals at rest), write_outside (pieces of outer
 // faces, with their own vertices), hide_faces (skin triangles that pieces replace).
 //
-// Items of the surface are slots, followed by prisms. StepProgram::skin runs: find_gradients (rotation and
+// Items of the surface are slots, followed by prisms. The list of skins runs: find_gradients (rotation and
 // strain of the material around particles near a cut), normals of attached skins and of split ones
 // (hung_surface, split_normals), place_cut_points (points and their normals), place_piece_corners (corners of
 // pieces, at the points).

@@ -195,7 +195,6 @@ std::shared_ptr<SheetPieces> addSheetPieces(ProgramBuilder& program, const Scene
 
 void addSheetPasses(ProgramBuilder& program, const SheetPieces& pieces, bool isFirst) {
     const StepProgram& built = program.program();
-    program.beginSurface();
     for (const SheetSkin& skin : pieces.skins) {
         layout::SheetPush push = skin.push;
         push.isFirst = isFirst ? 1 : 0;
@@ -210,7 +209,6 @@ void addSheetPasses(ProgramBuilder& program, const SheetPieces& pieces, bool isF
                                   skin.state, pieces.allIndices, built.skinIndices, skin.vertices},
                                  push);
     }
-    program.endSurface();
 }
 
 } // namespace sinew::sim::surface

@@ -101,14 +101,15 @@ std::vector<std::uint32_t> join(const std::vector<Skin>& skins, const Triangles&
 void addWholeSkins(ProgramBuilder& program, const Skins& skins) {
     const auto isSplit = [](const Skin& skin) { return !skin.wholeTriangles.empty(); };
     if (std::ranges::none_of(skins.all, isSplit)) return;
-    program.beginWholeSkin();
     program.beginPhase("whole skin");
     const std::vector<std::uint32_t> indices = join(skins.all, wholeTriangles);
-    program.program().wholeIndices = program.upload("skin.whole_indices", indices);
-    addVertices(program, skins, wholeVertices);
     const std::uint32_t vertexCount = std::ranges::max(indices) + 1;
-    addNormals(program, program.program().wholeIndices,
-               uploadFans(program, indices, vertexCount, "skin.whole"), {vertexCount, vertexCount});
+    program.program().wholeIndices = program.upload("skin.whole_indices", indices);
+    program.into(List::wholeSkin, [&] {
+        addVertices(program, skins, wholeVertices);
+        addNormals(program, program.program().wholeIndices,
+                   uploadFans(program, indices, vertexCount, "skin.whole"), {vertexCount, vertexCount});
+    });
 }
 
 std::uint32_t allVertices(const Skin& skin) {
@@ -145,7 +146,6 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
     const std::vector<std::uint32_t> indices = joinIndices(skins);
     if (vertexCount == 0 || indices.empty()) return;
 
-    program.beginSkin();
     program.beginPhase("skin");
     built.skinVertices =
         program.scratch<layout::SkinVertex>("skin.vertices", vertexCount + built.pieceVertices);
@@ -153,11 +153,13 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
     Skins all{skins, {}};
     for (const Skin& skin : skins)
         all.holders.push_back(skin.vertexCount() > 0 ? uploadHolders(program, skin) : BufferId{});
-    addVertices(program, all, allVertices);
-    for (const auto& addMore : program.skinMiddles()) addMore();
-    addNormals(program, built.skinIndices, uploadFans(program, indices, vertexCount, "skin"),
-               {vertexCount, vertexCount});
-    for (const auto& addMore : program.skinEndings()) addMore();
+    program.into(List::skin, [&] {
+        addVertices(program, all, allVertices);
+        for (const auto& addMore : program.skinMiddles()) addMore();
+        addNormals(program, built.skinIndices, uploadFans(program, indices, vertexCount, "skin"),
+                   {vertexCount, vertexCount});
+        for (const auto& addMore : program.skinEndings()) addMore();
+    });
     addWholeSkins(program, all);
 }
 

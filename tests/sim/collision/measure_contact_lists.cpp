@@ -70,7 +70,7 @@ Duration shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side
     }
     StepProgram program = builder.finish();
     if (part == Part::find)
-        std::erase_if(program.step, [](const Pass& p) { return p.label == "sort_lists"; });
+        std::erase_if(program[List::step], [](const Pass& p) { return p.label == "sort_lists"; });
     GpuExecutor executor(device, program);
     const auto submit = [&](const auto& record) {
         const VkCommandBuffer buffer = queue.begin();

@@ -435,7 +435,8 @@ TEST(Colliders, AreNoPassOfASceneWithoutThem) {
     scene.planes = {{}};
     for (const Solver solver : {Solver::jacobi, Solver::split, Solver::gaussSeidel}) {
         const StepProgram program = compile(scene, {.solver = solver, .substeps = 2});
-        for (const Pass& pass : program.step) EXPECT_EQ(pass.label.find("collider"), std::string::npos);
+        for (const Pass& pass : program[List::step])
+            EXPECT_EQ(pass.label.find("collider"), std::string::npos);
         for (const BufferSpec& buffer : program.buffers)
             EXPECT_EQ(buffer.label.find("collider"), std::string::npos);
     }

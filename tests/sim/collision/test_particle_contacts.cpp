@@ -437,5 +437,5 @@ TEST(ParticleContacts, LeaveASceneWithoutThemAlone) {
         EXPECT_EQ(buffer.label.find("grid"), std::string::npos) << buffer.label;
         EXPECT_TRUE(buffer.label == "contact_offsets" || buffer.label.find("contact") == std::string::npos);
     }
-    EXPECT_TRUE(std::ranges::none_of(program.step, &Pass::isIndirect));
+    EXPECT_TRUE(std::ranges::none_of(program[List::step], &Pass::isIndirect));
 }

@@ -423,12 +423,13 @@ TEST(Cuttable, BuffersAndPassesAreInNoOtherScene) {
                       cuttable = compile(cube(4), {.substeps = 4});
     for (const BufferSpec& buffer : plain.buffers) EXPECT_EQ(buffer.label.find("cut."), std::string::npos);
     const auto recorded = [](const StepProgram& program) { // a step without a blade
-        return std::ranges::count(program.step, false, &Pass::isOfCut);
+        return std::ranges::count(program[List::step], false, &Pass::isOfCut);
     };
-    EXPECT_EQ(std::ranges::count(plain.step, true, &Pass::isOfCut), 0);
+    EXPECT_EQ(std::ranges::count(plain[List::step], true, &Pass::isOfCut), 0);
     EXPECT_EQ(recorded(plain), recorded(cuttable)) << "a step without a blade has no pass more";
     const auto barriers = [](const StepProgram& program, Recording recording) {
-        return std::ranges::count_if(program.step, [&](const Pass& p) { return hasBarrier(recording, p); });
+        return std::ranges::count_if(program[List::step],
+                                     [&](const Pass& p) { return hasBarrier(recording, p); });
     };
     EXPECT_EQ(barriers(plain, {}), barriers(cuttable, plainStep));
 }

@@ -428,9 +428,9 @@ template <typename Push> Push searchOf(const char* label, bool isCuttable) {
     addLattice(scene, lattice);
     addSurfaceFaces(scene, scene.grids.back());
     const StepProgram program = compile(scene, {.substeps = 4});
-    const auto pass =
-        std::ranges::find_if(program.step, [&](const Pass& each) { return each.label.starts_with(label); });
-    EXPECT_NE(pass, program.step.end());
+    const auto pass = std::ranges::find_if(program[List::step],
+                                           [&](const Pass& each) { return each.label.starts_with(label); });
+    EXPECT_NE(pass, program[List::step].end());
     Push push;
     EXPECT_EQ(pass->push.size(), sizeof(push));
     std::memcpy(&push, pass->push.data(), sizeof(push));

@@ -80,7 +80,7 @@ std::string hashOf(const sim::StepProgram& program) {
         hash.addValues(buffer.count, buffer.stride);
         hash.add(buffer.initial);
     }
-    for (const sim::Pass& pass : program.step) {
+    for (const sim::Pass& pass : program[sim::List::step]) {
         hash.addValues(pass.kind, pass.kernel, pass.items, pass.value, hasBarrier({}, pass));
         for (const sim::BufferUse& use : pass.uses) hash.addValues(use.buffer.index, use.binding);
         hash.add(pass.push);
