@@ -2,8 +2,8 @@
 #include "scenes/check_solver.hpp"
 
 #include "scenes/section.hpp"
-#include "sim/collision/touching.hpp"
 #include "sim/compile/compile.hpp"
+#include "sim/model/touching.hpp"
 #include "sinew/validate.hpp"
 
 #include <algorithm>
@@ -54,14 +54,14 @@ void requireForms(const LoadedScene& loaded, const std::string& file) {
     const std::string none =
         std::string("solver ") + sim::solverName(loaded.settings.solver) + " does not support ";
     const std::vector<bool> isCorner = cornersOf(scene); // sheets with a thickness touch by their faces
-    if (sim::collision::particlesTouch(scene))
+    if (sim::particlesTouch(scene))
         fail(file,
              none + "particles that touch each other, as those of " +
                  bodyWhere(scene,
                            [&](std::uint32_t i) { return scene.particles[i].radius > 0 && !isCorner[i]; }) +
                  " do",
              "use split, or leave out collides and [[particles]]");
-    if (sim::collision::facesTouch(scene))
+    if (sim::facesTouch(scene))
         fail(file,
              none + "particles that touch surfaces, as that of " +
                  bodyWhere(scene, [&](std::uint32_t i) { return isCorner[i]; }),

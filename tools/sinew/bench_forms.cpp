@@ -5,7 +5,7 @@
 #include "app/guard.hpp"
 #include "scenes/load.hpp"
 #include "sim/device/gpu_compile.hpp"
-#include "sim/lattice/grids.hpp"
+#include "sim/model/grids.hpp"
 #include "sim/program/program.hpp"
 #include "sim/solvers/batches.hpp"
 #include "sinew/bodies.hpp"
@@ -66,7 +66,7 @@ std::vector<sim::Forms> formsOf(const vk::Device& device, const sim::Scene& scen
     forms.push_back({.usesTexels = false, .columns = 2, .chunk = 16});
     forms.push_back({.usesTexels = false, .columns = 1, .chunk = 16});
     const sim::Settings resident{.forms = {.residentBytes = device.limits().maxSharedMemory}};
-    const std::vector<std::uint32_t> grids = sim::lattice::computedGrids(scene, resident);
+    const std::vector<std::uint32_t> grids = sim::computedGrids(scene, resident);
     if (sim::solvers::isResident(scene, resident, grids))
         for (const auto& [columns, chunk] : {std::pair{2u, 16u}, {1u, 1u}})
             forms.push_back(

@@ -2,7 +2,7 @@
 // the scene.
 #include "sinew/overlap.hpp"
 
-#include "sim/collision/particle_contacts.hpp"
+#include "sim/model/touching.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +93,7 @@ void forEachNear(const std::vector<std::uint32_t>& particles, const std::vector<
 } // namespace
 
 std::optional<Overlap> overlapOf(const sim::Scene& scene, const State& state) {
-    if (!sim::collision::particle_contacts::areIn(scene)) return {};
+    if (!sim::particlesTouch(scene)) return {};
     std::vector<std::uint32_t> wide;
     std::vector<Point> x(scene.particles.size());
     double largest = 0;

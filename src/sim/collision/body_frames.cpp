@@ -2,8 +2,6 @@
 #include "sim/collision/body_frames.hpp"
 
 #include "kernels.hpp"
-#include "sim/model/components.hpp"
-#include "sim/model/inverse_masses.hpp"
 #include "sim/rigid/driven.hpp"
 
 #include <algorithm>
@@ -94,12 +92,13 @@ Shares sharesOf(const Bodies& bodies, std::span<const float> radii) {
 
 } // namespace
 
-Bodies bodiesOf(const Scene& scene, const StateLayout& layout) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
-    const std::vector<bool> isDriven = rigid::driven::areDriven(scene);
-    const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
+Bodies bodiesOf(const SceneModel& model) {
+    const std::vector<float>& inverseMass = model.inverseMass;
+    const StateLayout& layout = model.layout;
+    const std::vector<bool> isDriven = rigid::driven::areDriven(model.scene);
+    const std::vector<std::uint32_t>& components = model.components();
     const std::map<std::uint32_t, std::uint32_t> large = largestOf(components);
-    const std::vector<std::uint32_t> movers = linkedMovers(scene, inverseMass);
+    const std::vector<std::uint32_t> movers = linkedMovers(model.scene, inverseMass);
     Bodies bodies{std::vector<std::uint32_t>(layout.count, loose),
                   std::vector<std::uint32_t>(firstLinked + large.size(), FRAME_MOVES),
                   std::vector<bool>(layout.count, false)};

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 
 #include <span>
 #include <vector>
@@ -21,7 +21,7 @@ struct Bodies {
 
 /// One body each for the largest linked components, one for all other moving particles, and one for all
 /// static ones.
-Bodies bodiesOf(const Scene& scene, const StateLayout& layout);
+Bodies bodiesOf(const SceneModel& model);
 
 struct Request {
     std::span<const float> radii; ///< by state slot; below 0 = touches nothing [m]

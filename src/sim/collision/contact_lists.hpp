@@ -5,7 +5,7 @@
 #pragma once
 
 #include "sim/collision/pooled_lists.hpp"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 
 #include <vector>
 
@@ -16,15 +16,13 @@ namespace sinew::sim::collision::contact_lists {
 using Exclusions = std::vector<std::uint32_t>;
 
 /// Linked pairs, and pairs of one linked body with a rest distance below 1.05 times contact distance. `radii`
-/// by particle [m]; below 0 = touches nothing.
-Exclusions excludedPairs(const Scene& scene, std::span<const float> radii, const StateLayout& layout);
-
-/// By particle the smallest index in its linked body.
-std::vector<std::uint32_t> linkedBodies(const Scene& scene);
+/// by particle [m]; below 0 = touches nothing. `bodies` is that of linkedBodies().
+Exclusions excludedPairs(const Scene& scene, std::span<const std::uint32_t> bodies,
+                         std::span<const float> radii, const StateLayout& layout);
 
 /// By state slot, as in linked_marks.glsl: the linked body, whether a cut may divide it, and
 /// Particle::keepsRest.
-std::vector<std::uint32_t> linkedMarks(const Scene& scene, const StateLayout& layout);
+std::vector<std::uint32_t> linkedMarks(const SceneModel& model);
 
 struct Request {
     std::span<const float> radii; ///< by state slot [m]; below 0 = touches nothing

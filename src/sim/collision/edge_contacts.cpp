@@ -3,7 +3,6 @@
 
 #include "common/rest_slack.h"
 #include "sim/collision/debris_contacts.hpp"
-#include "sim/model/inverse_masses.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,22 +34,23 @@ float marginLength(std::span<const Edge> edges) {
     return *middle;
 }
 
-edge_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                           const StateLayout& layout, std::vector<Edge> edges, bool keepsRest) {
-    const std::vector<std::uint32_t> exclusions = excludedEdges(scene, edges);
-    const float margin = settings.contactMargin * marginLength(edges);
+edge_lists::Lists addLists(ProgramBuilder& program, const SceneModel& model, std::vector<Edge> edges,
+                           bool keepsRest) {
+    const StateLayout& layout = model.layout;
+    const std::vector<std::uint32_t> exclusions = excludedEdges(model.scene, model.linkedBodies(), edges);
+    const float margin = model.settings.contactMargin * marginLength(edges);
     const float thickest = std::ranges::max(edges, {}, &Edge::thickness).thickness;
     for (Edge& edge : edges)
         for (std::uint32_t& end : edge.ends) end = layout.slot[end];
-    const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
+    const body_frames::Bodies bodies = body_frames::bodiesOf(model);
     edge_lists::Lists lists = edge_lists::add(program, {.edges = edges,
                                                         .exclusions = exclusions,
                                                         .margin = margin,
                                                         .beyond = keepsRest ? 3 * REST_SLACK * thickest : 0,
-                                                        .capacity = settings.contactRoom,
+                                                        .capacity = model.settings.contactRoom,
                                                         .particles = layout.count,
                                                         .bodies = &bodies,
-                                                        .substeps = settings.substeps});
+                                                        .substeps = model.settings.substeps});
     collision::letDebrisLeave(program, lists.grid.watched, lists.grid);
     return lists;
 }
@@ -65,30 +65,29 @@ bool isSparse(const Scene& scene, const Edge& edge) {
 
 } // namespace
 
-bool areIn(const Scene& scene) {
-    if (!face_contacts::areIn(scene)) return false;
-    const std::vector<Edge> edges = edgesOf(scene);
+std::vector<Edge> edgesThatMeet(const SceneModel& model) {
+    if (!model.facesTouch()) return {};
+    const Scene& scene = model.scene;
+    std::vector<Edge> edges = edgesOf(scene, model.inverseMass);
     const auto needsThem = [&](const Edge& edge) { return edge.moves && isSparse(scene, edge); };
-    if (std::ranges::none_of(edges, needsThem)) return false;
+    if (std::ranges::none_of(edges, needsThem)) return {};
     std::vector<std::size_t> degrees(scene.particles.size());
     for (const Edge& edge : edges)
         for (const std::uint32_t end : edge.ends) ++degrees[end];
-    return std::ranges::any_of(edges, [&](const Edge& edge) {
+    const auto hasPartner = [&](const Edge& edge) {
         return edge.moves && degrees[edge.ends[0]] + degrees[edge.ends[1]] - 1 < edges.size();
-    });
+    };
+    return std::ranges::any_of(edges, hasPartner) ? std::move(edges) : std::vector<Edge>{};
 }
 
-Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+Contacts add(ProgramBuilder& program, const SceneModel& model, const std::vector<Edge>& edges,
              const ParticleBuffers& particles, const face_contacts::Contacts& faces) {
-    const StateLayout& layout = particles.layout;
-    const std::vector<Edge> edges = edgesOf(scene);
-    Contacts contacts{.lists = addLists(program, scene, settings, layout, edges, faces.rows.keepsRest),
-                      .rows = {}};
+    Contacts contacts{.lists = addLists(program, model, edges, faces.rows.keepsRest), .rows = {}};
     const edge_lists::Lists& lists = contacts.lists;
     contacts.rows = {.kind = &row_contacts::edges,
                      .push = {.count = lists.push.points,
                               .surfaces = faces.rows.surfaces.count,
-                              .recoverySpeed = scene.contacts.recoverySpeed,
+                              .recoverySpeed = model.scene.contacts.recoverySpeed,
                               .moving = 0,
                               .sheets = 0},
                      .lists = lists.pooled,
@@ -100,7 +99,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                      .marks = faces.rows.marks,
                      .keepsRest = faces.rows.keepsRest};
     row_contacts::add(program, contacts.rows,
-                      cornersOf(edges, layout, inverseMasses(scene), settings.keepsForces), particles);
+                      cornersOf(edges, model.layout, model.inverseMass, model.settings.keepsForces),
+                      particles);
     contacts.rows.touching = {lists.pooled.links->owners, lists.pooled.links->elements,
                               lists.pooled.links->ranges};
     ContactBuffers& shown = program.program().contacts;

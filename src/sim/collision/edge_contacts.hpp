@@ -10,18 +10,18 @@
 
 namespace sinew::sim::collision::edge_contacts {
 
-/// Whether particles of the scene touch faces and two of their edges may meet: some moving edge is longer
-/// than three times the thickness of its sheet when the scene is loaded. Corners alone keep finer cloth
-/// apart.
-bool areIn(const Scene& scene);
+/// The edges of edgesOf(), if particles of the scene touch faces and two of their edges may meet: some moving
+/// edge is longer than three times the thickness of its sheet when the scene is loaded. Corners alone keep
+/// finer cloth apart; the result is then empty.
+std::vector<edge_lists::Edge> edgesThatMeet(const SceneModel& model);
 
 struct Contacts {
     edge_lists::Lists lists;
     row_contacts::Rows rows; ///< with the surfaces of contacts with faces
 };
 
-/// Requires areIn(); `faces` are the contacts with faces of the same scene.
-Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+/// `edges` is not empty; `faces` are the contacts with faces of the same scene.
+Contacts add(ProgramBuilder& program, const SceneModel& model, const std::vector<edge_lists::Edge>& edges,
              const ParticleBuffers& particles, const face_contacts::Contacts& faces);
 
 /// Appends passes that change predicted positions and velocities in place. `isFirst`: first substep of a
@@ -31,10 +31,11 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
 
 /// All edges that may touch others, between particles, in ascending order: edges of faces, except those
 /// within a plane of two static faces.
-std::vector<edge_lists::Edge> edgesOf(const Scene& scene);
+std::vector<edge_lists::Edge> edgesOf(const Scene& scene, const std::vector<float>& inverseMass);
 
 /// Edges that an edge never touches, as in edge_lists::Request: edges of its own linked body with a rest
-/// distance below 1.05 times contact distance.
-std::vector<std::uint32_t> excludedEdges(const Scene& scene, std::span<const edge_lists::Edge> edges);
+/// distance below 1.05 times contact distance. `bodies` is that of linkedBodies().
+std::vector<std::uint32_t> excludedEdges(const Scene& scene, std::span<const std::uint32_t> bodies,
+                                         std::span<const edge_lists::Edge> edges);
 
 } // namespace sinew::sim::collision::edge_contacts

@@ -3,7 +3,6 @@
 #include "sim/collision/contact_lists.hpp"
 #include "sim/collision/edge_contacts.hpp"
 #include "sim/collision/vectors.hpp"
-#include "sim/model/inverse_masses.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,8 +92,8 @@ bool shareAnEnd(const Edge& one, const Edge& other) {
            one.ends[1] == other.ends[1];
 }
 
-std::vector<Placed> placed(const Scene& scene, std::span<const Edge> edges) {
-    const std::vector<std::uint32_t> bodies = contact_lists::linkedBodies(scene);
+std::vector<Placed> placed(const Scene& scene, std::span<const std::uint32_t> bodies,
+                           std::span<const Edge> edges) {
     std::map<std::uint32_t, double> widths;
     for (const Edge& edge : edges) {
         double& width = widths[bodies[edge.ends[0]]];
@@ -117,8 +116,7 @@ std::vector<Placed> placed(const Scene& scene, std::span<const Edge> edges) {
 
 } // namespace
 
-std::vector<Edge> edgesOf(const Scene& scene) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
+std::vector<Edge> edgesOf(const Scene& scene, const std::vector<float>& inverseMass) {
     const std::vector<Side> sides = sidesOf(scene);
     std::vector<Edge> edges;
     for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
@@ -135,8 +133,9 @@ std::vector<Edge> edgesOf(const Scene& scene) {
     return edges;
 }
 
-std::vector<std::uint32_t> excludedEdges(const Scene& scene, std::span<const Edge> edges) {
-    const std::vector<Placed> places = placed(scene, edges);
+std::vector<std::uint32_t> excludedEdges(const Scene& scene, std::span<const std::uint32_t> bodies,
+                                         std::span<const Edge> edges) {
+    const std::vector<Placed> places = placed(scene, bodies, edges);
     std::vector<std::vector<std::uint32_t>> partners(edges.size());
     for (const Placed& place : places)
         for (int row = 0; row < 9; ++row) {

@@ -197,10 +197,10 @@ double leastUnlinked(std::uint32_t kinds) {
     return std::sqrt(kinds == 1 ? 1.5 : kinds + 1.0);
 }
 
-std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const layout::ContactFace> faces,
+std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const std::uint32_t> bodyOf,
+                                          std::span<const layout::ContactFace> faces,
                                           std::span<const float> radii, const StateLayout& layout,
                                           std::span<const CutRun> runs) {
-    const std::vector<std::uint32_t> bodyOf = contact_lists::linkedBodies(scene);
     const std::map<std::uint32_t, Body> bodies = bodiesWithFaces(scene, faces, radii, bodyOf);
     const std::vector<Nodes> voxels = bodiesOfVoxels(scene, radii);
     const float widest = radii.empty() ? 0.0f : *std::ranges::max_element(radii);

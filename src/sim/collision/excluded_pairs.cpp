@@ -26,22 +26,6 @@ std::vector<Pair> linkedPairs(const Scene& scene) {
     return pairs;
 }
 
-// By particle the smallest index in its linked body.
-std::vector<std::uint32_t> bodiesOf(std::size_t particles, std::span<const Pair> links) {
-    std::vector<std::uint32_t> parent(particles);
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&parent](std::uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    for (const Pair& link : links) {
-        const std::uint32_t a = root(link[0]), b = root(link[1]);
-        parent[std::max(a, b)] = std::min(a, b);
-    }
-    for (std::uint32_t i = 0; i < particles; ++i) parent[i] = root(i);
-    return parent;
-}
-
 using Cell = std::array<std::int64_t, 3>;
 
 double distance(const Vec3& a, const Vec3& b) {
@@ -114,13 +98,11 @@ Exclusions listed(std::vector<Pair> pairs, const StateLayout& layout) {
 
 } // namespace
 
-std::vector<std::uint32_t> linkedBodies(const Scene& scene) {
-    return bodiesOf(scene.particles.size(), linkedPairs(scene));
-}
-
-std::vector<std::uint32_t> linkedMarks(const Scene& scene, const StateLayout& layout) {
+std::vector<std::uint32_t> linkedMarks(const SceneModel& model) {
+    const Scene& scene = model.scene;
+    const StateLayout& layout = model.layout;
     std::vector<std::uint32_t> marks(layout.count, 0);
-    const std::vector<std::uint32_t> bodies = linkedBodies(scene);
+    const std::vector<std::uint32_t>& bodies = model.linkedBodies();
     for (std::size_t i = 0; i < bodies.size(); ++i)
         marks[layout.slot[i]] = 4 * bodies[i] + (scene.particles[i].keepsRest ? 1 : 0);
     for (const Grid& grid : scene.grids)
@@ -129,10 +111,10 @@ std::vector<std::uint32_t> linkedMarks(const Scene& scene, const StateLayout& la
     return marks;
 }
 
-Exclusions excludedPairs(const Scene& scene, std::span<const float> radii, const StateLayout& layout) {
+Exclusions excludedPairs(const Scene& scene, std::span<const std::uint32_t> bodies,
+                         std::span<const float> radii, const StateLayout& layout) {
     std::vector<Pair> pairs = linkedPairs(scene);
     if (pairs.empty()) return {};
-    const std::vector<std::uint32_t> bodies = bodiesOf(scene.particles.size(), pairs);
     std::vector<std::uint32_t> order(bodies.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(),

@@ -9,7 +9,6 @@
 #include "sim/collision/debris_contacts.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/lattice/squares.hpp"
-#include "sim/model/inverse_masses.hpp"
 #include "sim/sleep/sleep.hpp"
 
 #include <algorithm>
@@ -165,13 +164,16 @@ row_contacts::Corners cornersOf(const Faces& faces, const std::vector<float>& in
     return row_contacts::cornersOf(around(0, faces.firstInner), around(faces.firstInner, faces.moving));
 }
 
-face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                           const StateLayout& layout, const std::vector<float>& inverseMass, Faces faces) {
+face_lists::Lists addLists(ProgramBuilder& program, const SceneModel& model, Faces faces) {
+    const Scene& scene = model.scene;
+    const StateLayout& layout = model.layout;
+    const std::vector<float>& inverseMass = model.inverseMass;
     const std::vector<float> byParticle = pointRadii(scene, inverseMass, faces);
     const CuttingBuffers& cutting = program.program().cutting;
     const bool hasInner = faces.firstInner < faces.moving;
-    const std::vector<std::uint32_t> exclusions = excludedPoints(
-        scene, faces.faces, byParticle, layout, hasInner ? cutting.runs : std::vector<CutRun>{});
+    const std::vector<std::uint32_t> exclusions =
+        excludedPoints(scene, model.linkedBodies(), faces.faces, byParticle, layout,
+                       hasInner ? cutting.runs : std::vector<CutRun>{});
     const float beyond = heldBeyond(scene, faces, byParticle);
     std::vector<float> radii(layout.count, -1), masses(layout.count, 0), wide;
     for (std::size_t i = 0; i < byParticle.size(); ++i) {
@@ -181,7 +183,7 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     }
     for (layout::ContactFace& face : faces.faces)
         for (std::uint32_t* corner : {&face.a, &face.b, &face.c}) *corner = layout.slot[*corner];
-    const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
+    const body_frames::Bodies bodies = body_frames::bodiesOf(model);
     // Lists of thin cloth with coarse faces may last longer than its radius allows: an eighth of a face adds
     // few candidates.
     const float length = std::max(median(wide), median(faces.extents) / 8);
@@ -192,11 +194,11 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .extents = faces.extents,
                                                         .exclusions = exclusions,
                                                         .liveLinks = hasInner ? cutting.links : BufferId{},
-                                                        .margin = settings.contactMargin * length,
+                                                        .margin = model.settings.contactMargin * length,
                                                         .beyond = beyond,
-                                                        .capacity = settings.contactRoom,
+                                                        .capacity = model.settings.contactRoom,
                                                         .bodies = &bodies,
-                                                        .substeps = settings.substeps});
+                                                        .substeps = model.settings.substeps});
     collision::letDebrisLeave(program, lists.grid.radii, lists.grid);
     collision::letDebrisLeave(program, lists.grid.watched, lists.grid);
     collision::letDebrisLeave(program, lists.radii, lists.grid);
@@ -212,11 +214,10 @@ void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const Part
 }
 
 // Slots of moving particles with a radius, ascending.
-std::vector<std::uint32_t> movingPoints(const Scene& scene, const std::vector<float>& inverseMass,
-                                        const StateLayout& layout) {
+std::vector<std::uint32_t> movingPoints(const SceneModel& model) {
     std::vector<std::uint32_t> points;
-    for (std::size_t i = 0; i < scene.particles.size(); ++i)
-        if (scene.particles[i].radius > 0 && inverseMass[i] > 0) points.push_back(layout.slot[i]);
+    for (std::uint32_t i = 0; i < model.scene.particles.size(); ++i)
+        if (model.scene.particles[i].radius > 0 && model.moves(i)) points.push_back(model.layout.slot[i]);
     std::ranges::sort(points);
     return points;
 }
@@ -255,9 +256,9 @@ float quickOf(const Scene& scene, const Faces& faces) {
     return 0.25f * (radius + thickness);
 }
 
-row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                           const ParticleBuffers& particles, const Faces& faces,
-                           const face_lists::Lists& lists) {
+row_contacts::Rows addRows(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles,
+                           const Faces& faces, const face_lists::Lists& lists) {
+    const Scene& scene = model.scene;
     const layout::FaceFindPush& find = lists.push;
     row_contacts::Rows rows{.kind = &row_contacts::faces,
                             .lists = lists.pooled,
@@ -265,7 +266,7 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
                             .elements = lists.grid.entries,
                             .bounds = lists.grid.bounds,
                             .particles = {lists.grid.touchingParticles, lists.touching},
-                            .surfaces = surfaces::addTable(program, scene, particles.layout, "faces.surface"),
+                            .surfaces = surfaces::addTable(program, scene, model.layout, "faces.surface"),
                             .keepsRest = keepRest(scene)};
     rows.push = {.count = find.points,
                  .surfaces = rows.surfaces.count,
@@ -274,10 +275,10 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
                  .sheets = faces.sheets};
     rows.push.quick = quickOf(scene, faces);
     rows.marks = rows.keepsRest || faces.sheets < faces.moving
-                     ? program.upload("faces.marks", contact_lists::linkedMarks(scene, particles.layout))
+                     ? program.upload("faces.marks", contact_lists::linkedMarks(model))
                      : rows.surfaces.ofParticles;
     row_contacts::add(program, rows,
-                      cornersOf(faces, inverseMasses(scene), particles.layout, settings.keepsForces),
+                      cornersOf(faces, model.inverseMass, model.layout, model.settings.keepsForces),
                       particles);
     return rows;
 }
@@ -302,12 +303,12 @@ impact_zones::Request zonesOf(const Scene& scene, const StateLayout& layout, con
     return request;
 }
 
-void addStopBuffers(ProgramBuilder& program, const Scene& scene, const ParticleBuffers& particles,
+void addStopBuffers(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles,
                     const Faces& faces, Contacts& contacts) {
-    const StateLayout& layout = particles.layout;
+    const StateLayout& layout = model.layout;
     contacts.linkedPositions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
     contacts.linkedVelocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
-    const std::vector<std::uint32_t> points = movingPoints(scene, inverseMasses(scene), layout);
+    const std::vector<std::uint32_t> points = movingPoints(model);
     contacts.movingPoints = program.upload("faces.moving_points", points);
     contacts.movingPointCount = static_cast<std::uint32_t>(points.size());
     if (particles.forces && !particles.forces->stops.rows.empty())
@@ -317,47 +318,23 @@ void addStopBuffers(ProgramBuilder& program, const Scene& scene, const ParticleB
 
 } // namespace
 
-bool areIn(const Scene& scene) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
-    bool hasPoint = false, hasMoving = false;
-    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
-        if (scene.particles[i].radius <= 0) continue;
-        hasPoint = true;
-        hasMoving = hasMoving || inverseMass[i] > 0;
-    }
-    if (!hasPoint || scene.faces.empty()) return false;
-    return hasMoving ||
-           std::ranges::any_of(scene.faces, [&](const Face& f) { return moves(f, inverseMass); });
-}
-
-std::vector<float> looseRadii(const Scene& scene) {
-    std::vector<float> radii;
-    for (const Particle& particle : scene.particles) radii.push_back(particle.radius);
-    for (const Face& face : scene.faces)
-        for (const std::uint32_t i : face.particles)
-            if (!face.isSolid && scene.particles[i].radius <= face.thickness) radii[i] = 0;
-    return radii;
-}
-
-Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-             const ParticleBuffers& particles) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
+Contacts add(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles) {
     const bool canBeCut = program.program().cutting.links != BufferId{};
-    const Faces faces = facesOf(scene, inverseMass, canBeCut);
-    Contacts contacts{.lists = addLists(program, scene, settings, particles.layout, inverseMass, faces),
+    const Faces faces = facesOf(model.scene, model.inverseMass, canBeCut);
+    Contacts contacts{.lists = addLists(program, model, faces),
                       .faces = static_cast<std::uint32_t>(faces.faces.size()),
                       .firstInner = faces.firstInner,
                       .isOfCells = faces.isOfCells};
-    contacts.rows = addRows(program, scene, settings, particles, faces, contacts.lists);
+    contacts.rows = addRows(program, model, particles, faces, contacts.lists);
     ContactBuffers& shown = program.program().contacts;
     shown.faces = contacts.lists.faces;
     shown.facePairs = contacts.lists.pooled.contacts;
     shown.faceLists = contacts.lists.pooled.ranges;
     if (std::ranges::find(faces.isOfCells, true) != faces.isOfCells.end())
         contacts.opened = program.scratch<std::uint32_t>("faces.opened", faces.faces.size());
-    contacts.zones = impact_zones::add(program, zonesOf(scene, particles.layout, faces, contacts.lists));
+    contacts.zones = impact_zones::add(program, zonesOf(model.scene, model.layout, faces, contacts.lists));
     contacts.rows.touching = {contacts.zones.finding, contacts.zones.solving, contacts.zones.meeting};
-    if (contacts.hasStops()) addStopBuffers(program, scene, particles, faces, contacts);
+    if (contacts.hasStops()) addStopBuffers(program, model, particles, faces, contacts);
     // Without static or driven faces no kernel reads the first two.
     const bool hasRows = contacts.stopRows != BufferId{};
     contacts.rows.forceRows = {hasRows ? contacts.stopRows : contacts.lists.pooled.ranges,

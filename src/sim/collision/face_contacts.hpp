@@ -5,16 +5,9 @@
 #include "sim/collision/face_lists.hpp"
 #include "sim/collision/impact_zones.hpp"
 #include "sim/collision/row_contacts.hpp"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 
 namespace sinew::sim::collision::face_contacts {
-
-/// Whether a particle of the scene may touch a face: it has a radius, and it or a face can move.
-bool areIn(const Scene& scene);
-
-/// By particle the radius with which it touches others as a sphere [m]: 0 if faces around it are at least as
-/// thick and touch in its place.
-std::vector<float> looseRadii(const Scene& scene);
 
 struct Contacts {
     face_lists::Lists lists;
@@ -37,9 +30,8 @@ struct Contacts {
     bool hasStops() const { return lists.push.moving < faces; }
 };
 
-/// Requires areIn().
-Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-             const ParticleBuffers& particles);
+/// Requires faces that are touched.
+Contacts add(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles);
 
 /// Appends passes that change predicted positions and velocities in place. `isFirst`: first substep of a
 /// step.
@@ -62,8 +54,10 @@ double leastUnlinked(std::uint32_t kinds);
 /// Points that a face never touches although they are not its corners, as in face_lists::Request: points of
 /// its own linked body with a rest distance below 1.05 times contact distance, and in a voxel body points
 /// that a link joins to a corner. The latter are at most 1.73 spacings away from the corner, and all others
-/// at least 1.22 to 2, by kind of links. `faces` between particles; `runs` = bodies whose links may be cut.
-std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const layout::ContactFace> faces,
+/// at least 1.22 to 2, by kind of links. `bodies` is that of linkedBodies(), `faces` are between particles;
+/// `runs` = bodies whose links may be cut.
+std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const std::uint32_t> bodies,
+                                          std::span<const layout::ContactFace> faces,
                                           std::span<const float> radii, const StateLayout& layout,
                                           std::span<const CutRun> runs = {});
 

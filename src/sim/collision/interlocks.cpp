@@ -25,9 +25,8 @@ struct Places {
     std::vector<bool> isInside;
 };
 
-Places placesOf(const Scene& scene, const StateLayout& layout) {
+Places placesOf(const Scene& scene, const StateLayout& layout, std::span<const std::uint32_t> bodies) {
     Places places{std::vector<std::uint32_t>(layout.count), std::vector<bool>(layout.count)};
-    const std::vector<std::uint32_t> bodies = contact_lists::linkedBodies(scene);
     for (std::size_t i = 0; i < bodies.size(); ++i) places.body[layout.slot[i]] = bodies[i];
     for (const Grid& grid : scene.grids) {
         if (lattice::isSheet(grid)) continue;
@@ -121,9 +120,10 @@ std::vector<BufferId> sharedBuffers(const Interlocks& interlocks, const Shared& 
 
 } // namespace
 
-Plan find(const Scene& scene, const StateLayout& layout, const overlaps::Overlaps& overlaps) {
+Plan find(const Scene& scene, const StateLayout& layout, std::span<const std::uint32_t> bodies,
+          const overlaps::Overlaps& overlaps) {
     if (overlaps.empty()) return {};
-    const Places places = placesOf(scene, layout);
+    const Places places = placesOf(scene, layout, bodies);
     const std::set<BodyPair> pairs = pairsOf(places, overlaps);
     if (pairs.empty()) return {};
     const std::map<std::uint32_t, std::uint32_t> numbers = numbersOf(pairs);

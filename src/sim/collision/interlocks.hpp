@@ -25,7 +25,8 @@ struct Plan {
 };
 
 /// Finds pairs of bodies whose particles overlap and are to be separated, one of them inside a lattice.
-Plan find(const Scene& scene, const StateLayout& layout, const overlaps::Overlaps& overlaps);
+Plan find(const Scene& scene, const StateLayout& layout, std::span<const std::uint32_t> bodies,
+          const overlaps::Overlaps& overlaps);
 
 struct Interlocks {
     layout::InterlockPush push{};

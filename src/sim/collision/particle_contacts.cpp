@@ -5,10 +5,8 @@
 #include "kernels.hpp"
 #include "sim/collision/cut_contacts.hpp"
 #include "sim/collision/debris_contacts.hpp"
-#include "sim/collision/face_contacts.hpp"
 #include "sim/collision/overlaps.hpp"
 #include "sim/forces/forces.hpp"
-#include "sim/model/inverse_masses.hpp"
 #include "sim/sleep/sleep.hpp"
 #include "sinew/ranges.hpp"
 
@@ -35,40 +33,40 @@ constexpr std::uint32_t hasSurfacesId = 7; // also in the kernels of bounces
 constexpr std::uint32_t canOpenId = 6;     // in count_contacts.comp
 
 // By state slot; below 0 = touches nothing.
-std::vector<float> radiiOf(const Scene& scene, const StateLayout& layout) {
-    std::vector<float> radii(layout.count, -1);
-    const std::vector<float> loose = face_contacts::looseRadii(scene);
+std::vector<float> radiiOf(const SceneModel& model) {
+    std::vector<float> radii(model.layout.count, -1);
+    const std::vector<float>& loose = model.looseRadii();
     for (std::size_t i = 0; i < loose.size(); ++i)
-        if (loose[i] > 0) radii[layout.slot[i]] = loose[i];
+        if (loose[i] > 0) radii[model.layout.slot[i]] = loose[i];
     return radii;
 }
 
-float medianRadius(const Scene& scene) {
-    std::vector<float> radii = face_contacts::looseRadii(scene);
+float medianRadius(std::vector<float> radii) {
     std::erase_if(radii, [](float radius) { return radius <= 0; });
     std::ranges::nth_element(radii, radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2));
     return radii[radii.size() / 2];
 }
 
-contact_lists::Exclusions exclusionsOf(const Scene& scene, const StateLayout& layout) {
-    std::vector<float> radii = face_contacts::looseRadii(scene);
+contact_lists::Exclusions exclusionsOf(const SceneModel& model) {
+    std::vector<float> radii = model.looseRadii();
     for (float& radius : radii)
         if (radius <= 0) radius = -1;
-    return contact_lists::excludedPairs(scene, radii, layout);
+    return contact_lists::excludedPairs(model.scene, model.linkedBodies(), radii, model.layout);
 }
 
 // Overlaps of the scene at load that exceed `least`; empty if a particle has more of them than a list can
 // hold. The first step is then undone as too crowded, so no rest distance is lost silently.
-overlaps::Overlaps overlapsOf(const Scene& scene, const StateLayout& layout, std::span<const float> radii,
+overlaps::Overlaps overlapsOf(const SceneModel& model, std::span<const float> radii,
                               const contact_lists::Exclusions& exclusions, float least) {
+    const Scene& scene = model.scene;
+    const StateLayout& layout = model.layout;
     std::vector<std::array<float, 3>> positions(layout.count);
     std::vector<float> inverseMass(layout.count, 0);
     std::vector<std::uint8_t> keepsRest(layout.count, 0);
-    const std::vector<float> ofParticles = inverseMasses(scene);
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
         const Vec3& x = scene.particles[i].position;
         positions[layout.slot[i]] = {x.x, x.y, x.z};
-        inverseMass[layout.slot[i]] = ofParticles[i];
+        inverseMass[layout.slot[i]] = model.inverseMass[i];
         keepsRest[layout.slot[i]] = scene.particles[i].keepsRest ? 1 : 0;
     }
     overlaps::Overlaps found = overlaps::find({.positions = positions,
@@ -213,10 +211,10 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
 }
 
 // Whether most touching particles belong to linked bodies: few of these have a candidate at a time.
-bool areMostlyLinked(const Scene& scene) {
+bool areMostlyLinked(const SceneModel& model) {
     std::size_t linked = 0, all = 0;
-    const std::vector<float> radii = face_contacts::looseRadii(scene);
-    const std::vector<std::uint32_t> bodies = contact_lists::linkedBodies(scene);
+    const std::vector<float>& radii = model.looseRadii();
+    const std::vector<std::uint32_t>& bodies = model.linkedBodies();
     std::vector<std::uint32_t> sizes(bodies.size());
     for (const std::uint32_t body : bodies) ++sizes[body];
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -229,28 +227,18 @@ bool areMostlyLinked(const Scene& scene) {
 
 } // namespace
 
-bool areIn(const Scene& scene) {
-    std::size_t wide = 0, moving = 0;
-    const std::vector<float> inverseMass = inverseMasses(scene);
-    const std::vector<float> loose = face_contacts::looseRadii(scene);
-    for (std::size_t i = 0; i < loose.size(); ++i) {
-        if (loose[i] <= 0) continue;
-        ++wide;
-        moving += inverseMass[i] > 0 ? 1 : 0;
-    }
-    return wide > 1 && moving > 0;
-}
-
-Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-             const StateLayout& layout) {
-    const std::vector<float> radii = radiiOf(scene, layout);
-    contact_lists::Exclusions exclusions = exclusionsOf(scene, layout);
-    overlaps::Overlaps overlaps = overlapsOf(scene, layout, radii, exclusions, 0);
+Contacts add(ProgramBuilder& program, const SceneModel& model) {
+    const Scene& scene = model.scene;
+    const Settings& settings = model.settings;
+    const StateLayout& layout = model.layout;
+    const std::vector<float> radii = radiiOf(model);
+    contact_lists::Exclusions exclusions = exclusionsOf(model);
+    overlaps::Overlaps overlaps = overlapsOf(model, radii, exclusions, 0);
     const std::uint32_t room = std::max(settings.contactRoom, roomFor(overlaps, layout.count));
     overlaps::forget(overlaps, leastOverlap(scene, settings));
     surfaces::Surfaces surfaces = surfaces::add(program, scene, layout);
     const bool solvesListedGroups = // keeping forces requires one end of the substep
-        !settings.sleeps && !settings.keepsForces && areMostlyLinked(scene) && !surfaces.hasRestitution &&
+        !settings.sleeps && !settings.keepsForces && areMostlyLinked(model) && !surfaces.hasRestitution &&
         !overlaps::haveParting(overlaps);
     const bool isCuttable = !exclusions.empty() && collision::canMeet(program.program(), scene);
     const bool hasRecovery = !overlaps.empty() || isCuttable;
@@ -258,30 +246,30 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     BufferId marks;
     if (isCuttable) {
         allExcluded = program.upload("contacts.all_excluded", exclusions);
-        marks = program.upload("contacts.marks", contact_lists::linkedMarks(scene, layout));
+        marks = program.upload("contacts.marks", contact_lists::linkedMarks(model));
     }
-    const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
+    const body_frames::Bodies bodies = body_frames::bodiesOf(model);
     const pooled_lists::Initial first = firstLists(overlaps, radii);
-    Contacts contacts{
-        .lists = contact_lists::add(program, {.radii = radii,
-                                              .margin = settings.contactMargin * medianRadius(scene),
-                                              .isKept = overlaps::haveKept(overlaps),
-                                              .capacity = room,
-                                              .exclusions = std::move(exclusions),
-                                              .bodies = &bodies,
-                                              .substeps = settings.substeps,
-                                              .hasMemory = surfaces.hasFriction || hasRecovery,
-                                              .initial = first,
-                                              .listsGroups = solvesListedGroups}),
-        .planes = rigid::planes::add(program, scene, layout),
-        .surfaces = std::move(surfaces),
-        .solvesListedGroups = solvesListedGroups,
-        .hasRebound =
-            std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
-        .hasRecovery = hasRecovery,
-        .hasKept = overlaps::haveKept(overlaps),
-        .allExcluded = allExcluded,
-        .marks = marks};
+    Contacts contacts{.lists = contact_lists::add(
+                          program, {.radii = radii,
+                                    .margin = settings.contactMargin * medianRadius(model.looseRadii()),
+                                    .isKept = overlaps::haveKept(overlaps),
+                                    .capacity = room,
+                                    .exclusions = std::move(exclusions),
+                                    .bodies = &bodies,
+                                    .substeps = settings.substeps,
+                                    .hasMemory = surfaces.hasFriction || hasRecovery,
+                                    .initial = first,
+                                    .listsGroups = solvesListedGroups}),
+                      .planes = rigid::planes::add(program, scene, layout),
+                      .surfaces = std::move(surfaces),
+                      .solvesListedGroups = solvesListedGroups,
+                      .hasRebound = std::ranges::any_of(
+                          scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
+                      .hasRecovery = hasRecovery,
+                      .hasKept = overlaps::haveKept(overlaps),
+                      .allExcluded = allExcluded,
+                      .marks = marks};
     collision::letDebrisLeave(program, contacts.lists.grid.radii, contacts.lists.grid);
     contacts.push = {.count = contacts.lists.push.count,
                      .friction = contacts.surfaces.friction,
@@ -299,8 +287,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     }
     contacts.touching = program.scratch<layout::vec4>("contacts.touching", layout.count);
     contacts.firsts = program.scratch<float>("contacts.firsts", layout.count);
-    contacts.interlocks = interlocks::add(program, interlocks::find(scene, layout, overlaps), layout.count,
-                                          scene.contacts.recoverySpeed);
+    contacts.interlocks =
+        interlocks::add(program, interlocks::find(scene, layout, model.linkedBodies(), overlaps),
+                        layout.count, scene.contacts.recoverySpeed);
     if (contacts.surfaces.hasRestitution) {
         contacts.bouncing = program.scratch<float>("contacts.bouncing", layout.count);
         contacts.rebounding = program.scratch<layout::vec4>("contacts.rebounding", layout.count);

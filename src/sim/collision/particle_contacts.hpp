@@ -7,13 +7,10 @@
 #include "sim/collision/contact_lists.hpp"
 #include "sim/collision/interlocks.hpp"
 #include "sim/collision/surfaces.hpp"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 #include "sim/rigid/planes.hpp"
 
 namespace sinew::sim::collision::particle_contacts {
-
-/// Whether particles of the scene may touch each other: two have a radius, and one of these can move.
-bool areIn(const Scene& scene);
 
 struct Contacts {
     contact_lists::Lists lists;
@@ -41,9 +38,8 @@ struct Contacts {
     bool hasMemory() const { return lists.pooled.memory.has_value(); }
 };
 
-/// Requires areIn().
-Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-             const StateLayout& layout);
+/// Requires particles that touch.
+Contacts add(ProgramBuilder& program, const SceneModel& model);
 
 /// Joins particles that touch into one island of sleep.
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);

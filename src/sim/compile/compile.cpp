@@ -3,15 +3,12 @@
 
 #include "common/layout.h"
 #include "kernels.hpp"
-#include "sim/collision/face_contacts.hpp"
-#include "sim/collision/particle_contacts.hpp"
 #include "sim/compile/publish.hpp"
 #include "sim/core/hash.hpp"
 #include "sim/cutting/cut.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/grabs/grab.hpp"
 #include "sim/lattice/cells.hpp"
-#include "sim/model/rounding.hpp"
 #include "sim/sleep/sleep.hpp"
 #include "sim/solvers/gauss_seidel.hpp"
 #include "sim/solvers/jacobi.hpp"
@@ -25,19 +22,16 @@ namespace sinew::sim {
 
 namespace {
 
-using MakePlan = solvers::SolverPlan (*)(const Scene&, const Settings&,
-                                         const std::vector<float>& inverseMass);
-
-MakePlan makerFor(Solver solver) {
-    switch (solver) {
+solvers::SolverPlan planOf(const SceneModel& model) {
+    switch (model.settings.solver) {
     case Solver::split:
-        return solvers::split::plan;
+        return solvers::split::plan(model);
     case Solver::gaussSeidel:
-        return solvers::gaussSeidel::plan;
+        return solvers::gaussSeidel::plan(model);
     case Solver::jacobi:
         break;
     }
-    return solvers::jacobi::plan;
+    return solvers::jacobi::plan(model);
 }
 
 std::vector<layout::vec4> positionsOf(const std::vector<Vec3>& positions, const std::vector<float>& w) {
@@ -80,26 +74,17 @@ void addWeights(ProgramBuilder& program, const ParticleBuffers& particles) {
     });
 }
 
-void skipContacts(ProgramBuilder& program, const Scene& scene) {
-    const bool ofParticles = collision::particle_contacts::areIn(scene);
-    const bool withFaces = collision::face_contacts::areIn(scene);
+void skipContacts(ProgramBuilder& program, const SceneModel& model) {
+    const bool ofParticles = model.particlesTouch(), withFaces = model.facesTouch();
     if (!ofParticles) program.skip(withFaces ? "contacts between particles" : "contacts");
     if (!withFaces && ofParticles) program.skip("contacts with faces");
-}
-
-// The plan refers to `scene` and `settings`.
-solvers::SolverPlan planOf(const Scene& scene, const Settings& settings,
-                           const std::vector<float>& inverseMass) {
-    solvers::SolverPlan plan = makerFor(settings.solver)(scene, settings, inverseMass);
-    plan.layout.hasRemainders = keepsRemainders(scene, settings.substeps);
-    return plan;
 }
 
 } // namespace
 
 StateLayout stateLayout(const Scene& scene, const Settings& settings) {
     const Settings chosen = withSubsteps(scene, settings);
-    return planOf(scene, chosen, inverseMasses(scene)).layout;
+    return SceneModel(scene, chosen).layout;
 }
 
 StepProgram compile(const Scene& scene, const Settings& asked) {
@@ -112,7 +97,9 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     built.particleCount = static_cast<std::uint32_t>(scene.particles.size());
     built.constraintCount = static_cast<std::uint32_t>(scene.distances.size() + scene.bends.size() +
                                                        scene.attachments.size() + scene.tethers.size());
-    const std::vector<float> inverseMass = inverseMasses(scene);
+    const SceneModel model(scene, settings);
+    const std::vector<float>& inverseMass = model.inverseMass;
+    const StateLayout& layout = model.layout;
     const std::vector<Vec3> start = lattice::startingPositions(scene, inverseMass);
     built.positions = program.upload("positions", positionsOf(start, inverseMass));
     if (settings.publishesVelocities)
@@ -121,31 +108,31 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     built.parameters = program.scratch<layout::StepParams>("step", 1);
     if (scene.particles.empty()) return program.finish();
 
-    const solvers::SolverPlan solver = planOf(scene, settings, inverseMass);
-    built.order = fnv1a(std::as_bytes(std::span(solver.layout.slot)));
+    const solvers::SolverPlan solver = planOf(model);
+    built.order = fnv1a(std::as_bytes(std::span(layout.slot)));
     ParticleBuffers particles{
         .count = built.particleCount,
         .step = built.parameters,
-        .positions = program.upload("state.positions", spread(positionsOf(start, solver.positionW),
-                                                              solver.layout, positionCount(solver.layout))),
-        .velocities = program.upload(
-            "state.velocities", spread(velocitiesOf(scene, inverseMass), solver.layout, solver.layout.count)),
-        .layout = solver.layout,
+        .positions = program.upload(
+            "state.positions", spread(positionsOf(start, solver.positionW), layout, positionCount(layout))),
+        .velocities = program.upload("state.velocities",
+                                     spread(velocitiesOf(scene, inverseMass), layout, layout.count)),
+        .layout = layout,
         .sleep = nullptr,
         .grabs = nullptr,
         .forces = nullptr};
-    if (settings.sleeps) particles.sleep = sleep::add(program, scene, settings, particles);
+    if (settings.sleeps) particles.sleep = sleep::add(program, model);
     program.beginPhase("begin");
     program.updateParameters(particles.step);
     program.fill(built.status, 0);
-    particles.grabs = grabs::add(program, scene, settings, solver.layout);
-    if (settings.keepsForces) particles.forces = forces::add(program, scene, settings, solver.layout);
-    cutting::add(program, scene, settings, particles);
+    particles.grabs = grabs::add(program, model);
+    if (settings.keepsForces) particles.forces = forces::add(program, model);
+    cutting::add(program, model, particles);
     program.beginPhase("solve");
     solver.addPasses(program, particles);
     program.beginPhase("publish");
     addPublishing(program, particles);
-    if (particles.forces) forces::addSums(program, scene, particles);
+    if (particles.forces) forces::addSums(program, model, *particles.forces);
     if (solver.positionW != inverseMass) addWeights(program, particles);
     sleep::finish(program, particles);
     surface::addSkins(program, scene.skins);
@@ -153,7 +140,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     if (scene.distances.empty()) program.skip("distance constraints");
     if (scene.damping == 0) program.skip("damping");
     if (scene.planes.empty()) program.skip("boundary planes");
-    skipContacts(program, scene);
+    skipContacts(program, model);
     if (!settings.sleeps) program.skip("sleep");
     if (scene.fixed.empty()) program.skip("fixed constraints");
     if (scene.skins.empty()) program.skip("skins");

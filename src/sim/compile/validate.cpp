@@ -2,15 +2,14 @@
 #include "sinew/validate.hpp"
 
 #include "sim/collision/crowding.hpp"
-#include "sim/collision/face_contacts.hpp"
-#include "sim/collision/particle_contacts.hpp"
 #include "sim/compile/compile.hpp"
 #include "sim/core/complaints.hpp"
 #include "sim/cutting/cut_lists.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/lattice/check_grid.hpp"
-#include "sim/lattice/grids.hpp"
 #include "sim/model/coloring.hpp"
+#include "sim/model/grids.hpp"
+#include "sim/model/touching.hpp"
 #include "sim/rigid/check_colliders.hpp"
 #include "sim/stiffness/shares.hpp"
 #include "sinew/ranges.hpp"
@@ -326,11 +325,11 @@ void checkFaces(const Scene& scene, Complaints& complaints) {
 
 // Complains about contacts in a scene whose solver does not support them; they are not ignored.
 void checkContacts(const Scene& scene, const Settings& settings, Complaints& complaints) {
-    if (settings.solver != Solver::split && collision::particle_contacts::areIn(scene))
+    if (settings.solver != Solver::split && particlesTouch(scene))
         complaints.add(std::string("solver ") + solverName(settings.solver) +
                            " does not support particles that touch each other (Particle::radius)",
                        "use split");
-    if (settings.solver != Solver::split && collision::face_contacts::areIn(scene))
+    if (settings.solver != Solver::split && facesTouch(scene))
         complaints.add(std::string("solver ") + solverName(settings.solver) +
                            " does not support particles that touch faces (Scene::faces)",
                        "use split");
@@ -447,7 +446,7 @@ void checkGrids(const Scene& scene, Complaints& complaints) {
     checkOverlap(scene, complaints);
 }
 
-// The reason why lattice::computedGrids() omits a body although solver and forms allow it, and the remedy.
+// The reason why computedGrids() omits a body although solver and forms allow it, and the remedy.
 std::string whyNotComputed(const Scene& scene, std::uint32_t g) {
     if (!scene.bends.empty()) {
         std::set<std::string> bodies;
@@ -477,14 +476,14 @@ std::string whyNotComputed(const Scene& scene, std::uint32_t g) {
 // Cuttable links exist only where `split` computes a body. The scene must be otherwise valid.
 void checkCutting(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (std::ranges::none_of(scene.grids, &Grid::isCuttable)) return;
-    const std::vector<std::uint32_t> computed = lattice::computedGrids(scene, settings);
+    const std::vector<std::uint32_t> computed = computedGrids(scene, settings);
     for (std::uint32_t g = 0; g < scene.grids.size(); ++g) {
         if (!scene.grids[g].isCuttable) continue;
         const std::string may = "may be cut, ";
         if (settings.solver != Solver::split)
             complaints.add(nameOf(scene, g), may + "which solver " + solverName(settings.solver) +
                                                  " does not support: use split");
-        else if (cutting::isListed(scene, settings, g)) {
+        else if (cutting::isListed(scene, settings, g, computed)) {
             const std::string tied = cutting::tiedPast(scene, scene.grids[g]);
             if (!tied.empty())
                 complaints.add(nameOf(scene, g), may + "but " + tied +
@@ -501,7 +500,7 @@ void checkCutting(const Scene& scene, const Settings& settings, Complaints& comp
 // lost silently. The scene must be otherwise valid.
 void checkCellVolumes(const Scene& scene, const Settings& settings, Complaints& complaints) {
     std::vector<std::uint32_t> computed;
-    if (std::ranges::any_of(scene.grids, hasCellVolumes)) computed = lattice::computedGrids(scene, settings);
+    if (std::ranges::any_of(scene.grids, hasCellVolumes)) computed = computedGrids(scene, settings);
     for (std::uint32_t g = 0; g < scene.grids.size(); ++g) {
         if (!hasCellVolumes(scene.grids[g])) continue;
         const std::string has = "has cell volumes (a Poisson ratio above 1/4 or recovery), ";
@@ -517,6 +516,11 @@ void checkCellVolumes(const Scene& scene, const Settings& settings, Complaints& 
                            "is " + number(settings.omega) + ", but recovery needs it below " +
                                number(static_cast<float>(0.9 * ranges::omegaBound(double{settings.theta}))));
     }
+}
+
+// Needs a scene that is otherwise valid.
+void checkForces(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    forces::checkRoom(SceneModel(scene, settings), complaints);
 }
 
 } // namespace
@@ -570,7 +574,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     if (complaints.isEmpty()) checkChosenSweeps(scene, settings, complaints);
     if (complaints.isEmpty()) checkColors(scene, settings, complaints);
     if (complaints.isEmpty() && settings.keepsForces && !scene.particles.empty())
-        forces::checkRoom(scene, settings, stateLayout(scene, settings), complaints);
+        checkForces(scene, withSubsteps(scene, settings), complaints);
     return complaints.finish();
 }
 

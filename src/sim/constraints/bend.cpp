@@ -2,7 +2,6 @@
 #include "sim/constraints/bend.hpp"
 
 #include "kernels.hpp"
-#include "sim/model/inverse_masses.hpp"
 
 #include <algorithm>
 
@@ -14,10 +13,10 @@ std::array<std::uint32_t, 3> particlesOf(const BendConstraint& bend) {
     return {bend.a, bend.b, bend.c};
 }
 
-std::vector<BendConstraint> movable(const Scene& scene, std::span<const float> inverseMass) {
+std::vector<BendConstraint> movable(const SceneModel& model) {
     std::vector<BendConstraint> result;
-    std::ranges::copy_if(scene.bends, std::back_inserter(result),
-                         [&](const BendConstraint& bend) { return canMove(bend, inverseMass); });
+    std::ranges::copy_if(model.scene.bends, std::back_inserter(result),
+                         [&](const BendConstraint& bend) { return canMove(bend, model.inverseMass); });
     return result;
 }
 
@@ -33,9 +32,10 @@ bool canMove(const BendConstraint& bend, std::span<const float> inverseMass) {
     return inverseMass[bend.a] + inverseMass[bend.b] + inverseMass[bend.c] > 0;
 }
 
-GatherBends gatherBends(const Scene& scene, std::span<const float> inverseMass, double omega) {
-    const std::vector<BendConstraint> bends = movable(scene, inverseMass);
-    std::vector<std::uint32_t> counts(scene.particles.size(), 0), used(scene.particles.size(), 0);
+GatherBends gatherBends(const SceneModel& model, double omega) {
+    const std::vector<BendConstraint> bends = movable(model);
+    const std::size_t particles = model.scene.particles.size();
+    std::vector<std::uint32_t> counts(particles, 0), used(particles, 0);
     for (const BendConstraint& bend : bends)
         for (const std::uint32_t i : particlesOf(bend)) ++counts[i];
     GatherBends result;
@@ -50,7 +50,7 @@ GatherBends gatherBends(const Scene& scene, std::span<const float> inverseMass, 
         for (std::uint32_t slot = 0; slot < result.degree; ++slot)
             element(i, slot) = {i, i, i, 0, 0, 0, 0, 0};
     for (const BendConstraint& bend : bends) {
-        const auto end = [&](std::uint32_t i) { return counts[i] * double{inverseMass[i]}; };
+        const auto end = [&](std::uint32_t i) { return counts[i] * double{model.inverseMass[i]}; };
         const auto clamp = static_cast<float>(omega / (end(bend.a) + 4 * end(bend.b) + end(bend.c)));
         for (const std::uint32_t i : particlesOf(bend))
             element(i, used[i]++) = {bend.a,          bend.b, bend.c, i == bend.b ? 2.0f : -1.0f,
@@ -59,18 +59,18 @@ GatherBends gatherBends(const Scene& scene, std::span<const float> inverseMass, 
     return result;
 }
 
-Rows reserve(const Scene& scene, CorrectionSlots& slots) {
-    const std::vector<BendConstraint> bends = movable(scene, inverseMasses(scene));
+Rows reserve(const SceneModel& model, CorrectionSlots& slots) {
+    const std::vector<BendConstraint> bends = movable(model);
     Rows rows{.count = static_cast<std::uint32_t>(bends.size()), .firstSlot = slots.size()};
     for (const BendConstraint& bend : bends)
         for (const std::uint32_t i : particlesOf(bend)) slots.add(i);
     return rows;
 }
 
-void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Rows& rows) {
+void upload(ProgramBuilder& program, const SceneModel& model, std::span<const float> weights, Rows& rows) {
     if (rows.count == 0) return;
     std::vector<layout::BendRow> items;
-    for (const BendConstraint& bend : movable(scene, inverseMasses(scene)))
+    for (const BendConstraint& bend : movable(model))
         items.push_back({bend.a, bend.b, bend.c, bend.compliance,
                          std::min({weights[bend.a], weights[bend.b], weights[bend.c]}), 0, 0, 0});
     rows.rows = program.upload("bends", items);

@@ -4,7 +4,7 @@
 
 #include "common/layout.h"
 #include "sim/constraints/correction_slots.hpp"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 
 namespace sinew::sim::constraints::bend {
 
@@ -17,7 +17,7 @@ struct GatherBends {
     std::vector<layout::SplitBend> bends;
 };
 /// `omega`: share of bends in the stability bound (SplitBudget::omegaBends).
-GatherBends gatherBends(const Scene& scene, std::span<const float> inverseMass, double omega);
+GatherBends gatherBends(const SceneModel& model, double omega);
 
 /// The buffers of the constraint pass of `jacobi`.
 struct Rows {
@@ -25,8 +25,8 @@ struct Rows {
     BufferId rows, multipliers;
 };
 /// Reserves three slots a bend: for a, b and c.
-Rows reserve(const Scene& scene, CorrectionSlots& slots);
-void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Rows& rows);
+Rows reserve(const SceneModel& model, CorrectionSlots& slots);
+void upload(ProgramBuilder& program, const SceneModel& model, std::span<const float> weights, Rows& rows);
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Rows& rows,
              BufferId corrections, bool isFirstIteration);
 
@@ -39,8 +39,7 @@ struct ColoredBends {
     std::vector<Color> colors;
     BufferId bends, multipliers; ///< multipliers: invalid if one sweep a substep needs none
 };
-ColoredBends uploadColors(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                          const StateLayout& layout);
+ColoredBends uploadColors(ProgramBuilder& program, const SceneModel& model);
 /// Appends one pass a color, in place in `corrections`; `isFirst` in the first sweep of a substep.
 void addSweep(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredBends& bends,
               BufferId corrections, bool isFirst);

@@ -3,26 +3,23 @@
 
 #include "kernels.hpp"
 #include "sim/model/coloring.hpp"
-#include "sim/model/inverse_masses.hpp"
-#include "sim/model/state.hpp"
 
 #include <algorithm>
 #include <array>
 
 namespace sinew::sim::constraints::bend {
 
-ColoredBends uploadColors(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                          const StateLayout& layout) {
-    const Coloring coloring = colorBends(scene, inverseMasses(scene));
+ColoredBends uploadColors(ProgramBuilder& program, const SceneModel& model) {
+    const Coloring coloring = colorBends(model.scene, model.inverseMass);
     if (coloring.order.empty()) return {};
-    const auto immovable = static_cast<std::uint32_t>(layout.count - 1);
+    const auto immovable = static_cast<std::uint32_t>(model.layout.count - 1);
     std::vector<layout::ColoredBend> items;
     ColoredBends result;
     bool isCompliant = false;
     for (std::size_t k = 0; k < coloring.colorCount(); ++k) {
         const auto first = static_cast<std::uint32_t>(items.size());
         for (const std::uint32_t index : coloring.color(k)) {
-            const BendConstraint& c = scene.bends[index];
+            const BendConstraint& c = model.scene.bends[index];
             items.push_back({c.a, c.b, c.c, c.compliance});
             isCompliant = isCompliant || c.compliance > 0;
         }
@@ -30,7 +27,7 @@ ColoredBends uploadColors(ProgramBuilder& program, const Scene& scene, const Set
         result.colors.push_back({first, static_cast<std::uint32_t>(items.size()) - first});
     }
     result.bends = program.upload("bends", items);
-    if (isCompliant && settings.iterations > 1)
+    if (isCompliant && model.settings.iterations > 1)
         result.multipliers = program.scratch<layout::vec4>("bends.multipliers", items.size());
     return result;
 }

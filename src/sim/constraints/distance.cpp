@@ -2,7 +2,6 @@
 #include "sim/constraints/distance.hpp"
 
 #include "kernels.hpp"
-#include "sim/model/inverse_masses.hpp"
 
 #include <algorithm>
 
@@ -10,11 +9,10 @@ namespace sinew::sim::constraints::distance {
 
 namespace {
 
-std::vector<DistanceConstraint> movable(const Scene& scene) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
+std::vector<DistanceConstraint> movable(const SceneModel& model) {
     std::vector<DistanceConstraint> result;
-    std::copy_if(scene.distances.begin(), scene.distances.end(), std::back_inserter(result),
-                 [&](const DistanceConstraint& c) { return canMove(c, inverseMass); });
+    std::ranges::copy_if(model.scene.distances, std::back_inserter(result),
+                         [&](const DistanceConstraint& c) { return canMove(c, model.inverseMass); });
     return result;
 }
 
@@ -24,11 +22,11 @@ bool canMove(const DistanceConstraint& constraint, std::span<const float> invers
     return inverseMass[constraint.a] + inverseMass[constraint.b] > 0;
 }
 
-Edges reserve(const Scene& scene, CorrectionSlots& slots) {
-    const std::vector<DistanceConstraint> constraints = movable(scene);
+Edges reserve(const SceneModel& model, CorrectionSlots& slots) {
+    const std::vector<DistanceConstraint> constraints = movable(model);
     Edges edges{.count = static_cast<std::uint32_t>(constraints.size()),
                 .firstSlot = slots.size(),
-                .dampingTime = scene.dampingTime};
+                .dampingTime = model.scene.dampingTime};
     for (const DistanceConstraint& constraint : constraints) {
         slots.add(constraint.a);
         slots.add(constraint.b);
@@ -36,12 +34,12 @@ Edges reserve(const Scene& scene, CorrectionSlots& slots) {
     return edges;
 }
 
-void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Edges& edges) {
+void upload(ProgramBuilder& program, const SceneModel& model, std::span<const float> weights, Edges& edges) {
     if (edges.count == 0) return;
     std::vector<layout::DistanceEdge> items;
     std::vector<layout::DistanceMultiplier> multipliers;
     bool isCompliant = false;
-    for (const DistanceConstraint& c : movable(scene)) {
+    for (const DistanceConstraint& c : movable(model)) {
         items.push_back({c.a, c.b, c.restLength, c.compliance});
         multipliers.push_back({0, std::min(weights[c.a], weights[c.b])});
         isCompliant |= c.compliance > 0;

@@ -5,7 +5,7 @@
 
 #include "common/layout.h"
 #include "sim/constraints/correction_slots.hpp"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 
 namespace sinew::sim::constraints::distance {
 
@@ -17,10 +17,10 @@ struct Edges {
 };
 
 /// Reserves two slots a constraint: first for its end a, then for its end b.
-Edges reserve(const Scene& scene, CorrectionSlots& slots);
+Edges reserve(const SceneModel& model, CorrectionSlots& slots);
 
 /// Uploads the edges; `weights` are the factors that the particle pass will apply, one a particle.
-void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Edges& edges);
+void upload(ProgramBuilder& program, const SceneModel& model, std::span<const float> weights, Edges& edges);
 
 /// Appends the pass that writes every correction of this type.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Edges& edges,
@@ -37,8 +37,7 @@ struct ColoredEdges {
     BufferId links;                              ///< of the warm start
     ProgramBuilder::Constants constants() const; ///< specialises degree
 };
-ColoredEdges uploadColors(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                          const StateLayout& layout);
+ColoredEdges uploadColors(ProgramBuilder& program, const SceneModel& model);
 
 /// Position of a sweep in a step.
 struct Sweep {

@@ -3,7 +3,6 @@
 
 #include "kernels.hpp"
 #include "sim/model/coloring.hpp"
-#include "sim/model/inverse_masses.hpp"
 #include "sim/model/state.hpp"
 
 #include <algorithm>
@@ -41,19 +40,19 @@ EdgeList listEdges(const Scene& scene, const Coloring& coloring, const StateLayo
 }
 
 // The links of every moving particle, in the order of the sweep.
-void uploadWarmLinks(ProgramBuilder& program, const Scene& scene, const Coloring& coloring,
-                     const EdgeList& list, std::size_t slotCount, ColoredEdges& result) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
+void uploadWarmLinks(ProgramBuilder& program, const SceneModel& model, const Coloring& coloring,
+                     const EdgeList& list, ColoredEdges& result) {
+    const Scene& scene = model.scene;
     std::vector<std::vector<std::uint32_t>> linksOf(scene.particles.size());
     for (std::size_t entry = 0; entry < coloring.order.size(); ++entry) {
         const DistanceConstraint& c = scene.distances[coloring.order[entry]];
-        if (inverseMass[c.a] > 0) linksOf[c.a].push_back(list.places[entry] | WARM_LINK_SIGN);
-        if (inverseMass[c.b] > 0) linksOf[c.b].push_back(list.places[entry]);
+        if (model.moves(c.a)) linksOf[c.a].push_back(list.places[entry] | WARM_LINK_SIGN);
+        if (model.moves(c.b)) linksOf[c.b].push_back(list.places[entry]);
     }
     for (const auto& links : linksOf)
         result.degree = std::max(result.degree, static_cast<std::uint32_t>(links.size()));
     const auto nothing = static_cast<std::uint32_t>(list.edges.size() - 1); // padding
-    std::vector<std::uint32_t> slots(slotCount * result.degree, nothing);
+    std::vector<std::uint32_t> slots(model.layout.count * result.degree, nothing);
     for (std::size_t i = 0; i < linksOf.size(); ++i)
         for (std::size_t s = 0; s < linksOf[i].size(); ++s)
             slots[(i / LINK_BLOCK * result.degree + s) * LINK_BLOCK + i % LINK_BLOCK] = linksOf[i][s];
@@ -66,11 +65,11 @@ ProgramBuilder::Constants ColoredEdges::constants() const {
     return degree > 0 ? ProgramBuilder::Constants{{degreeId, degree}} : ProgramBuilder::Constants{};
 }
 
-ColoredEdges uploadColors(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                          const StateLayout& layout) {
-    const Coloring coloring = colorByParticles(scene, inverseMasses(scene));
+ColoredEdges uploadColors(ProgramBuilder& program, const SceneModel& model) {
+    const Settings& settings = model.settings;
+    const Coloring coloring = colorByParticles(model.scene, model.inverseMass);
     if (coloring.order.empty()) return {};
-    const EdgeList list = listEdges(scene, coloring, layout);
+    const EdgeList list = listEdges(model.scene, coloring, model.layout);
     ColoredEdges result{.colors = list.colors, .edges = program.upload("distance.edges", list.edges)};
     const bool isCompliant = std::ranges::any_of(
         list.edges, [](const layout::DistanceEdge& edge) { return edge.compliance > 0 && edge.a != edge.b; });
@@ -78,7 +77,7 @@ ColoredEdges uploadColors(ProgramBuilder& program, const Scene& scene, const Set
     if (isWarm || (isCompliant && settings.iterations > 1))
         result.multipliers = program.scratch<layout::vec4>("distance.multipliers", list.edges.size());
     if (isWarm) {
-        uploadWarmLinks(program, scene, coloring, list, layout.count, result);
+        uploadWarmLinks(program, model, coloring, list, result);
         program.restoreOnUndo(result.multipliers);
     }
     return result;

@@ -4,20 +4,19 @@
 #include "kernels.hpp"
 #include "sim/constraints/cut_tethers.hpp"
 #include "sim/forces/forces.hpp"
-#include "sim/model/tether_order.hpp"
 
 #include <algorithm>
 
 namespace sinew::sim::constraints::tether {
 
-Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
-    const std::vector<Tether> sorted = tethersInOrder(scene);
-    if (sorted.empty()) return {};
+Tethers add(ProgramBuilder& program, const SceneModel& model) {
+    if (model.tethers().empty()) return {};
+    const StateLayout& layout = model.layout;
     std::vector<layout::TetheredParticle> particles;
     std::uint32_t last = 0; // last particle, once there is one
     std::vector<layout::TetherReach> reaches;
     std::vector<ListedTether> listed;
-    for (const Tether& tether : sorted) {
+    for (const Tether& tether : model.tethers()) {
         if (particles.empty() || last != tether.particle)
             particles.push_back(
                 {layout.slot[tether.particle], static_cast<std::uint32_t>(reaches.size()), 0});

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 
 namespace sinew::sim::constraints::tether {
 
@@ -12,7 +12,7 @@ struct Tethers {
     BufferId particles, tethers;
 };
 
-Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
+Tethers add(ProgramBuilder& program, const SceneModel& model);
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Tethers& tethers);
 /// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,

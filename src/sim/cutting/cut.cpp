@@ -189,12 +189,11 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
 
 } // namespace
 
-void add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-         const ParticleBuffers& particles) {
-    Cut cut = addBuffers(program, scene, settings, particles);
+void add(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles) {
+    Cut cut = addBuffers(program, model, particles);
     if (cut.runs.empty()) return;
     cut.bladePlaces = cut.buffers.places;
-    addDebris(program, scene, cut, particles);
+    addDebris(program, model.scene, cut, particles);
     program.beginPhase("cut");
     program.only(When::cut, [&] { addOpening(program, cut, particles); });
     program.atEnd([&program, cut, particles] {

@@ -7,13 +7,12 @@
 //   publish  undo all that if the step is undone; find the pieces again if links were cut
 #pragma once
 
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 
 namespace sinew::sim::cutting {
 
 /// Adds the buffers of StepProgram::cutting, a phase "cut", and passes at the end of the step, if the scene
 /// has cuttable bodies; otherwise nothing. Call it before the phase that solves.
-void add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-         const ParticleBuffers& particles);
+void add(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles);
 
 } // namespace sinew::sim::cutting

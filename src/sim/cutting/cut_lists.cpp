@@ -3,7 +3,6 @@
 
 #include "common/layout.h"
 #include "kernels.hpp"
-#include "sim/lattice/grids.hpp"
 #include "sim/lattice/link_masks.hpp"
 
 #include <algorithm>
@@ -73,12 +72,13 @@ std::optional<layout::CutTie> tieOf(const CuttingBuffers& cutting, Listed one) {
 
 } // namespace
 
-bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g) {
+bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g,
+              std::span<const std::uint32_t> computed) {
     const Grid& grid = scene.grids[g];
     if (!grid.isCuttable || settings.solver != Solver::split || !lattice::isSheet(grid) ||
         grid.node.size() != std::size_t{grid.nodes[0]} * grid.nodes[2])
         return false;
-    return !std::ranges::binary_search(lattice::computedGrids(scene, settings), g);
+    return !std::ranges::binary_search(computed, g);
 }
 
 std::string tiedPast(const Scene& scene, const Grid& sheet) {

@@ -10,8 +10,10 @@
 
 namespace sinew::sim::cutting {
 
-/// Whether grid `g` is such a sheet: its particles are consecutive among the listed ones.
-bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g);
+/// Whether grid `g` is such a sheet, of a solver with the computed grids `computed`: its particles are
+/// consecutive among the listed ones.
+bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g,
+              std::span<const std::uint32_t> computed);
 
 /// The first distance constraint or bend of the scene that belongs to such a sheet but follows no link of the
 /// mask: it leads out of the sheet or over more than one node, and would hold cut pieces together.

@@ -4,7 +4,6 @@
 #include "sim/cutting/cut_lists.hpp"
 #include "sim/cutting/tearing.hpp"
 #include "sim/grabs/grab.hpp"
-#include "sim/lattice/grids.hpp"
 #include "sim/lattice/link_masks.hpp"
 #include "sim/lattice/pieces.hpp"
 #include "sim/sleep/sleep.hpp"
@@ -41,16 +40,15 @@ lattice::Box listedBox(const Grid& grid, const StateLayout& layout) {
     return box;
 }
 
-Placed cuttableGrids(const Scene& scene, const Settings& settings, const StateLayout& layout) {
-    Placed placed;
-    if (settings.solver != Solver::split || std::ranges::none_of(scene.grids, &Grid::isCuttable))
-        return placed;
-    placed.grids = lattice::computedGrids(scene, settings);
-    placed.boxes = lattice::boxesOf(scene, placed.grids);
+Placed cuttableGrids(const SceneModel& model) {
+    const Scene& scene = model.scene;
+    if (model.settings.solver != Solver::split || std::ranges::none_of(scene.grids, &Grid::isCuttable))
+        return {};
+    Placed placed{model.grids, model.boxes};
     for (std::uint32_t g = 0; g < scene.grids.size(); ++g) {
-        if (!isListed(scene, settings, g)) continue;
+        if (!isListed(scene, model.settings, g, model.grids)) continue;
         placed.grids.push_back(g);
-        placed.boxes.push_back(listedBox(scene.grids[g], layout));
+        placed.boxes.push_back(listedBox(scene.grids[g], model.layout));
     }
     return placed;
 }
@@ -182,11 +180,11 @@ void addGrabMasses(ProgramBuilder& program, Cut& cut, const grabs::Grabs& grabs)
 
 } // namespace
 
-Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-               const ParticleBuffers& particles) {
-    const StateLayout& layout = particles.layout;
+Cut addBuffers(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles) {
+    const Scene& scene = model.scene;
+    const StateLayout& layout = model.layout;
     Cut cut;
-    const Placed placed = cuttableGrids(scene, settings, layout);
+    const Placed placed = cuttableGrids(model);
     if (placed.grids.empty()) return cut;
     Initial initial = readGrids(scene, placed, layout, cut.runs);
     if (cut.runs.empty()) return cut;
@@ -214,11 +212,12 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     if (particles.grabs) addGrabMasses(program, cut, *particles.grabs);
     for (const BufferId buffer : buffers.topology) program.addToState(buffer, buffer);
     program.program().cutting = buffers;
-    cut.sheets = surface::addSheetPieces(program, scene, layout, cut.particles, settings.cutSurfaceRoom);
+    cut.sheets =
+        surface::addSheetPieces(program, scene, layout, cut.particles, model.settings.cutSurfaceRoom);
     if (hasTears) cut.tearing = addTearing(program, cut, layout.count);
     std::vector<layout::CutPush> pushes;
     for (const Run& run : cut.runs) pushes.push_back(run.push);
-    const surface::CutBodies bodies = surface::readCutBodies(scene, settings, layout, pushes);
+    const surface::CutBodies bodies = surface::readCutBodies(model, pushes);
     if (bodies.cells > 0) addSurface(program, scene, bodies, cut);
     return cut;
 }

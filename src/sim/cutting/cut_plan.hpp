@@ -3,7 +3,7 @@
 
 #include "common/layout.h"
 #include "sim/cutting/debris_skins.hpp"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 
 #include <array>
 
@@ -56,8 +56,7 @@ inline std::uint32_t wordsOf(const Run& run) {
     return (run.push.first + run.push.count - 1) / 32 - run.push.first / 32 + 1;
 }
 
-/// Returns no runs if no body of `scene` is cuttable.
-Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-               const ParticleBuffers& particles);
+/// Returns no runs if no body of the scene is cuttable.
+Cut addBuffers(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles);
 
 } // namespace sinew::sim::cutting

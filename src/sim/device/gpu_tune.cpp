@@ -3,7 +3,7 @@
 
 #include "sim/compile/compile.hpp"
 #include "sim/device/gpu_compile.hpp"
-#include "sim/lattice/grids.hpp"
+#include "sim/model/grids.hpp"
 #include "sim/solvers/batches.hpp"
 #include "sim/solvers/split.hpp"
 #include "sinew/ranges.hpp"
@@ -87,7 +87,7 @@ std::vector<Change> changes(const vk::Device& device, const Scene& scene, const 
     if (hasTexelForms(scene, settings))
         result.push_back([](Forms& forms) { forms.usesTexels = !forms.usesTexels; });
     if (settings.solver != Solver::split || scene.distances.empty()) return result;
-    const std::vector<std::uint32_t> grids = lattice::computedGrids(scene, settings);
+    const std::vector<std::uint32_t> grids = computedGrids(scene, settings);
     if (!grids.empty()) std::ranges::move(marches(scene, grids, kind), std::back_inserter(result));
     if (isGrantable(device, scene, settings, grids))
         result.push_back([most = device.limits().maxSharedMemory, kind](Forms& forms) {

@@ -4,7 +4,6 @@
 #include "kernels.hpp"
 #include "sim/model/inverse_masses.hpp"
 #include "sim/model/solver_names.hpp"
-#include "sim/model/tether_order.hpp"
 
 #include <algorithm>
 #include <map>
@@ -64,16 +63,16 @@ void setStops(std::vector<layout::ForceRange>& bodies, const Forces& forces) {
 
 // The elements that sum to the impulse of hold `h`: links at its particles, tethers to them, and the opposite
 // of contacts with them and their faces.
-std::vector<std::uint32_t> elementsOf(std::uint32_t h, const Scene& scene, const Forces& forces,
-                                      const std::vector<std::uint32_t>& slots,
-                                      std::span<const Tether> tethers) {
+std::vector<std::uint32_t> elementsOf(std::uint32_t h, const SceneModel& model, const Forces& forces) {
+    const Scene& scene = model.scene;
+    const std::vector<std::uint32_t>& slots = model.layout.slot;
+    const std::vector<Tether>& tethers = model.tethers();
     std::vector<bool> isHeld(scene.particles.size());
-    const std::vector<float> inverseMass = inverseMasses(scene);
     std::vector<std::uint32_t> elements;
     for (const std::uint32_t particle : scene.holds[h].particles) {
         if (isHeld[particle]) continue;
         isHeld[particle] = true;
-        if (inverseMass[particle] == 0) {
+        if (!model.moves(particle)) {
             elements.push_back(forces.slots + slots[particle]);
             elements.push_back(slots[particle] | FORCE_SUBTRACTED);
         }
@@ -83,14 +82,14 @@ std::vector<std::uint32_t> elementsOf(std::uint32_t h, const Scene& scene, const
     for (std::uint32_t r = 0; r < forces.stops.rows.size(); ++r) {
         if (!std::ranges::binary_search(forces.stops.rows[r].holds, h)) continue;
         for (std::size_t i = 0; i < scene.particles.size(); ++i) // the row has the elements of the points
-            if (isMovingPoint(scene.particles[i], inverseMass[i]))
+            if (isMovingPoint(scene.particles[i], model.inverseMass[i]))
                 elements.push_back(forces.elementOf(forces.firstStop() + r) + slots[i]);
     }
     return elements;
 }
 
-void addRows(ProgramBuilder& program, const Scene& scene, const Forces& forces,
-             const std::vector<std::uint32_t>& slots, const layout::ForcePush& push) {
+void addRows(ProgramBuilder& program, const SceneModel& model, const Forces& forces,
+             const layout::ForcePush& push) {
     Sums sums;
     for (std::uint32_t row = 0; row < forces.rows(); ++row)
         sums.add(forces.elementOf(row), forces.slots, 0, forces.slots, row < forces.grabs ? 1.0f : -1.0f);
@@ -102,9 +101,7 @@ void addRows(ProgramBuilder& program, const Scene& scene, const Forces& forces,
     };
     for (std::uint32_t a = 0; a < forces.attachments; ++a)
         addListed({forces.firstEntry() + forces.tethers + a});
-    const std::vector<Tether> tethers = tethersInOrder(scene);
-    for (std::uint32_t h = 0; h < scene.holds.size(); ++h)
-        addListed(elementsOf(h, scene, forces, slots, tethers));
+    for (std::uint32_t h = 0; h < model.scene.holds.size(); ++h) addListed(elementsOf(h, model, forces));
     if (sums.ranges.empty()) return;
     ForceBuffers& built = program.program().forces;
     const auto chunks = static_cast<std::uint32_t>(sums.chunks.size());
@@ -161,14 +158,15 @@ bool areLinksHeld(const Scene& scene) {
 }
 
 // All members except the buffer.
-Forces placesOf(const Scene& scene, const Settings& settings, const StateLayout& layout) {
-    return {.slots = static_cast<std::uint32_t>(layout.count),
-            .grabs = settings.grabs,
+Forces placesOf(const SceneModel& model) {
+    const Scene& scene = model.scene;
+    return {.slots = static_cast<std::uint32_t>(model.layout.count),
+            .grabs = model.settings.grabs,
             .planes = static_cast<std::uint32_t>(scene.planes.size()),
-            .colliders = settings.hostColliders + static_cast<std::uint32_t>(scene.colliders.size()),
-            .tethers = static_cast<std::uint32_t>(tethersInOrder(scene).size()),
+            .colliders = model.settings.hostColliders + static_cast<std::uint32_t>(scene.colliders.size()),
+            .tethers = static_cast<std::uint32_t>(model.tethers().size()),
             .attachments = static_cast<std::uint32_t>(scene.attachments.size()),
-            .stops = stopsOf(scene, settings)};
+            .stops = stopsOf(model)};
 }
 
 } // namespace
@@ -193,9 +191,8 @@ void check(const Scene& scene, const Settings& settings, Complaints& complaints)
                            " does not compute the holding forces of the links: use split");
 }
 
-void checkRoom(const Scene& scene, const Settings& settings, const StateLayout& layout,
-               Complaints& complaints) {
-    const std::uint64_t elements = placesOf(scene, settings, layout).elements();
+void checkRoom(const SceneModel& model, Complaints& complaints) {
+    const std::uint64_t elements = placesOf(model).elements();
     if (elements <= mostElements) return;
     complaints.add("settings.keepsForces", "is set, but " + number(elements) +
                                                " impulses of particles do not fit in one buffer, at most " +
@@ -205,13 +202,13 @@ void checkRoom(const Scene& scene, const Settings& settings, const StateLayout& 
                                                "fewer particles");
 }
 
-Stops stopsOf(const Scene& scene, const Settings& settings) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
+Stops stopsOf(const SceneModel& model) {
+    const Scene& scene = model.scene;
     Stops stops{.ofParticle = std::vector<std::uint32_t>(scene.particles.size(), 0)};
     bool hasPoint = false;
     for (std::size_t i = 0; i < scene.particles.size(); ++i)
-        hasPoint = hasPoint || isMovingPoint(scene.particles[i], inverseMass[i]);
-    if (!hasPoint || settings.solver != Solver::split) return stops;
+        hasPoint = hasPoint || isMovingPoint(scene.particles[i], model.inverseMass[i]);
+    if (!hasPoint || model.settings.solver != Solver::split) return stops;
     std::vector<std::uint32_t> bodyOf(scene.particles.size(), Stops::noBody);
     for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
         const Body& body = scene.bodies[b];
@@ -224,7 +221,7 @@ Stops stopsOf(const Scene& scene, const Settings& settings) {
     using Key = std::pair<std::uint32_t, std::vector<std::uint32_t>>; // body and holds
     std::map<Key, std::vector<std::uint32_t>> corners;
     for (const Face& face : scene.faces)
-        if (std::ranges::all_of(face.particles, [&](std::uint32_t i) { return inverseMass[i] == 0; })) {
+        if (std::ranges::none_of(face.particles, [&](std::uint32_t i) { return model.moves(i); })) {
             const std::uint32_t first = face.particles[0];
             corners[{bodyOf[first], holdsOf[first]}].push_back(first);
         }
@@ -245,9 +242,8 @@ ProgramBuilder::Constants pullConstants() {
     return {{keepsPullsId, 1}};
 }
 
-std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                                  const StateLayout& layout) {
-    auto forces = std::make_shared<Forces>(placesOf(scene, settings, layout));
+std::shared_ptr<const Forces> add(ProgramBuilder& program, const SceneModel& model) {
+    auto forces = std::make_shared<Forces>(placesOf(model));
     forces->terms = program.scratch<layout::vec4>("forces.terms", forces->elements());
     program.fill(forces->terms, 0);
     program.program().forces.terms = forces->terms;
@@ -266,8 +262,8 @@ void addPulls(ProgramBuilder& program, const ParticleBuffers& particles) {
                      layout::CountPush{forces.slots}, forces.ofContacts());
 }
 
-void addSums(ProgramBuilder& program, const Scene& scene, const ParticleBuffers& particles) {
-    const Forces& forces = *particles.forces;
+void addSums(ProgramBuilder& program, const SceneModel& model, const Forces& forces) {
+    const Scene& scene = model.scene;
     ForceBuffers& built = program.program().forces;
     built.bodies = static_cast<std::uint32_t>(scene.bodies.size());
     built.grabs = forces.grabs;
@@ -281,8 +277,8 @@ void addSums(ProgramBuilder& program, const Scene& scene, const ParticleBuffers&
     const std::uint32_t count = firstRow + forces.rows() + built.attachments + built.holds;
     built.sums = program.scratch<layout::ForceSum>("forces.sums", std::max(count, 1u));
     const layout::ForcePush push{0, forces.grabs, forces.planes, forces.colliders, firstRow};
-    addRows(program, scene, forces, particles.layout.slot, push);
-    addBodies(program, scene, forces, particles.layout.slot, push);
+    addRows(program, model, forces, push);
+    addBodies(program, scene, forces, model.layout.slot, push);
 }
 
 } // namespace sinew::sim::forces

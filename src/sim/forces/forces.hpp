@@ -13,7 +13,7 @@
 
 #include "common/layout.h"
 #include "sim/core/complaints.hpp"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 
 #include <array>
 
@@ -24,8 +24,7 @@ void check(const Scene& scene, const Settings& settings, Complaints& complaints)
 
 /// Complains if forces are kept and their elements exceed one buffer of 32 bits. Everything else must be
 /// valid.
-void checkRoom(const Scene& scene, const Settings& settings, const StateLayout& layout,
-               Complaints& complaints);
+void checkRoom(const SceneModel& model, Complaints& complaints);
 
 /// Rows of static faces, by body and holds.
 struct Stops {
@@ -40,8 +39,7 @@ struct Stops {
     std::vector<std::uint32_t>
         ofParticle; ///< row of the faces whose first corner is the particle; 0 if there is none
 };
-/// The rows of a scene, whose indices of particles and faces must be valid.
-Stops stopsOf(const Scene& scene, const Settings& settings);
+Stops stopsOf(const SceneModel& model);
 
 /// Layout of the buffer of elements.
 struct Forces {
@@ -75,8 +73,7 @@ private:
 };
 
 /// Creates the buffer of elements, and appends the pass before the substeps that clears it.
-std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                                  const StateLayout& layout);
+std::shared_ptr<const Forces> add(ProgramBuilder& program, const SceneModel& model);
 
 /// Appends the buffer of elements to `buffers` and the start of the section that `of` names to `constants`;
 /// if `particles` keep no forces, leaves that binding empty. `of` is Forces::ofPlanes or a similar function.
@@ -90,6 +87,6 @@ void addPulls(ProgramBuilder& program, const ParticleBuffers& particles);
 ProgramBuilder::Constants pullConstants();
 
 /// Appends the sums, after public positions have their values at the end of the step.
-void addSums(ProgramBuilder& program, const Scene& scene, const ParticleBuffers& particles);
+void addSums(ProgramBuilder& program, const SceneModel& model, const Forces& forces);
 
 } // namespace sinew::sim::forces

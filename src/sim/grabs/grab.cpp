@@ -4,8 +4,6 @@
 #include "kernels.hpp"
 #include "sim/constraints/moving_point.hpp"
 #include "sim/forces/forces.hpp"
-#include "sim/model/components.hpp"
-#include "sim/model/inverse_masses.hpp"
 #include "sinew/ranges.hpp"
 
 #include <algorithm>
@@ -20,9 +18,9 @@ static_assert(MOST_GRABS == ranges::mostGrabs);
 constexpr float mostGain = 1e8f; // the largest useful value in float32
 
 // The linked component of each particle, and the mass of the component.
-std::vector<layout::GrabBody> bodiesOf(const Scene& scene, const StateLayout& layout) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
-    const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
+std::vector<layout::GrabBody> bodiesOf(const SceneModel& model) {
+    const std::vector<float>& inverseMass = model.inverseMass;
+    const std::vector<std::uint32_t>& components = model.components();
     std::vector<double> masses(components.size());
     for (std::size_t i = 0; i < components.size(); ++i)
         if (inverseMass[i] > 0) masses[components[i]] += 1 / double{inverseMass[i]};
@@ -30,7 +28,8 @@ std::vector<layout::GrabBody> bodiesOf(const Scene& scene, const StateLayout& la
     for (std::size_t i = 0; i < components.size(); ++i) {
         const double mass = masses[components[i]];
         const double part = inverseMass[i] > 0 ? 1 / double{inverseMass[i]} / mass : 0;
-        bodies.push_back({components[i], static_cast<float>(part), static_cast<float>(mass), layout.slot[i]});
+        bodies.push_back(
+            {components[i], static_cast<float>(part), static_cast<float>(mass), model.layout.slot[i]});
     }
     return bodies;
 }
@@ -59,17 +58,17 @@ bool isNumber(const Grab& grab) {
 
 } // namespace
 
-std::shared_ptr<Grabs> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                           const StateLayout& layout) {
+std::shared_ptr<Grabs> add(ProgramBuilder& program, const SceneModel& model) {
+    const Settings& settings = model.settings;
     if (settings.grabs == 0) return nullptr;
-    const auto count = static_cast<std::uint32_t>(scene.particles.size());
+    const auto count = static_cast<std::uint32_t>(model.scene.particles.size());
     const layout::GrabPush push{count, (count - 1) / GROUP_ITEMS + 1, settings.grabs, 0, 0};
     const std::vector<layout::DispatchArguments> none{{0, 1, 1, 0}};
     auto grabs = std::make_shared<Grabs>(
         Grabs{.push = push,
               .requests = program.scratch<layout::GrabRequest>("grab.requests", settings.grabs),
               .states = program.scratch<layout::GrabState>("grab.states", settings.grabs),
-              .bodies = program.upload("grab.bodies", bodiesOf(scene, layout)),
+              .bodies = program.upload("grab.bodies", bodiesOf(model)),
               .grips = program.scratch<layout::Grip>("grab.grips", count),
               .held = program.scratch<std::uint32_t>("grab.held", count),
               .holding = program.upload("grab.holding", none),

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 #include "sinew/step.hpp"
 
 #include <array>
@@ -19,8 +19,7 @@ struct Grabs {
 };
 
 /// Appends the passes at the start of a step: call it before the substeps. Null without Settings::grabs.
-std::shared_ptr<Grabs> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                           const StateLayout& layout);
+std::shared_ptr<Grabs> add(ProgramBuilder& program, const SceneModel& model);
 
 /// Appends the pull at the end of a substep, counted from 0. Nothing if particles.grabs is null.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uint32_t substep,

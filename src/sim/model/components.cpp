@@ -6,7 +6,10 @@
 
 namespace sinew::sim {
 
-std::vector<std::uint32_t> linkedComponents(const Scene& scene, std::span<const float> inverseMass) {
+namespace {
+
+// `connects(a, b)`: whether links between these particles count.
+template <typename Connects> std::vector<std::uint32_t> unite(const Scene& scene, const Connects& connects) {
     std::vector<std::uint32_t> parent(scene.particles.size());
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&parent](std::uint32_t i) {
@@ -14,7 +17,7 @@ std::vector<std::uint32_t> linkedComponents(const Scene& scene, std::span<const 
         return i;
     };
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
-        if (inverseMass[a] == 0 || inverseMass[b] == 0) return;
+        if (!connects(a, b)) return;
         const std::uint32_t first = root(a), second = root(b);
         parent[std::max(first, second)] = std::min(first, second);
     };
@@ -26,6 +29,17 @@ std::vector<std::uint32_t> linkedComponents(const Scene& scene, std::span<const 
     }
     for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
     return parent;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> linkedComponents(const Scene& scene, std::span<const float> inverseMass) {
+    return unite(
+        scene, [&](std::uint32_t a, std::uint32_t b) { return inverseMass[a] != 0 && inverseMass[b] != 0; });
+}
+
+std::vector<std::uint32_t> linkedBodies(const Scene& scene) {
+    return unite(scene, [](std::uint32_t, std::uint32_t) { return true; });
 }
 
 } // namespace sinew::sim

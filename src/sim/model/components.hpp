@@ -11,4 +11,7 @@ namespace sinew::sim {
 /// particles (inverse mass 0) do not connect others.
 std::vector<std::uint32_t> linkedComponents(const Scene& scene, std::span<const float> inverseMass);
 
+/// The same, but connected also through static particles.
+std::vector<std::uint32_t> linkedBodies(const Scene& scene);
+
 } // namespace sinew::sim

@@ -3,8 +3,6 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/collision/face_contacts.hpp"
-#include "sim/collision/particle_contacts.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/cutting/blade.hpp"
 #include "sim/device/gpu_compile.hpp"
@@ -12,6 +10,7 @@
 #include "sim/grabs/grab.hpp"
 #include "sim/model/rounding.hpp"
 #include "sim/model/scene_key.hpp"
+#include "sim/model/touching.hpp"
 #include "sim/program/program_values.hpp"
 #include "sim/rigid/collider_paths.hpp"
 #include "sim/simulation/calm_steps.hpp"
@@ -122,8 +121,8 @@ struct Simulation::State {
           budget(dampedBudget(scene, settings)), theta(settings.solver == Solver::split ? settings.theta : 0),
           omega(settings.omega), damping(scene.damping), substeps(settings.substeps),
           storesPlaces(solvers::split::contactsFollow(scene, settings)),
-          hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)),
-          unsettled(settings.framesInFlight), untold(warnings(scene)), befores(settings.framesInFlight),
+          hasContacts(particlesTouch(scene) || facesTouch(scene)), unsettled(settings.framesInFlight),
+          untold(warnings(scene)), befores(settings.framesInFlight),
           isKeptWhereUndone(settings.publishesVelocities && !keepsRemainders(scene, settings.substeps)) {
         for (Before& one : befores) one.anchors.resize(anchors.values().size());
     }

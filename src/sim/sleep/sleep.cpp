@@ -3,8 +3,6 @@
 
 #include "kernels.hpp"
 #include "sim/grabs/grab.hpp"
-#include "sim/model/components.hpp"
-#include "sim/model/inverse_masses.hpp"
 #include "sim/rigid/driven.hpp"
 
 #include <algorithm>
@@ -23,12 +21,9 @@ std::uint32_t groupsOf(std::uint32_t items, std::uint32_t groupSize) {
 }
 
 // By slot the first slot of its linked component. Static particles connect nothing.
-std::vector<std::uint32_t> componentsOf(const Scene& scene, const StateLayout& layout,
-                                        std::span<const float> weights) {
-    std::vector<float> inverseMass(scene.particles.size());
-    for (std::size_t i = 0; i < inverseMass.size(); ++i)
-        inverseMass[i] = std::max(weights[layout.slot[i]], 0.0f);
-    const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
+std::vector<std::uint32_t> componentsOf(const SceneModel& model) {
+    const StateLayout& layout = model.layout;
+    const std::vector<std::uint32_t>& components = model.components();
     std::vector<std::uint32_t> least(components.size(), ~0u), result(layout.count);
     for (std::size_t i = 0; i < components.size(); ++i)
         least[components[i]] = std::min(least[components[i]], layout.slot[i]);
@@ -56,12 +51,11 @@ std::vector<float> limitsOf(const Scene& scene, const StateLayout& layout) {
     return limits;
 }
 
-std::vector<float> weightsOf(const Scene& scene, const StateLayout& layout) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
-    const std::vector<bool> isDriven = rigid::driven::areDriven(scene);
-    std::vector<float> weights(layout.count, 0);
-    for (std::size_t i = 0; i < inverseMass.size(); ++i)
-        weights[layout.slot[i]] = isDriven[i] ? SLEEP_DRIVEN : inverseMass[i];
+std::vector<float> weightsOf(const SceneModel& model) {
+    const std::vector<bool> isDriven = rigid::driven::areDriven(model.scene);
+    std::vector<float> weights(model.layout.count, 0);
+    for (std::size_t i = 0; i < isDriven.size(); ++i)
+        weights[model.layout.slot[i]] = isDriven[i] ? SLEEP_DRIVEN : model.inverseMass[i];
     return weights;
 }
 
@@ -175,25 +169,23 @@ void setContents(ProgramBuilder& program, BufferId buffer, std::span<const std::
 
 } // namespace
 
-std::shared_ptr<Sleep> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                           const ParticleBuffers& particles) {
-    const StateLayout& layout = particles.layout;
+std::shared_ptr<Sleep> add(ProgramBuilder& program, const SceneModel& model) {
+    const StateLayout& layout = model.layout;
     const auto count = static_cast<std::uint32_t>(layout.count);
     auto sleep = std::make_shared<Sleep>();
     sleep->push.count = count;
     sleep->push.groups = groupsOf(count, GROUP_ITEMS);
     sleep->push.passes = mostPasses; // unused ones have no groups
-    sleep->push.substeps = settings.substeps;
-    const std::vector<float> weights = weightsOf(scene, layout);
+    sleep->push.substeps = model.settings.substeps;
     std::vector<std::uint32_t> groups(sleep->push.groups);
     std::iota(groups.begin(), groups.end(), 0u);
     layout::SleepState state{};
     state.listed = sleep->push.groups;
     sleep->state = program.upload("sleep.state", std::vector{state});
-    sleep->weights = program.upload("sleep.weights", weights);
-    sleep->limits = program.upload("sleep.limits", limitsOf(scene, layout));
+    sleep->weights = program.upload("sleep.weights", weightsOf(model));
+    sleep->limits = program.upload("sleep.limits", limitsOf(model.scene, layout));
     sleep->rests = program.scratch<layout::vec4>("sleep.rests", count);
-    sleep->components = program.upload("sleep.components", componentsOf(scene, layout, weights));
+    sleep->components = program.upload("sleep.components", componentsOf(model));
     sleep->islands = program.scratch<std::uint32_t>("sleep.islands", count);
     sleep->least = program.scratch<std::uint32_t>("sleep.least", count);
     sleep->marks = program.scratch<std::uint32_t>("sleep.marks", count);

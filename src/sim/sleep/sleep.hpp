@@ -7,7 +7,7 @@
 #pragma once
 
 #include "sim/constraints/attachment.hpp"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 #include "sim/rigid/colliders.hpp"
 
 namespace sinew::sim::sleep {
@@ -32,9 +32,8 @@ struct Sleep {
     std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`
 };
 
-/// Appends passes before those of the solver, whose state is `particles`.
-std::shared_ptr<Sleep> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                           const ParticleBuffers& particles);
+/// Adds the buffers.
+std::shared_ptr<Sleep> add(ProgramBuilder& program, const SceneModel& model);
 
 /// Appends the passes at the start of a step; none if particles.sleep is null. Later passes run only while a
 /// particle is awake.

@@ -1,7 +1,6 @@
 // Grids of equal shape and material are marched in one dispatch: chunks differ only in where they begin.
 #include "sim/solvers/batches.hpp"
-#include "sim/lattice/grids.hpp"
-#include "sim/model/state.hpp"
+#include "sim/model/grids.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -117,7 +116,7 @@ bool isResident(const Scene& scene, const Settings& settings, std::span<const st
         settings.hostColliders > 0 || !scene.tethers.empty() || !scene.colliders.empty() ||
         !scene.driven.empty())
         return false;
-    if (grids.empty() || lattice::listedParticles(scene, grids) > 0) return false;
+    if (grids.empty() || listedParticles(scene, grids) > 0) return false;
     return std::ranges::all_of(grids, [&](std::uint32_t g) {
         const Grid& grid = scene.grids[g];
         return !grid.isCuttable && std::uint64_t{lattice::place(grid, 0).slots} * 2 * sizeof(layout::vec4) <=
@@ -125,15 +124,16 @@ bool isResident(const Scene& scene, const Settings& settings, std::span<const st
     });
 }
 
-Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,
-                  const stiffness::Shares& shares, Residence residence) {
-    const std::vector<lattice::Box> boxes = lattice::boxesOf(scene, grids);
+Batches batchesOf(const SceneModel& model, const stiffness::Shares& shares, Residence residence) {
+    const Scene& scene = model.scene;
+    const Settings& settings = model.settings;
+    const std::vector<std::uint32_t>& grids = model.grids;
     const bool resident = residence == Residence::sharedMemory;
     Batches result;
-    result.cells.resize(paddedCount(boxes.back().end), 0);
+    result.cells.resize(paddedCount(model.boxes.back().end), 0);
     for (std::size_t g = 0; g < grids.size(); ++g) {
         const Grid& grid = scene.grids[grids[g]];
-        const lattice::Box& box = boxes[g];
+        const lattice::Box& box = model.boxes[g];
         lattice::writeCells(grid, box, result.cells);
         layout::LatticePush push = pushOf(scene, grid, box, shares.ofLinks, shares.ofCells[grids[g]]);
         if (resident) {

@@ -1,7 +1,7 @@
 // Dispatches of the grids of a scene: `split` takes all grids of one shape and material in one.
 #pragma once
 
-#include "sim/lattice/placement.hpp"
+#include "sim/model/scene_model.hpp"
 #include "sim/stiffness/shares.hpp"
 #include "sinew/scene.hpp"
 
@@ -37,7 +37,6 @@ bool isResident(const Scene& scene, const Settings& settings, std::span<const st
 /// The memory that holds bodies between substeps.
 enum class Residence { memory, sharedMemory };
 
-Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,
-                  const stiffness::Shares& shares, Residence residence);
+Batches batchesOf(const SceneModel& model, const stiffness::Shares& shares, Residence residence);
 
 } // namespace sinew::sim::solvers

@@ -77,22 +77,17 @@ void addSweeps(ProgramBuilder& program, const Work& work, const Settings& settin
     }
 }
 
-StateLayout stateLayout(const Scene& scene) {
-    StateLayout layout = orderedLayout(scene.particles.size());
-    layout.count = paddedCount(scene.particles.size() + 1);
-    return layout;
-}
-
-void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-               const ParticleBuffers& particles) {
+void addPasses(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles) {
+    const Scene& scene = model.scene;
+    const Settings& settings = model.settings;
     Work work{.particles = particles,
-              .edges = constraints::distance::uploadColors(program, scene, settings, particles.layout),
-              .bends = constraints::bend::uploadColors(program, scene, settings, particles.layout),
+              .edges = constraints::distance::uploadColors(program, model),
+              .bends = constraints::bend::uploadColors(program, model),
               .planes = rigid::planes::add(program, scene, particles.layout),
               .corrections =
                   program.scratch<layout::ParticleCorrection>("state.displacements", particles.layout.count)};
     const auto attachments = constraints::attachment::add(program, scene, particles.layout);
-    const auto tethers = constraints::tether::add(program, scene, particles.layout);
+    const auto tethers = constraints::tether::add(program, model);
     const auto colliders = rigid::colliders::add(program, scene, settings, particles.layout);
     work.hasColliders = colliders.count > 0;
     const bool isDamped = scene.dampingTime > 0 && !work.edges.colors.empty();
@@ -119,10 +114,9 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
 
 } // namespace
 
-SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
-    return {stateLayout(scene), inverseMass,
-            [&scene, settings](ProgramBuilder& program, const ParticleBuffers& particles) {
-                addPasses(program, scene, settings, particles);
+SolverPlan plan(const SceneModel& model) {
+    return {model.inverseMass, [&model](ProgramBuilder& program, const ParticleBuffers& particles) {
+                addPasses(program, model, particles);
             }};
 }
 

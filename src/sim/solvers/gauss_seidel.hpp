@@ -10,6 +10,6 @@ namespace sinew::sim::solvers::gaussSeidel {
 
 /// The state is in the order of the scene, followed by at least one slot that never moves, for padding
 /// colors. The w of positions is inverse mass [1/kg].
-SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass);
+SolverPlan plan(const SceneModel& model);
 
 } // namespace sinew::sim::solvers::gaussSeidel

@@ -24,15 +24,15 @@ struct Corrections {
     std::uint32_t slotCount = 0;
 };
 
-Corrections addCorrections(ProgramBuilder& program, const Scene& scene, const Settings& settings) {
-    constraints::CorrectionSlots slots(scene.particles.size());
-    Corrections result{.distances = constraints::distance::reserve(scene, slots),
-                       .bends = constraints::bend::reserve(scene, slots)};
+Corrections addCorrections(ProgramBuilder& program, const SceneModel& model) {
+    constraints::CorrectionSlots slots(model.scene.particles.size());
+    Corrections result{.distances = constraints::distance::reserve(model, slots),
+                       .bends = constraints::bend::reserve(model, slots)};
     result.slotCount = slots.size();
     if (result.slotCount == 0) return result;
-    const std::vector<float> weights = slots.weights(settings);
-    constraints::distance::upload(program, scene, weights, result.distances);
-    constraints::bend::upload(program, scene, weights, result.bends);
+    const std::vector<float> weights = slots.weights(model.settings);
+    constraints::distance::upload(program, model, weights, result.distances);
+    constraints::bend::upload(program, model, weights, result.bends);
     const constraints::CorrectionSlots::Lists lists = slots.lists(weights);
     result.corrections = program.scratch<layout::vec4>("corrections", result.slotCount);
     result.incidences = program.upload("incidences", lists.incidences);
@@ -52,12 +52,13 @@ void addIteration(ProgramBuilder& program, const ParticleBuffers& particles, con
                      layout::CountPush{particles.count});
 }
 
-void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-               const ParticleBuffers& particles) {
-    const Corrections corrections = addCorrections(program, scene, settings);
+void addPasses(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles) {
+    const Scene& scene = model.scene;
+    const Settings& settings = model.settings;
+    const Corrections corrections = addCorrections(program, model);
     const rigid::planes::Contacts contacts = rigid::planes::addContacts(program, scene);
     const auto attachments = constraints::attachment::add(program, scene, particles.layout);
-    const auto tethers = constraints::tether::add(program, scene, particles.layout);
+    const auto tethers = constraints::tether::add(program, model);
     auto colliders = rigid::colliders::add(program, scene, settings, particles.layout);
     rigid::colliders::addMemory(program, colliders);
     const std::uint32_t iterations = corrections.slotCount > 0 ? settings.iterations : 1;
@@ -86,10 +87,9 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
 
 } // namespace
 
-SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
-    return {orderedLayout(scene.particles.size()), inverseMass,
-            [&scene, settings](ProgramBuilder& program, const ParticleBuffers& particles) {
-                addPasses(program, scene, settings, particles);
+SolverPlan plan(const SceneModel& model) {
+    return {model.inverseMass, [&model](ProgramBuilder& program, const ParticleBuffers& particles) {
+                addPasses(program, model, particles);
             }};
 }
 

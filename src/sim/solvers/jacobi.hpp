@@ -9,6 +9,6 @@
 namespace sinew::sim::solvers::jacobi {
 
 /// The state is in the order of the scene; the w of positions is inverse mass [1/kg].
-SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass);
+SolverPlan plan(const SceneModel& model);
 
 } // namespace sinew::sim::solvers::jacobi

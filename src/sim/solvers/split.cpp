@@ -15,7 +15,8 @@
 #include "sim/cutting/cut_lists.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/grabs/grab.hpp"
-#include "sim/lattice/grids.hpp"
+#include "sim/model/grids.hpp"
+#include "sim/model/touching.hpp"
 #include "sim/rigid/colliders.hpp"
 #include "sim/rigid/driven.hpp"
 #include "sim/rigid/planes.hpp"
@@ -40,25 +41,16 @@ struct Gather {
     bool alternatesVelocities = false;
 };
 
-// Data of a scene for `split`, computed once a program.
-struct Division {
-    const std::vector<float>& inverseMass;
-    std::vector<std::uint32_t> grids; // computed ones
-    stiffness::Shares shares;
-};
-
 // Data that all dispatches of a program share.
 struct Common {
     ProgramBuilder& program;
-    const Scene& scene;
-    const Settings& settings;
-    const Division& division;
-    const StateLayout& layout;
+    const SceneModel& model;
+    const stiffness::Shares& shares;
     rigid::planes::Planes planes;
 
     Gather gather() const {
-        ProgramBuilder::Constants constants = remainderConstants(layout);
-        if (settings.keepsForces) constants.merge(forces::pullConstants());
+        ProgramBuilder::Constants constants = remainderConstants(model.layout);
+        if (model.settings.keepsForces) constants.merge(forces::pullConstants());
         constants.merge(planes.constants());
         return {{planes.planes, planes.contactOffsets}, std::move(constants), {}};
     }
@@ -66,20 +58,20 @@ struct Common {
 
 // The distance constraints outside computed grids, between slots.
 std::vector<constraints::distance::GatherLink> listedLinks(const Common& common) {
-    const Scene& scene = common.scene;
-    const Division& division = common.division;
-    const std::vector<std::uint32_t>& slot = common.layout.slot;
+    const SceneModel& model = common.model;
+    const Scene& scene = model.scene;
+    const std::vector<std::uint32_t>& slot = model.layout.slot;
     std::vector<bool> isComputed(scene.distances.size());
-    for (const std::uint32_t grid : division.grids) {
+    for (const std::uint32_t grid : model.grids) {
         const auto first = isComputed.begin() + scene.grids[grid].firstDistance;
         std::fill(first, first + scene.grids[grid].distanceCount, true);
     }
     std::vector<constraints::distance::GatherLink> links;
     for (std::size_t c = 0; c < scene.distances.size(); ++c) {
         const DistanceConstraint& constraint = scene.distances[c];
-        if (isComputed[c] || !constraints::distance::canMove(constraint, division.inverseMass)) continue;
+        if (isComputed[c] || !constraints::distance::canMove(constraint, model.inverseMass)) continue;
         links.push_back({slot[constraint.a], slot[constraint.b], constraint.restLength,
-                         stiffness::stiffnessOf(constraint.compliance), division.shares.ofLinks[c]});
+                         stiffness::stiffnessOf(constraint.compliance), common.shares.ofLinks[c]});
     }
     return links;
 }
@@ -159,10 +151,10 @@ Gather generalGather(const Common& common, std::span<const constraints::distance
     gather.buffers.push_back(bends.degree > 0 ? common.program.upload("bends", bends.bends) : unbound);
     if (isCut && bends.degree > 0)
         cutting::addListFilter(common.program, gather.buffers.back(), allOf(bends), true);
-    gather.alternatesVelocities = !listed.empty() && common.scene.dampingTime > 0;
+    gather.alternatesVelocities = !listed.empty() && common.model.scene.dampingTime > 0;
     gather.constants[hasDampingId] = gather.alternatesVelocities;
     setDispatch(common, gather, isRanged ? k::gatherSplitRanged : k::gatherSplit,
-                layout::DampedSubstepPush{count, 0, common.scene.dampingTime});
+                layout::DampedSubstepPush{count, 0, common.model.scene.dampingTime});
     return gather;
 }
 
@@ -184,9 +176,9 @@ Gather packedGather(const Common& common, const constraints::distance::GatherLin
 // Gather of the first `count` particles of the state.
 Gather listedGather(const Common& common, std::uint32_t count) {
     const auto listed = listedLinks(common);
-    const auto bends = constraints::bend::gatherBends(common.scene, common.division.inverseMass,
-                                                      stiffness::omegaOfBends(common.settings));
-    const bool isDamped = !listed.empty() && common.scene.dampingTime > 0;
+    const auto bends =
+        constraints::bend::gatherBends(common.model, stiffness::omegaOfBends(common.model.settings));
+    const bool isDamped = !listed.empty() && common.model.scene.dampingTime > 0;
     const bool isRanged = constraints::distance::isIrregular(listed, count);
     if (listed.empty() || bends.degree > 0 || isDamped || isRanged ||
         cutting::haveLists(common.program.program(), count))
@@ -204,8 +196,7 @@ struct Grids {
 };
 
 Grids uploadGrids(const Common& common, Residence residence) {
-    Grids grids{.batches = batchesOf(common.scene, common.settings, common.division.grids,
-                                     common.division.shares, residence)};
+    Grids grids{.batches = batchesOf(common.model, common.shares, residence)};
     grids.cells = common.program.upload("grid.cells", grids.batches.cells);
     return grids;
 }
@@ -228,13 +219,13 @@ Gather gridGather(const Common& common, const Batch& batch, BufferId cells) {
 
 std::vector<Gather> addGathers(const Common& common) {
     std::vector<Gather> gathers;
-    const std::uint32_t listed = lattice::listedParticles(common.scene, common.division.grids);
+    const std::uint32_t listed = listedParticles(common.model.scene, common.model.grids);
     if (listed > 0) gathers.push_back(listedGather(common, listed));
-    if (common.division.grids.empty()) return gathers;
+    if (common.model.grids.empty()) return gathers;
     const auto [batches, cells] = uploadGrids(common, Residence::memory);
     for (const Batch& batch : batches.batches) {
         gathers.push_back(gridGather(common, batch, cells));
-        setDispatch(common, gathers.back(), kernelFor(batch, common.settings.forms), batch.push);
+        setDispatch(common, gathers.back(), kernelFor(batch, common.model.settings.forms), batch.push);
     }
     return gathers;
 }
@@ -249,7 +240,7 @@ void addResident(const Common& common, const ParticleBuffers& particles) {
         std::vector<BufferId> buffers{particles.positions, particles.velocities, particles.step};
         buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
         buffers.push_back(common.program.upload("grid.bodies", batch.bodies));
-        const vk::ShaderCode& code = residentKernelFor(batch, common.settings.forms);
+        const vk::ShaderCode& code = residentKernelFor(batch, common.model.settings.forms);
         layout::LatticePush push = batch.push;
         push.count = static_cast<std::uint32_t>(batch.bodies.size()) * vk::readInterface(code).groupSize[0];
         common.program.dispatch(code, push.count, buffers, push, gather.constants);
@@ -270,21 +261,22 @@ void addLinks(const std::vector<Gather>& gathers, const ParticleBuffers& current
 
 // Adds the colliders other than planes.
 rigid::colliders::Colliders addRigid(const Common& common) {
-    auto rigid = rigid::colliders::add(common.program, common.scene, common.settings, common.layout);
+    auto rigid =
+        rigid::colliders::add(common.program, common.model.scene, common.model.settings, common.model.layout);
     rigid::colliders::addMemory(common.program, rigid);
     return rigid;
 }
 
 void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     ProgramBuilder& program = common.program;
-    const StateLayout& layout = common.layout;
-    const std::uint32_t substeps = common.settings.substeps;
+    const StateLayout& layout = common.model.layout;
+    const std::uint32_t substeps = common.model.settings.substeps;
     const std::vector<Gather> gathers = addGathers(common);
     const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
-    const auto attachments = constraints::attachment::add(program, common.scene, layout);
-    const auto tethers = constraints::tether::add(program, common.scene, layout);
+    const auto attachments = constraints::attachment::add(program, common.model.scene, layout);
+    const auto tethers = constraints::tether::add(program, common.model);
     const auto rigid = addRigid(common);
-    const auto driven = rigid::driven::add(program, common.scene, layout, rigid);
+    const auto driven = rigid::driven::add(program, common.model.scene, layout, rigid);
     sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, next = particles;
     next.positions = program.scratch<layout::vec4>("state.next_positions", positionCount(layout));
@@ -368,22 +360,21 @@ struct Touching {
 };
 
 Touching addTouching(const Common& common, const ParticleBuffers& particles) {
-    namespace pairs = collision::particle_contacts;
     namespace faces = collision::face_contacts;
     namespace edges = collision::edge_contacts;
-    const Scene& scene = common.scene;
-    const bool hasPairs = pairs::areIn(scene), hasEdges = edges::areIn(scene);
+    const SceneModel& model = common.model;
     Touching touching;
-    if (faces::areIn(scene)) touching.faces = faces::add(common.program, scene, common.settings, particles);
-    if (hasEdges)
-        touching.edges = edges::add(common.program, scene, common.settings, particles, *touching.faces);
-    if (!hasPairs) {
-        const std::vector<std::uint32_t> slots = slotsInOrder(common.layout);
-        touching.planes = rigid::planes::add(common.program, scene, common.layout);
-        touching.particles = common.program.upload("state.particles", slots);
-        touching.particleCount = static_cast<std::uint32_t>(slots.size());
+    if (model.facesTouch()) touching.faces = faces::add(common.program, model, particles);
+    if (const auto meeting = edges::edgesThatMeet(model); !meeting.empty())
+        touching.edges = edges::add(common.program, model, meeting, particles, *touching.faces);
+    if (model.particlesTouch()) {
+        touching.pairs = collision::particle_contacts::add(common.program, model);
+        return touching;
     }
-    if (hasPairs) touching.pairs = pairs::add(common.program, scene, common.settings, common.layout);
+    const std::vector<std::uint32_t> slots = slotsInOrder(model.layout);
+    touching.planes = rigid::planes::add(common.program, model.scene, model.layout);
+    touching.particles = common.program.upload("state.particles", slots);
+    touching.particleCount = static_cast<std::uint32_t>(slots.size());
     return touching;
 }
 
@@ -392,18 +383,18 @@ Touching addTouching(const Common& common, const ParticleBuffers& particles) {
 // velocities end in another one, so that contacts can read the old ones.
 void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles) {
     ProgramBuilder& program = common.program;
-    const StateLayout& layout = common.layout;
-    const std::uint32_t substeps = common.settings.substeps;
+    const StateLayout& layout = common.model.layout;
+    const std::uint32_t substeps = common.model.settings.substeps;
     Touching contacts = addTouching(common, particles);
     if (particles.sleep) contacts.joinIslands(*particles.sleep);
     if (contacts.faces) collision::addFaceFilter(program, *contacts.faces);
     if (contacts.edges) collision::addEdgeFilter(program, *contacts.edges);
     if (contacts.pairs) collision::addContactFilter(program, *contacts.pairs);
     const std::vector<Gather> gathers = addGathers(common);
-    const auto attachments = constraints::attachment::add(program, common.scene, layout);
-    const auto tethers = constraints::tether::add(program, common.scene, layout);
+    const auto attachments = constraints::attachment::add(program, common.model.scene, layout);
+    const auto tethers = constraints::tether::add(program, common.model);
     const auto rigid = addRigid(common);
-    const auto driven = rigid::driven::add(program, common.scene, layout, rigid);
+    const auto driven = rigid::driven::add(program, common.model.scene, layout, rigid);
     sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, predicted = particles;
     predicted.positions = program.scratch<layout::vec4>("state.next_positions", positionCount(layout));
@@ -436,17 +427,16 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     program.atEnd([&program, contacts] { contacts.addPublishing(program); });
 }
 
-void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-               const Division& division, const ParticleBuffers& particles) {
-    program.program().sweeps = scene.distances.empty() ? 0 : settings.substeps;
-    if (contactsFollow(scene, settings)) {
-        addTouchingSubsteps({program, scene, settings, division, particles.layout, {}}, particles);
+void addPasses(ProgramBuilder& program, const SceneModel& model, const stiffness::Shares& shares,
+               const ParticleBuffers& particles) {
+    const Scene& scene = model.scene;
+    program.program().sweeps = scene.distances.empty() ? 0 : model.settings.substeps;
+    if (model.particlesTouch() || model.facesTouch() || model.settings.keepsForces) {
+        addTouchingSubsteps({program, model, shares, {}}, particles);
         return;
     }
-    const Common common{program,          scene,
-                        settings,         division,
-                        particles.layout, rigid::planes::add(program, scene, particles.layout)};
-    if (isResident(scene, settings, division.grids))
+    const Common common{program, model, shares, rigid::planes::add(program, scene, model.layout)};
+    if (isResident(scene, model.settings, model.grids))
         addResident(common, particles);
     else
         addSubsteps(common, particles);
@@ -455,19 +445,15 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
 } // namespace
 
 bool contactsFollow(const Scene& scene, const Settings& settings) {
-    return collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene) ||
-           settings.keepsForces;
+    return particlesTouch(scene) || facesTouch(scene) || settings.keepsForces;
 }
 
-SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
-    Division division{inverseMass, lattice::computedGrids(scene, settings),
-                      stiffness::sharesOf(scene, settings, inverseMass)};
-    StateLayout layout = lattice::layoutOf(scene, division.grids);
-    std::vector<float> times = division.shares.times;
-    return {std::move(layout), std::move(times),
-            [&scene, settings, division = std::move(division)](ProgramBuilder& program,
-                                                               const ParticleBuffers& particles) {
-                addPasses(program, scene, settings, division, particles);
+SolverPlan plan(const SceneModel& model) {
+    stiffness::Shares shares = stiffness::sharesOf(model.scene, model.settings, model.inverseMass);
+    std::vector<float> times = shares.times;
+    return {std::move(times),
+            [&model, shares = std::move(shares)](ProgramBuilder& program, const ParticleBuffers& particles) {
+                addPasses(program, model, shares, particles);
             }};
 }
 

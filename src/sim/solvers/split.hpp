@@ -10,7 +10,7 @@ namespace sinew::sim::solvers::split {
 /// Free particles and bodies with listed links come first, in the order of the scene, then a dense box for
 /// each body on a grid (lattice/placement.hpp). Positions hold x + theta h v and in w tau [s^2], which clamps
 /// a particle's links (solvers/shares.hpp).
-SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass);
+SolverPlan plan(const SceneModel& model);
 
 /// Whether the links of a substep leave predicted positions, x: if something touches or forces are kept,
 /// further passes end the substep.

@@ -2,11 +2,10 @@
 // constraint a loop there.
 #include "sinew/substeps.hpp"
 
-#include "sim/collision/face_contacts.hpp"
 #include "sim/collision/loads.hpp"
-#include "sim/collision/particle_contacts.hpp"
 #include "sim/core/complaints.hpp"
 #include "sim/core/counted.hpp"
+#include "sim/model/touching.hpp"
 #include "sim/stiffness/folds.hpp"
 #include "sim/stiffness/shares.hpp"
 #include "sim/stiffness/terms.hpp"
@@ -139,7 +138,7 @@ Limits limitsOf(const Terms& terms) {
 
 // Whether particles can rest on each other, or on faces.
 bool canTouch(const Scene& scene) {
-    return collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene);
+    return particlesTouch(scene) || facesTouch(scene);
 }
 
 // The longest substeps that contacts allow.

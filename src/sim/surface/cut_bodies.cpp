@@ -1,7 +1,6 @@
 // Reads grids and their skins; for each grid the first skin that can be clipped.
 #include "sim/surface/cut_bodies.hpp"
 
-#include "sim/lattice/grids.hpp"
 #include "sim/surface/lattice_faces.hpp"
 #include "sim/surface/skin_complex.hpp"
 #include "sim/surface/skin_slots.hpp"
@@ -121,17 +120,14 @@ private:
 
 } // namespace
 
-CutBodies readCutBodies(const Scene& scene, const Settings& settings, const StateLayout& layout,
-                        std::span<const layout::CutPush> runs) {
-    Reader reader(scene, layout, runs);
-    const std::vector<std::uint32_t> grids = lattice::computedGrids(scene, settings);
-    const std::vector<lattice::Box> boxes = lattice::boxesOf(scene, grids);
-    for (std::size_t g = 0; g < grids.size(); ++g) {
-        const Grid& grid = scene.grids[grids[g]];
-        if (grid.isCuttable && !lattice::isSheet(grid)) reader.add(grid, boxes[g]);
+CutBodies readCutBodies(const SceneModel& model, std::span<const layout::CutPush> runs) {
+    Reader reader(model.scene, model.layout, runs);
+    for (std::size_t g = 0; g < model.grids.size(); ++g) {
+        const Grid& grid = model.scene.grids[model.grids[g]];
+        if (grid.isCuttable && !lattice::isSheet(grid)) reader.add(grid, model.boxes[g]);
     }
     CutBodies bodies = reader.finish();
-    bodies.room = settings.cutSurfaceRoom;
+    bodies.room = model.settings.cutSurfaceRoom;
     return bodies;
 }
 

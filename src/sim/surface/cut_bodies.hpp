@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/model/state.hpp"
+#include "sim/model/scene_model.hpp"
 
 #include <span>
 
@@ -36,7 +36,6 @@ struct CutBodies {
 
 /// Reads cuttable bodies whose skin can be clipped; others are left out. `runs` are those of all cuttable
 /// bodies.
-CutBodies readCutBodies(const Scene& scene, const Settings& settings, const StateLayout& layout,
-                        std::span<const layout::CutPush> runs);
+CutBodies readCutBodies(const SceneModel& model, std::span<const layout::CutPush> runs);
 
 } // namespace sinew::sim::surface

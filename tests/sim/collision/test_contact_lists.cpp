@@ -3,6 +3,7 @@
 #include "common/layout.h"
 #include "sim/collision/contact_lists.hpp"
 #include "sim/device/gpu_executor.hpp"
+#include "sim/model/components.hpp"
 #include "sim/scenes.hpp"
 #include "support/device.hpp"
 
@@ -376,7 +377,7 @@ TEST(ExcludedPairs, AreLinksAndWhatIsNearAtRestWithinABody) {
     scene.particles.push_back({.position = {0.02f, 0, 0}}); // inside the body, but not part of it
     const std::vector<float> radii(scene.particles.size(), 0.09f);
     const StateLayout layout = orderedLayout(scene.particles.size());
-    const lists::Exclusions excluded = lists::excludedPairs(scene, radii, layout);
+    const lists::Exclusions excluded = lists::excludedPairs(scene, linkedBodies(scene), radii, layout);
     ASSERT_GE(excluded.size(), layout.count + 1);
     const auto at = [&](std::uint32_t i) { return test::toVector(scene.particles[i].position); };
     for (std::uint32_t i = 0; i < single; ++i) {
@@ -391,13 +392,15 @@ TEST(ExcludedPairs, AreLinksAndWhatIsNearAtRestWithinABody) {
 TEST(ExcludedPairs, OfParticlesThatTouchNothingAndOfLooseOnesAreNone) {
     Scene scene = test::chain(5);
     const StateLayout layout = orderedLayout(5);
-    EXPECT_TRUE(lists::excludedPairs(scene, std::vector<float>(5, -1.0f), layout).empty());
-    const auto excluded =
-        lists::excludedPairs(scene, std::vector<float>{0.01f, 0.01f, -1, 0.01f, 0.01f}, layout);
+    EXPECT_TRUE(
+        lists::excludedPairs(scene, linkedBodies(scene), std::vector<float>(5, -1.0f), layout).empty());
+    const auto excluded = lists::excludedPairs(scene, linkedBodies(scene),
+                                               std::vector<float>{0.01f, 0.01f, -1, 0.01f, 0.01f}, layout);
     EXPECT_TRUE(isExcluded(excluded, 0, 1) && isExcluded(excluded, 4, 3));
     EXPECT_FALSE(isExcluded(excluded, 1, 2) || isExcluded(excluded, 2, 3) || isExcluded(excluded, 0, 3));
     scene.distances.clear();
-    EXPECT_TRUE(lists::excludedPairs(scene, std::vector<float>(5, 1.0f), layout).empty());
+    EXPECT_TRUE(
+        lists::excludedPairs(scene, linkedBodies(scene), std::vector<float>(5, 1.0f), layout).empty());
 }
 
 TEST(HashGrid, KeepsItsCellsSmallWhereAFewParticlesAreLarge) {

@@ -4,6 +4,8 @@
 #include "common/layout.h"
 #include "sim/collision/edge_contacts.hpp"
 #include "sim/device/gpu_executor.hpp"
+#include "sim/model/components.hpp"
+#include "sim/model/inverse_masses.hpp"
 #include "sinew/bodies.hpp"
 #include "support/device.hpp"
 
@@ -329,11 +331,12 @@ TEST(ContactEdges, AreThoseOfFacesButForTheInsidesOfPlanesThatNeverMove) {
     addMeshCollider(scene, {.vertices = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}},
                             .triangles = {{0, 1, 2}, {0, 2, 3}},
                             .thickness = 0.01f});
-    EXPECT_EQ(collision::edge_contacts::edgesOf(scene).size(), 4u) << "not the diagonal";
+    EXPECT_EQ(collision::edge_contacts::edgesOf(scene, inverseMasses(scene)).size(), 4u)
+        << "not the diagonal";
     scene.particles[3].position.y = 0.1f;
-    EXPECT_EQ(collision::edge_contacts::edgesOf(scene).size(), 5u) << "a crease";
+    EXPECT_EQ(collision::edge_contacts::edgesOf(scene, inverseMasses(scene)).size(), 5u) << "a crease";
     addCloth(scene, {.origin = {0, 1, 0}, .size = {3, 3}, .spacing = 0.1f, .thickness = 0.04f});
-    const auto all = collision::edge_contacts::edgesOf(scene);
+    const auto all = collision::edge_contacts::edgesOf(scene, inverseMasses(scene));
     EXPECT_EQ(all.size(), 5u + 16u) << "6 + 6 along rows and columns, 4 diagonals";
     for (const lists::Edge& edge : all) EXPECT_EQ(edge.moves, edge.ends[0] >= 4);
 }
@@ -343,8 +346,8 @@ TEST(ContactEdges, AreThoseOfFacesButForTheInsidesOfPlanesThatNeverMove) {
 TEST(ContactEdges, OfABodyThatAreNearAtRestNeverTouch) {
     Scene scene;
     addCloth(scene, {.size = {5, 5}, .spacing = 0.1f, .thickness = 0.12f});
-    const auto edges = collision::edge_contacts::edgesOf(scene);
-    const auto excluded = collision::edge_contacts::excludedEdges(scene, edges);
+    const auto edges = collision::edge_contacts::edgesOf(scene, inverseMasses(scene));
+    const auto excluded = collision::edge_contacts::excludedEdges(scene, linkedBodies(scene), edges);
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
         const std::vector<std::uint32_t> partners(excluded.begin() + excluded[e],
                                                   excluded.begin() + excluded[e + 1]);

@@ -3,6 +3,7 @@
 #include "common/layout.h"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/device/gpu_executor.hpp"
+#include "sim/model/components.hpp"
 #include "sim/scenes.hpp"
 #include "sinew/bodies.hpp"
 #include "support/device.hpp"
@@ -492,8 +493,8 @@ TEST(ExcludedPoints, AreThoseOfTheBodyThatAreNearAtRest) {
     for (const Face& face : scene.faces)
         faces.push_back({face.particles[0], face.particles[1], face.particles[2], face.thickness});
     const std::vector<float> radii(scene.particles.size(), 0.04f);
-    const auto excluded =
-        collision::face_contacts::excludedPoints(scene, faces, radii, orderedLayout(scene.particles.size()));
+    const auto excluded = collision::face_contacts::excludedPoints(scene, linkedBodies(scene), faces, radii,
+                                                                   orderedLayout(scene.particles.size()));
     std::size_t near = 0;
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const std::array corners{faces[f].a, faces[f].b, faces[f].c};

@@ -5,6 +5,7 @@
 #include "sim/collision/interlocks.hpp"
 #include "sim/compile/compile.hpp"
 #include "sim/lattice/depths.hpp"
+#include "sim/model/components.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 #include "sinew/bodies.hpp"
@@ -62,8 +63,9 @@ collision::interlocks::Plan planOf(const Scene& scene) {
         radii[i] = scene.particles[i].radius > 0 ? scene.particles[i].radius : -1;
         ofParticles.push_back(radii[i]);
     }
-    const auto exclusions = collision::contact_lists::excludedPairs(scene, ofParticles, layout);
-    return collision::interlocks::find(scene, layout,
+    const std::vector<std::uint32_t> bodies = linkedBodies(scene);
+    const auto exclusions = collision::contact_lists::excludedPairs(scene, bodies, ofParticles, layout);
+    return collision::interlocks::find(scene, layout, bodies,
                                        collision::overlaps::find({.positions = x,
                                                                   .radii = radii,
                                                                   .inverseMasses = weights,

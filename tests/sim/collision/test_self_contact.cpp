@@ -6,6 +6,7 @@
 #include "sim/cutting/cut_body.hpp"
 #include "sim/cutting/cut_gaps.hpp"
 #include "sim/cutting/faced_bodies.hpp"
+#include "sim/model/components.hpp"
 #include "sim/scenes.hpp"
 #include "sinew/bodies.hpp"
 #include "sinew/holds.hpp"
@@ -318,7 +319,7 @@ TEST(SelfContact, LeavesWhatIsLinkedToACornerToTheLinks) {
         faces.push_back({face.particles[0], face.particles[1], face.particles[2], face.thickness});
     const std::size_t count = scene.particles.size();
     const auto rows = collision::face_contacts::excludedPoints(
-        scene, faces, std::vector<float>(count, spacing / 2), orderedLayout(count),
+        scene, linkedBodies(scene), faces, std::vector<float>(count, spacing / 2), orderedLayout(count),
         std::vector{CutRun{0, static_cast<std::uint32_t>(count), 5, 20}});
     const auto at = [&](std::uint32_t i) { return test::toVector(scene.particles[i].position); };
     for (std::size_t f = 0; f < faces.size(); ++f) {

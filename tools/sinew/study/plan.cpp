@@ -2,8 +2,8 @@
 #include "sinew/study/plan.hpp"
 
 #include "scenes/recovery.hpp"
-#include "sim/collision/particle_contacts.hpp"
 #include "sim/compile/compile.hpp"
+#include "sim/model/touching.hpp"
 #include "sinew/outputs.hpp"
 #include "sinew/ranges.hpp"
 #include "sinew/validate.hpp"
@@ -141,7 +141,7 @@ std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std:
 
 bool isOfContacts(const sim::Scene& scene) {
     return !scene.planes.empty() || !scene.colliders.empty() || !scene.faces.empty() ||
-           sim::collision::particle_contacts::areIn(scene);
+           sim::particlesTouch(scene);
 }
 
 sim::Settings settingsOfContacts(const StudyScene& scene, sim::Settings settings) {

@@ -1,7 +1,7 @@
 // Listed particles stand at the head of the state, boxes of grids behind them.
-#include "sim/lattice/grids.hpp"
+#include "sim/model/grids.hpp"
 
-namespace sinew::sim::lattice {
+namespace sinew::sim {
 
 namespace {
 
@@ -11,7 +11,7 @@ bool isFull(const Grid& grid) {
 
 // The rule from particles to slots, if the scene consists of equal full grids in a row.
 std::optional<EqualBoxes> equalBoxes(const Scene& scene, std::span<const std::uint32_t> grids,
-                                     std::span<const Box> boxes) {
+                                     std::span<const lattice::Box> boxes) {
     const Grid& first = scene.grids[grids[0]];
     const auto particles = static_cast<std::uint32_t>(first.node.size());
     if (!isFull(first) || scene.particles.size() != std::size_t{particles} * grids.size()) return {};
@@ -54,27 +54,27 @@ std::uint32_t listedParticles(const Scene& scene, std::span<const std::uint32_t>
     return static_cast<std::uint32_t>(count);
 }
 
-std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids) {
-    std::vector<Box> boxes;
+std::vector<lattice::Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids) {
+    std::vector<lattice::Box> boxes;
     auto first = static_cast<std::uint32_t>(paddedCount(listedParticles(scene, grids)));
     for (const std::uint32_t grid : grids) {
-        boxes.push_back(place(scene.grids[grid], first));
+        boxes.push_back(lattice::place(scene.grids[grid], first));
         first = boxes.back().end;
     }
     return boxes;
 }
 
-StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids) {
+StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids,
+                     std::span<const lattice::Box> boxes) {
     if (grids.empty()) return orderedLayout(scene.particles.size());
     constexpr std::uint32_t unset = 0xffffffffu;
-    const std::vector<Box> boxes = boxesOf(scene, grids);
     StateLayout layout{.slot = std::vector<std::uint32_t>(scene.particles.size(), unset),
                        .count = paddedCount(boxes.back().end),
                        .isInOrder = false};
     for (std::size_t g = 0; g < grids.size(); ++g) {
         const Grid& grid = scene.grids[grids[g]];
         for (std::size_t i = 0; i < grid.node.size(); ++i) {
-            const auto at = coordinates(grid, grid.node[i]);
+            const auto at = lattice::coordinates(grid, grid.node[i]);
             layout.slot[grid.firstParticle + i] = boxes[g].slot(at[0], at[1], at[2]);
         }
     }
@@ -85,4 +85,4 @@ StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids) {
     return layout;
 }
 
-} // namespace sinew::sim::lattice
+} // namespace sinew::sim

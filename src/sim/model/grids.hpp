@@ -7,18 +7,20 @@
 #include <span>
 #include <vector>
 
-namespace sinew::sim::lattice {
+namespace sinew::sim {
 
 /// Indices of the grids whose neighbours are computed, if the settings ask for it: those whose particles no
-/// other constraint touches.
+/// other constraint touches. Ascending.
 std::vector<std::uint32_t> computedGrids(const Scene& scene, const Settings& settings);
 
 /// Number of particles outside those grids; these come first in the state, in the order of the scene.
 std::uint32_t listedParticles(const Scene& scene, std::span<const std::uint32_t> grids);
 
-StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids);
-
 /// The box in the state of each of `grids`.
-std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids);
+std::vector<lattice::Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids);
 
-} // namespace sinew::sim::lattice
+/// The order of the particles, with the boxes of `grids`.
+StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids,
+                     std::span<const lattice::Box> boxes);
+
+} // namespace sinew::sim
