@@ -22,7 +22,27 @@ layout::CutPush pushOf(const CutRun& run) {
             .run = 0};
 }
 
-void addFilter(ProgramBuilder& program, const Contacts& contacts) {
+} // namespace
+
+bool canMeet(const StepProgram& program, const Scene& scene) {
+    if (program.cutting.links == BufferId{}) return false;
+    return std::ranges::any_of(scene.grids, [&](const Grid& grid) {
+        return grid.isCuttable && scene.particles[grid.firstParticle].radius > 0;
+    });
+}
+
+void addToTopology(ProgramBuilder& program, const Contacts& contacts) {
+    if (!contacts.isCuttable()) return;
+    CuttingBuffers& cutting = program.program().cutting;
+    const BufferId seen = contacts.lists.grid.detected;
+    if (std::ranges::find(cutting.contactsSeen, seen) == cutting.contactsSeen.end()) // fragments leave it too
+        cutting.contactsSeen.push_back(seen);
+    cutting.topology.push_back(contacts.lists.excluded);
+    program.addToState(contacts.lists.excluded, contacts.lists.excluded);
+}
+
+void addContactFilter(ProgramBuilder& program, const Contacts& contacts) {
+    if (!contacts.isCuttable()) return;
     const CuttingBuffers cutting = program.program().cutting;
     program.only(When::cut, [&] {
         for (std::uint32_t r = 0; r < cutting.runs.size(); ++r) {
@@ -35,27 +55,6 @@ void addFilter(ProgramBuilder& program, const Contacts& contacts) {
                                      push);
         }
     });
-}
-
-} // namespace
-
-bool canMeet(const StepProgram& program, const Scene& scene) {
-    if (program.cutting.links == BufferId{}) return false;
-    return std::ranges::any_of(scene.grids, [&](const Grid& grid) {
-        return grid.isCuttable && scene.particles[grid.firstParticle].radius > 0;
-    });
-}
-
-void addContactFilter(ProgramBuilder& program, const Contacts& contacts) {
-    if (!contacts.isCuttable()) return;
-    CuttingBuffers& cutting = program.program().cutting;
-    const BufferId seen = contacts.lists.grid.detected;
-    if (std::ranges::find(cutting.contactsSeen, seen) == cutting.contactsSeen.end()) // fragments leave it too
-        cutting.contactsSeen.push_back(seen);
-    cutting.topology.push_back(contacts.lists.excluded);
-    program.addToState(contacts.lists.excluded, contacts.lists.excluded);
-    addFilter(program, contacts);
-    program.atEnd([&program, contacts] { addFilter(program, contacts); }); // after links were restored
 }
 
 void addContactOpening(ProgramBuilder& program, const Contacts& contacts) {

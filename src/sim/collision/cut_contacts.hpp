@@ -7,10 +7,13 @@
 
 namespace sinew::sim::collision {
 
-/// Whether particles of cuttable bodies can touch. Call it after cutting::add.
+/// Whether particles of cuttable bodies can touch. Call it after cutting::addOpening.
 bool canMeet(const StepProgram& program, const Scene& scene);
 
-/// Appends, before the substeps, the update of excluded pairs. Nothing if no pair can touch across a cut.
+/// Makes the table of excluded pairs part of the topology. Nothing if no pair can touch across a cut.
+void addToTopology(ProgramBuilder& program, const particle_contacts::Contacts& contacts);
+/// Appends the update of excluded pairs: before the substeps of a step with a blade, and after links were
+/// restored.
 void addContactFilter(ProgramBuilder& program, const particle_contacts::Contacts& contacts);
 
 /// Appends, in the first substep after lists were made and before contacts are counted, the recording of new

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <functional>
 #include <optional>
 
 namespace sinew::sim::collision {
@@ -91,13 +90,6 @@ std::vector<layout::CutEdge> edgesOf(const CutRun& run, std::span<const layout::
     return result;
 }
 
-// Appends a dispatch before the substeps, and one after links were restored.
-void addTwice(ProgramBuilder& program, const std::function<void()>& addPass) {
-    const auto add = [&program, addPass] { program.only(When::cut, addPass); };
-    add();
-    program.atEnd(add);
-}
-
 void makeTopology(ProgramBuilder& program, BufferId seen, const std::vector<BufferId>& buffers) {
     CuttingBuffers& cutting = program.program().cutting;
     const auto has = [](const std::vector<BufferId>& list, BufferId buffer) {
@@ -111,10 +103,11 @@ void makeTopology(ProgramBuilder& program, BufferId seen, const std::vector<Buff
     }
 }
 
-// Appends the pass `code` that removes faces of one run from the search and adds others to it.
+// Appends the update by `code`, which removes faces of one run from the search and adds others to it.
 template <typename Part, typename PartOf>
-void addFilter(ProgramBuilder& program, const face_contacts::Contacts& contacts, const CutRun& run,
-               const vk::ShaderCode& code, const PartOf& partOf) {
+void appendFilter(std::vector<CutFilter>& filters, ProgramBuilder& program,
+                  const face_contacts::Contacts& contacts, const CutRun& run, const vk::ShaderCode& code,
+                  const PartOf& partOf) {
     const face_lists::Lists& lists = contacts.lists;
     const auto faces = facesOf<Part>(program, lists, partOf);
     if (faces.empty()) return;
@@ -129,8 +122,7 @@ void addFilter(ProgramBuilder& program, const face_contacts::Contacts& contacts,
         buffers.insert(buffers.end(),
                        {lists.faces, contacts.opened, contacts.rows.corners, contacts.rows.cornerEnds});
     const layout::CutFacesPush push{static_cast<std::uint32_t>(faces.size()), run.sliceStride, run.rowStride};
-    addTwice(program,
-             [&program, &code, buffers, push] { program.dispatch(code, push.count, buffers, push); });
+    filters.push_back({&code, std::move(buffers), push});
 }
 
 // Removes faces inside uncut bodies from the search.
@@ -146,20 +138,29 @@ void hideInner(ProgramBuilder& program, const face_contacts::Contacts& contacts)
 
 } // namespace
 
-void addFaceFilter(ProgramBuilder& program, const face_contacts::Contacts& contacts) {
+std::vector<CutFilter> faceFilters(ProgramBuilder& program, const face_contacts::Contacts& contacts) {
+    std::vector<CutFilter> filters;
     const std::vector<CutRun> runs = program.program().cutting.runs;
     for (const CutRun& run : runs)
         if (run.rowStride > 0)
-            addFilter<layout::CutSolidFace>(program, contacts, run, k::updateSolidFaces,
-                                            [&](std::uint32_t f, const layout::ContactFace& face) {
-                                                return contacts.isOfCells[f] ? solidOf(run, face)
-                                                                             : std::nullopt;
-                                            });
+            appendFilter<layout::CutSolidFace>(filters, program, contacts, run, k::updateSolidFaces,
+                                               [&](std::uint32_t f, const layout::ContactFace& face) {
+                                                   return contacts.isOfCells[f] ? solidOf(run, face)
+                                                                                : std::nullopt;
+                                               });
         else
-            addFilter<layout::CutFace>(
-                program, contacts, run, k::disableCutFaces,
+            appendFilter<layout::CutFace>(
+                filters, program, contacts, run, k::disableCutFaces,
                 [&](std::uint32_t, const layout::ContactFace& face) { return halfOf(run, face); });
     hideInner(program, contacts);
+    return filters;
+}
+
+void addFilters(ProgramBuilder& program, std::span<const CutFilter> filters) {
+    program.only(When::cut, [&] {
+        for (const CutFilter& filter : filters)
+            program.dispatch(*filter.code, filter.push.count, filter.buffers, filter.push);
+    });
 }
 
 void addFaceOpening(ProgramBuilder& program, const face_contacts::Contacts& contacts,
@@ -175,7 +176,8 @@ void addFaceOpening(ProgramBuilder& program, const face_contacts::Contacts& cont
     });
 }
 
-void addEdgeFilter(ProgramBuilder& program, const edge_contacts::Contacts& contacts) {
+std::vector<CutFilter> edgeFilters(ProgramBuilder& program, const edge_contacts::Contacts& contacts) {
+    std::vector<CutFilter> filters;
     const CuttingBuffers cutting = program.program().cutting;
     const auto& lists = contacts.lists;
     for (const CutRun& run : cutting.runs) {
@@ -185,13 +187,12 @@ void addEdgeFilter(ProgramBuilder& program, const edge_contacts::Contacts& conta
         makeTopology(program, lists.grid.detected, {lists.edges});
         const BufferId uploaded = program.upload("cut.edges", edges);
         const layout::CutFacesPush push{static_cast<std::uint32_t>(edges.size()), run.sliceStride, 0};
-        addTwice(program, [&program, cutting, lists, uploaded, push] {
-            program.dispatch(k::disableCutEdges, push.count,
-                             {cutting.links, cutting.savedLinks, uploaded, lists.radii, lists.edges,
-                              lists.grid.bounds, cutting.particles, cutting.pieces},
-                             push);
-        });
+        filters.push_back({&k::disableCutEdges,
+                           {cutting.links, cutting.savedLinks, uploaded, lists.radii, lists.edges,
+                            lists.grid.bounds, cutting.particles, cutting.pieces},
+                           push});
     }
+    return filters;
 }
 
 } // namespace sinew::sim::collision

@@ -11,13 +11,22 @@
 
 namespace sinew::sim::collision {
 
-/// Appends, before the substeps, the update of faces and edges that remain. Nothing if none of them can be
-/// cut. Call it after cutting::add.
-void addFaceFilter(ProgramBuilder& program, const face_contacts::Contacts& contacts);
+/// An update of the faces or edges that remain, for the bodies of one run.
+struct CutFilter {
+    const vk::ShaderCode* code = nullptr;
+    std::vector<BufferId> buffers;
+    layout::CutFacesPush push{};
+};
+
+/// Adds the buffers of these updates; none if no face, or no edge, can be cut. Call it after
+/// cutting::addOpening.
+std::vector<CutFilter> faceFilters(ProgramBuilder& program, const face_contacts::Contacts& contacts);
+std::vector<CutFilter> edgeFilters(ProgramBuilder& program, const edge_contacts::Contacts& contacts);
+/// Appends the updates: before the substeps of a step with a blade, and after links were restored.
+void addFilters(ProgramBuilder& program, std::span<const CutFilter> filters);
 /// Appends, in the first substep after lists were made, the recording of overlaps of new faces, which are
 /// removed slowly. Nothing if no cut makes faces.
 void addFaceOpening(ProgramBuilder& program, const face_contacts::Contacts& contacts,
                     const ParticleBuffers& predicted);
-void addEdgeFilter(ProgramBuilder& program, const edge_contacts::Contacts& contacts);
 
 } // namespace sinew::sim::collision

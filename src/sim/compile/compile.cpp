@@ -1,15 +1,12 @@
-// The list of features of a step, from top to bottom in the order in which the device runs them.
+// The stages of a step, from top to bottom in the order in which the device runs them.
 #include "sim/compile/compile.hpp"
 
 #include "common/layout.h"
 #include "kernels.hpp"
+#include "sim/compile/features.hpp"
 #include "sim/compile/publish.hpp"
 #include "sim/core/hash.hpp"
-#include "sim/cutting/cut.hpp"
-#include "sim/forces/forces.hpp"
-#include "sim/grabs/grab.hpp"
 #include "sim/lattice/cells.hpp"
-#include "sim/sleep/sleep.hpp"
 #include "sim/solvers/gauss_seidel.hpp"
 #include "sim/solvers/jacobi.hpp"
 #include "sim/solvers/solver_plan.hpp"
@@ -57,6 +54,23 @@ std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const 
     std::vector<layout::vec4> result(count);
     for (std::size_t i = 0; i < values.size(); ++i) result[layout.slot[i]] = values[i];
     return result;
+}
+
+// Adds the solver's state.
+ParticleBuffers addParticles(ProgramBuilder& program, const SceneModel& model,
+                             const solvers::SolverPlan& solver, const std::vector<Vec3>& start) {
+    const StateLayout& layout = model.layout;
+    return {.count = program.program().particleCount,
+            .step = program.program().parameters,
+            .positions = program.upload("state.positions", spread(positionsOf(start, solver.positionW),
+                                                                  layout, positionCount(layout))),
+            .velocities =
+                program.upload("state.velocities",
+                               spread(velocitiesOf(model.scene, model.inverseMass), layout, layout.count)),
+            .layout = layout,
+            .sleep = nullptr,
+            .grabs = nullptr,
+            .forces = nullptr};
 }
 
 // Settling resets the w of positions, which a solver may derive from the material, to the initial values: in
@@ -110,32 +124,23 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
 
     const solvers::SolverPlan solver = planOf(model);
     built.order = fnv1a(std::as_bytes(std::span(layout.slot)));
-    ParticleBuffers particles{
-        .count = built.particleCount,
-        .step = built.parameters,
-        .positions = program.upload(
-            "state.positions", spread(positionsOf(start, solver.positionW), layout, positionCount(layout))),
-        .velocities = program.upload("state.velocities",
-                                     spread(velocitiesOf(scene, inverseMass), layout, layout.count)),
-        .layout = layout,
-        .sleep = nullptr,
-        .grabs = nullptr,
-        .forces = nullptr};
-    if (settings.sleeps) particles.sleep = sleep::add(program, model);
+    Build build(program, model, features());
+    build.particles = addParticles(program, model, solver, start);
+    build.add(&Feature::buffers);
     program.beginPhase("begin");
-    program.updateParameters(particles.step);
+    program.updateParameters(built.parameters);
     program.fill(built.status, 0);
-    particles.grabs = grabs::add(program, model);
-    if (settings.keepsForces) particles.forces = forces::add(program, model);
-    cutting::add(program, model, particles);
+    build.add(&Feature::begin);
+    build.add(&Feature::cut); // begins a phase of its own
     program.beginPhase("solve");
-    solver.addPasses(program, particles);
+    solver.addPasses(build); // Feature::open, then the stages of each substep
     program.beginPhase("publish");
-    addPublishing(program, particles);
-    if (particles.forces) forces::addSums(program, model, *particles.forces);
-    if (solver.positionW != inverseMass) addWeights(program, particles);
-    sleep::finish(program, particles);
-    surface::addSkins(program, scene.skins);
+    addPublishing(build); // Feature::check between the check of the state and its copy
+    build.add(&Feature::cutEnd);
+    build.add(&Feature::end);
+    if (solver.positionW != inverseMass) addWeights(program, build.particles);
+    build.add(&Feature::finish);
+    surface::addSkins(build); // Feature::skinNormals between positions and normals, Feature::skinEnd
 
     if (scene.distances.empty()) program.skip("distance constraints");
     if (scene.damping == 0) program.skip("damping");

@@ -77,13 +77,15 @@ void addInitialising(ProgramBuilder& program, const ParticleBuffers& particles, 
     });
 }
 
-void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
+void addState(Build& build) {
+    ProgramBuilder& program = build.program;
+    const ParticleBuffers& particles = build.particles;
     const StepProgram& built = program.program();
     const SlotRule rule = slotRuleOf(program, particles);
     program.dispatch(k::measureState, particles.count,
                      {particles.positions, particles.velocities, built.status, particles.step, rule.table},
                      rule.push, rule.constants);
-    for (const auto& addChecked : program.checked()) addChecked();
+    build.add(&Feature::check);
     addKept(program);
     const bool hasVelocities = built.velocities != BufferId{};
     ProgramBuilder::Constants constants = remainderConstants(particles.layout);
@@ -98,8 +100,10 @@ void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
 
 } // namespace
 
-void addPublishing(ProgramBuilder& program, const ParticleBuffers& particles) {
-    addState(program, particles);
+void addPublishing(Build& build) {
+    ProgramBuilder& program = build.program;
+    const ParticleBuffers& particles = build.particles;
+    addState(build);
     if (program.keptForRepeat().empty())
         for (const BufferId buffer : {particles.positions, particles.velocities})
             program.addToState(buffer, buffer);
@@ -108,7 +112,6 @@ void addPublishing(ProgramBuilder& program, const ParticleBuffers& particles) {
         program.addToState(memory, saved);
         program.addToState(saved, saved);
     }
-    for (const auto& addEnding : program.endings()) addEnding();
 }
 
 } // namespace sinew::sim

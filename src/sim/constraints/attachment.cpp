@@ -18,46 +18,34 @@ bool isFinite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-layout::AttachmentPush pushOf(const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps) {
-    return {attachments.count, static_cast<float>(substep + 1) / static_cast<float>(substeps)};
+} // namespace
+
+void add(Build& build) {
+    const Scene& scene = build.model.scene;
+    if (scene.attachments.empty()) return;
+    std::vector<layout::AttachedParticle> items;
+    for (const Attachment& a : scene.attachments)
+        items.push_back({build.model.layout.slot[a.particle], a.compliance, a.maxForce, 0});
+    const Attachments& added = build.keep(
+        Attachments{.count = static_cast<std::uint32_t>(items.size()),
+                    .particles = build.program.upload("attachments", items),
+                    .anchors = build.program.scratch<layout::vec4>("attachments.anchors", 2 * items.size())});
+    build.program.updateAnchors(added.anchors);
 }
 
-// Appends the kernel. `velocities`: of the particles, or the corrections to them.
-void dispatch(ProgramBuilder& program, const vk::ShaderCode& code, const ParticleBuffers& particles,
-              BufferId velocities, const Attachments& attachments, const layout::AttachmentPush& push) {
-    if (attachments.count == 0) return;
-    std::vector<BufferId> buffers{attachments.particles, attachments.anchors, particles.positions, velocities,
+void addPass(Build& build, const Substep& substep) {
+    const Attachments* attachments = build.find<Attachments>();
+    if (!attachments) return;
+    const ParticleBuffers& particles = substep.particles;
+    std::vector<BufferId> buffers{attachments->particles, attachments->anchors, particles.positions,
+                                  substep.isOpen() ? substep.corrections : particles.velocities,
                                   particles.step};
     ProgramBuilder::Constants constants;
     forces::bindTo(particles, &forces::Forces::ofAttachments, buffers, constants);
-    program.dispatch(code, attachments.count, buffers, push, constants);
-}
-
-} // namespace
-
-Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
-    if (scene.attachments.empty()) return {};
-    std::vector<layout::AttachedParticle> items;
-    for (const Attachment& a : scene.attachments)
-        items.push_back({layout.slot[a.particle], a.compliance, a.maxForce, 0});
-    const Attachments result{.count = static_cast<std::uint32_t>(items.size()),
-                             .particles = program.upload("attachments", items),
-                             .anchors =
-                                 program.scratch<layout::vec4>("attachments.anchors", 2 * items.size())};
-    program.updateAnchors(result.anchors);
-    return result;
-}
-
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Attachments& attachments,
-             std::uint32_t substep, std::uint32_t substeps) {
-    dispatch(program, kernels::solveAttachments, particles, particles.velocities, attachments,
-             pushOf(attachments, substep, substeps));
-}
-
-void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
-                 const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps) {
-    dispatch(program, kernels::solveAttachmentsOpen, particles, corrections, attachments,
-             pushOf(attachments, substep, substeps));
+    const auto substeps = static_cast<float>(build.model.settings.substeps);
+    const layout::AttachmentPush push{attachments->count, static_cast<float>(substep.index + 1) / substeps};
+    build.program.dispatch(substep.isOpen() ? kernels::solveAttachmentsOpen : kernels::solveAttachments,
+                           attachments->count, buffers, push, constants);
 }
 
 Anchors::Anchors(const std::vector<Attachment>& attachments)

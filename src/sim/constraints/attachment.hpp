@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/model/state.hpp"
+#include "sim/model/feature.hpp"
 
 #include <algorithm>
 
@@ -14,15 +14,10 @@ struct Attachments {
     BufferId particles, anchors;
 };
 
-/// Also appends the passes that write the anchors of a step: call it once, before the substeps.
-Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
-
-/// Appends the pass of a substep; `substep` counts from 0.
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Attachments& attachments,
-             std::uint32_t substep, std::uint32_t substeps);
-/// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
-void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
-                 const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps);
+/// Keeps Attachments, and appends the passes that write the anchors of a step.
+void add(Build& build);
+/// Appends the pass of a substep.
+void addPass(Build& build, const Substep& substep);
 
 /// The moving points of attachments on the host: contents of the anchors buffer of a step.
 class Anchors {

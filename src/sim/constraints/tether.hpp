@@ -3,19 +3,23 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/model/scene_model.hpp"
+#include "sim/model/feature.hpp"
 
 namespace sinew::sim::constraints::tether {
 
 struct Tethers {
     std::uint32_t count = 0; ///< tethered particles that move
     BufferId particles, tethers;
+    BufferId cut;               ///< layout::CutTether of those that a cut may remove
+    std::uint32_t cutCount = 0; ///< their number
 };
 
-Tethers add(ProgramBuilder& program, const SceneModel& model);
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Tethers& tethers);
-/// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
-void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
-                 const Tethers& tethers);
+/// Keeps Tethers.
+void add(Build& build);
+/// Appends the pass of a substep.
+void addPass(Build& build, const Substep& substep);
+/// Appends the removal of tethers whose particle a cut has separated from the anchor, from the new pieces. A
+/// tether around a slit, through which both still hang together, stays.
+void addCutPass(Build& build);
 
 } // namespace sinew::sim::constraints::tether

@@ -82,7 +82,8 @@ void addListing(ProgramBuilder& program, const Cut& cut) {
     planLists(program, cut, buffers.listedCounts, buffers.listedArguments);
 }
 
-void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& particles) {
+// Cuts links at the start of a step, and everything that follows before the substeps.
+void addBladePasses(ProgramBuilder& program, Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
     program.updateBlade(cut.blade, cut.points);
     program.fill(cut.work, 0);
@@ -170,7 +171,8 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuf
     addDebrisRemoval(program, cut, particles);
 }
 
-void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
+// Restores the links of an undone step, and updates what depends on the links.
+void addUpdates(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
     if (cut.surface)
         surface::addSkinHits(program, *cut.surface, cut.bladePlaces, cut.placesBefore, cut.blade, cut.points);
@@ -181,7 +183,7 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                          run.push);
     addWholeCells(program, cut); // cells that an undone step has restored
     addFindingPieces(program, cut, particles);
-    program.only(When::surface, [&] { addTriangleHiding(program, cut.stretched); });
+    program.only(When::surface, [&] { addTriangleHiding(program, cut.debrisSkins); });
     if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface, cut.blade);
     if (cut.sheets)
         program.only(When::surface, [&] { surface::addSheetPasses(program, *cut.sheets, !cut.surface); });
@@ -189,16 +191,33 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
 
 } // namespace
 
-void add(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles) {
-    Cut cut = addBuffers(program, model, particles);
-    if (cut.runs.empty()) return;
+void addOpening(Build& build) {
+    ProgramBuilder& program = build.program;
+    Cut added = addBuffers(program, build.model, build.particles);
+    if (added.runs.empty()) return;
+    Cut& cut = build.keep(std::move(added));
     cut.bladePlaces = cut.buffers.places;
-    addDebris(program, model.scene, cut, particles);
+    addDebris(program, build.model.scene, cut, build.particles);
     program.beginPhase("cut");
-    program.only(When::cut, [&] { addOpening(program, cut, particles); });
-    program.atEnd([&program, cut, particles] {
-        program.only(When::cut, [&] { addClosing(program, cut, particles); });
-    });
+    program.only(When::cut, [&] { addBladePasses(program, cut, build.particles); });
+}
+
+void addClosing(Build& build) {
+    if (const Cut* cut = build.find<Cut>())
+        build.program.only(When::cut, [&] { addUpdates(build.program, *cut, build.particles); });
+}
+
+void addSkinNormals(Build& build) {
+    const Cut* cut = build.find<Cut>();
+    if (cut && cut->surface) surface::addNormalsOfCuts(build.program, *cut->surface);
+}
+
+void addSkinEnd(Build& build) {
+    const Cut* cut = build.find<Cut>();
+    if (!cut) return;
+    if (cut->sheets) surface::addSheetDrawing(build.program, *cut->sheets);
+    if (cut->surface) surface::addCutDrawing(build.program, *cut->surface);
+    addVertexHiding(build.program, *cut);
 }
 
 } // namespace sinew::sim::cutting

@@ -7,12 +7,18 @@
 //   publish  undo all that if the step is undone; find the pieces again if links were cut
 #pragma once
 
-#include "sim/model/scene_model.hpp"
+#include "sim/model/feature.hpp"
 
 namespace sinew::sim::cutting {
 
-/// Adds the buffers of StepProgram::cutting, a phase "cut", and passes at the end of the step, if the scene
-/// has cuttable bodies; otherwise nothing. Call it before the phase that solves.
-void add(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles);
+/// Adds the buffers of StepProgram::cutting and a phase "cut", if the scene has cuttable bodies; otherwise
+/// this and the functions below add nothing.
+void addOpening(Build& build);
+/// Appends the passes at the end of a step with a blade.
+void addClosing(Build& build);
+/// Appends what normals of skins depend on.
+void addSkinNormals(Build& build);
+/// Appends the pieces of sheets, the surface of cuts, and the hiding of fragments.
+void addSkinEnd(Build& build);
 
 } // namespace sinew::sim::cutting

@@ -70,6 +70,23 @@ std::optional<layout::CutTie> tieOf(const CuttingBuffers& cutting, Listed one) {
                           first->bit | second->bit << 8};
 }
 
+// An update of a list.
+struct ListFilter {
+    BufferId list, ties; // layout::CutTie
+    std::uint32_t count = 0;
+    bool areBends = false;
+};
+
+struct ListFilters {
+    std::vector<ListFilter> all;
+};
+
+void addDispatch(ProgramBuilder& program, const ListFilter& filter) {
+    program.dispatch(filter.areBends ? k::partBends : k::disableCutLinks, filter.count,
+                     {program.program().cutting.links, filter.ties, filter.list},
+                     layout::CountPush{filter.count});
+}
+
 } // namespace
 
 bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g,
@@ -111,7 +128,8 @@ bool haveLists(const StepProgram& program, std::uint32_t listed) {
     return std::ranges::any_of(program.cutting.runs, [&](const CutRun& run) { return run.first < listed; });
 }
 
-void addListFilter(ProgramBuilder& program, BufferId list, std::span<const Listed> all, bool areBends) {
+void addListFilter(Build& build, BufferId list, std::span<const Listed> all, bool areBends) {
+    ProgramBuilder& program = build.program;
     CuttingBuffers& cutting = program.program().cutting;
     std::vector<layout::CutTie> ties;
     for (const Listed& one : all)
@@ -119,17 +137,21 @@ void addListFilter(ProgramBuilder& program, BufferId list, std::span<const Liste
     if (ties.empty()) return;
     cutting.topology.push_back(list);
     program.addToState(list, list);
-    const BufferId uploaded = program.upload(areBends ? "cut.bends" : "cut.listed", ties),
-                   links = cutting.links;
+    const BufferId uploaded = program.upload(areBends ? "cut.bends" : "cut.listed", ties);
     cutting.lists.push_back(list);
-    const auto addDispatch = [&program, links, uploaded, list, areBends, count = ties.size()] {
-        program.dispatch(areBends ? k::partBends : k::disableCutLinks, static_cast<std::uint32_t>(count),
-                         {links, uploaded, list}, layout::CountPush{static_cast<std::uint32_t>(count)});
-    };
-    const auto addPass = [&program, addDispatch] { program.only(When::cut, addDispatch); };
-    program.into(List::refresh, addDispatch);
-    addPass();
-    program.atEnd(addPass); // after links were restored
+    ListFilters* filters = build.find<ListFilters>();
+    if (!filters) filters = &build.keep(ListFilters{});
+    const ListFilter& filter = filters->all.emplace_back(
+        ListFilter{list, uploaded, static_cast<std::uint32_t>(ties.size()), areBends});
+    program.into(List::refresh, [&] { addDispatch(program, filter); });
+    program.only(When::cut, [&] { addDispatch(program, filter); });
+}
+
+void addListFilters(Build& build) {
+    const ListFilters* filters = build.find<ListFilters>();
+    if (!filters) return;
+    for (const ListFilter& filter : filters->all)
+        build.program.only(When::cut, [&] { addDispatch(build.program, filter); });
 }
 
 } // namespace sinew::sim::cutting

@@ -3,8 +3,7 @@
 // between neighbours: a link or a bend over two such links dies with either. A dead one has stiffness 0.
 #pragma once
 
-#include "sim/program/program.hpp"
-#include "sinew/scene.hpp"
+#include "sim/model/feature.hpp"
 
 #include <string>
 
@@ -20,7 +19,7 @@ bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g,
 /// "distance[3]", or empty.
 std::string tiedPast(const Scene& scene, const Grid& sheet);
 
-/// Whether the links of the first `listed` slots can be cut. Call it after cutting::add.
+/// Whether the links of the first `listed` slots can be cut. Call it after cutting::addOpening.
 bool haveLists(const StepProgram& program, std::uint32_t listed);
 
 /// A link or bend in a list, with the two or three consecutive slots that it spans.
@@ -31,8 +30,10 @@ struct Listed {
     float stiffness = 0;     ///< [N/m]
 };
 
-/// Appends, before the substeps, the update of a list of layout::SplitLink, or of layout::SplitBend. Nothing
-/// if no element can be cut. Call it after cutting::add.
-void addListFilter(ProgramBuilder& program, BufferId list, std::span<const Listed> all, bool areBends);
+/// Appends, before the substeps, the update of a list of layout::SplitLink, or of layout::SplitBend, and
+/// keeps it for addListFilters(). Nothing if no element can be cut. Call it after cutting::addOpening.
+void addListFilter(Build& build, BufferId list, std::span<const Listed> all, bool areBends);
+/// Appends these updates again, after links were restored.
+void addListFilters(Build& build);
 
 } // namespace sinew::sim::cutting

@@ -34,7 +34,7 @@ struct Cut {
     std::array<BufferId, 2> roundArguments; // of even and of odd rounds, by run: no pass writes its own
     BufferId uncutBodies, weights;          // of pieces, if grabs may hold some
     BufferId debrisParticles;               // layout::DebrisParticle; if fragments are removed
-    DebrisTriangles stretched;
+    DebrisSkins debrisSkins;
     std::shared_ptr<surface::CutSurface> surface; // null if no skin is clipped
     std::shared_ptr<surface::SheetPieces> sheets; // null if there are none
     std::shared_ptr<Tearing> tearing;             // null if nothing tears

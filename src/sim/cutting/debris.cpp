@@ -52,7 +52,7 @@ void addDebris(ProgramBuilder& program, const Scene& scene, Cut& cut, const Part
     if (scene.debris < 2) return;
     program.program().cutting.debris = scene.debris;
     cut.debrisParticles = uploadParticles(program, scene);
-    cut.stretched = addDebrisSkins(program, scene, cut, particles.layout);
+    cut.debrisSkins = addDebrisSkins(program, scene, cut, particles.layout);
     if (particles.sleep) addToTopology(program, particles.sleep->limits);
 }
 

@@ -114,8 +114,8 @@ void makeIndices(ProgramBuilder& program, const Scene& scene) {
     program.addToState(built.skinIndices, built.skinIndices);
 }
 
-DebrisTriangles addStretched(ProgramBuilder& program, const Scene& scene, const Cut& cut,
-                             const std::vector<bool>& parted, const StateLayout& layout) {
+void addStretched(ProgramBuilder& program, const Scene& scene, const Cut& cut,
+                  const std::vector<bool>& parted, const StateLayout& layout, DebrisSkins& skins) {
     const std::vector<bool> mayGo = particlesThatMayGo(scene, cut, layout);
     Stretched stretched;
     std::uint32_t firstVertex = 0, firstIndex = 0;
@@ -125,34 +125,39 @@ DebrisTriangles addStretched(ProgramBuilder& program, const Scene& scene, const 
         firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
         firstIndex += static_cast<std::uint32_t>(3 * skin.triangles.size());
     }
-    if (stretched.triangles.empty()) return {};
+    if (stretched.triangles.empty()) return;
     makeIndices(program, scene);
-    return {program.upload("debris.triangles", stretched.triangles),
-            program.upload("debris.holders", stretched.holders),
-            static_cast<std::uint32_t>(stretched.triangles.size())};
+    skins.triangles = program.upload("debris.triangles", stretched.triangles);
+    skins.holders = program.upload("debris.holders", stretched.holders);
+    skins.triangleCount = static_cast<std::uint32_t>(stretched.triangles.size());
 }
 
 } // namespace
 
-DebrisTriangles addDebrisSkins(ProgramBuilder& program, const Scene& scene, const Cut& cut,
-                               const StateLayout& layout) {
+DebrisSkins addDebrisSkins(ProgramBuilder& program, const Scene& scene, const Cut& cut,
+                           const StateLayout& layout) {
+    DebrisSkins skins;
     const std::vector<bool> parted = areParted(scene, cut);
     if (std::ranges::count(parted, true) > 0) {
         const std::vector<std::uint32_t> slots = vertexSlots(scene, parted, layout);
-        const BufferId uploaded = program.upload("debris.vertex_slots", slots);
-        program.atSkin([&program, cut, uploaded, count = static_cast<std::uint32_t>(slots.size())] {
-            addHiding(program, cut, uploaded, count);
-        });
+        skins.vertexSlots = program.upload("debris.vertex_slots", slots);
+        skins.vertexCount = static_cast<std::uint32_t>(slots.size());
     }
-    return addStretched(program, scene, cut, parted, layout);
+    addStretched(program, scene, cut, parted, layout, skins);
+    return skins;
 }
 
-void addTriangleHiding(ProgramBuilder& program, const DebrisTriangles& stretched) {
-    if (stretched.count == 0) return;
+void addTriangleHiding(ProgramBuilder& program, const DebrisSkins& skins) {
+    if (skins.triangleCount == 0) return;
     const StepProgram& built = program.program();
-    program.dispatch(k::hideDebrisTriangles, stretched.count,
-                     {stretched.triangles, stretched.holders, built.cutting.pieces, built.skinIndices},
-                     layout::CountPush{stretched.count});
+    program.dispatch(k::hideDebrisTriangles, skins.triangleCount,
+                     {skins.triangles, skins.holders, built.cutting.pieces, built.skinIndices},
+                     layout::CountPush{skins.triangleCount});
+}
+
+void addVertexHiding(ProgramBuilder& program, const Cut& cut) {
+    const DebrisSkins& skins = cut.debrisSkins;
+    if (skins.vertexCount > 0) addHiding(program, cut, skins.vertexSlots, skins.vertexCount);
 }
 
 } // namespace sinew::sim::cutting

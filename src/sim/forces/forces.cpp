@@ -242,12 +242,14 @@ ProgramBuilder::Constants pullConstants() {
     return {{keepsPullsId, 1}};
 }
 
-std::shared_ptr<const Forces> add(ProgramBuilder& program, const SceneModel& model) {
-    auto forces = std::make_shared<Forces>(placesOf(model));
+void add(Build& build) {
+    if (!build.model.settings.keepsForces) return;
+    ProgramBuilder& program = build.program;
+    auto forces = std::make_shared<Forces>(placesOf(build.model));
     forces->terms = program.scratch<layout::vec4>("forces.terms", forces->elements());
     program.fill(forces->terms, 0);
     program.program().forces.terms = forces->terms;
-    return forces;
+    build.particles.forces = forces;
 }
 
 void bindTo(const ParticleBuffers& particles, ProgramBuilder::Constants (Forces::*of)() const,
@@ -256,13 +258,18 @@ void bindTo(const ParticleBuffers& particles, ProgramBuilder::Constants (Forces:
     if (particles.forces) constants.merge(((*particles.forces).*of)());
 }
 
-void addPulls(ProgramBuilder& program, const ParticleBuffers& particles) {
-    const Forces& forces = *particles.forces;
-    program.dispatch(k::extractHoldImpulses, forces.slots, {particles.velocities, forces.terms},
-                     layout::CountPush{forces.slots}, forces.ofContacts());
+void addPulls(Build& build, const Substep& substep) {
+    if (!substep.particles.forces) return;
+    const Forces& forces = *substep.particles.forces;
+    build.program.dispatch(k::extractHoldImpulses, forces.slots, {substep.particles.velocities, forces.terms},
+                           layout::CountPush{forces.slots}, forces.ofContacts());
 }
 
-void addSums(ProgramBuilder& program, const SceneModel& model, const Forces& forces) {
+void addSums(Build& build) {
+    if (!build.particles.forces) return;
+    ProgramBuilder& program = build.program;
+    const SceneModel& model = build.model;
+    const Forces& forces = *build.particles.forces;
     const Scene& scene = model.scene;
     ForceBuffers& built = program.program().forces;
     built.bodies = static_cast<std::uint32_t>(scene.bodies.size());

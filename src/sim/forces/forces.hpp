@@ -13,7 +13,7 @@
 
 #include "common/layout.h"
 #include "sim/core/complaints.hpp"
-#include "sim/model/scene_model.hpp"
+#include "sim/model/feature.hpp"
 
 #include <array>
 
@@ -72,8 +72,9 @@ private:
     ProgramBuilder::Constants constants(std::uint32_t first) const;
 };
 
-/// Creates the buffer of elements, and appends the pass before the substeps that clears it.
-std::shared_ptr<const Forces> add(ProgramBuilder& program, const SceneModel& model);
+/// Sets build.particles.forces: creates the buffer of elements, and appends the pass before the substeps that
+/// clears it. Nothing unless forces are kept.
+void add(Build& build);
 
 /// Appends the buffer of elements to `buffers` and the start of the section that `of` names to `constants`;
 /// if `particles` keep no forces, leaves that binding empty. `of` is Forces::ofPlanes or a similar function.
@@ -82,11 +83,11 @@ void bindTo(const ParticleBuffers& particles, ProgramBuilder::Constants (Forces:
 
 /// Appends the passes after the links of a substep of `split`, which has left the forces on static particles
 /// in their velocities.
-void addPulls(ProgramBuilder& program, const ParticleBuffers& particles);
+void addPulls(Build& build, const Substep& substep);
 /// Specialises the gathers of `split` to leave these forces.
 ProgramBuilder::Constants pullConstants();
 
 /// Appends the sums, after public positions have their values at the end of the step.
-void addSums(ProgramBuilder& program, const SceneModel& model, const Forces& forces);
+void addSums(Build& build);
 
 } // namespace sinew::sim::forces

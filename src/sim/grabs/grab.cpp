@@ -58,9 +58,11 @@ bool isNumber(const Grab& grab) {
 
 } // namespace
 
-std::shared_ptr<Grabs> add(ProgramBuilder& program, const SceneModel& model) {
+void add(Build& build) {
+    ProgramBuilder& program = build.program;
+    const SceneModel& model = build.model;
     const Settings& settings = model.settings;
-    if (settings.grabs == 0) return nullptr;
+    if (settings.grabs == 0) return;
     const auto count = static_cast<std::uint32_t>(model.scene.particles.size());
     const layout::GrabPush push{count, (count - 1) / GROUP_ITEMS + 1, settings.grabs, 0, 0};
     const std::vector<layout::DispatchArguments> none{{0, 1, 1, 0}};
@@ -82,33 +84,22 @@ std::shared_ptr<Grabs> add(ProgramBuilder& program, const SceneModel& model) {
                              {grabs->requests, grabs->states, grabs->bodies, program.program().positions,
                               grabs->grips, grabs->held, grabs->pulling},
                              push);
-    return grabs;
+    build.particles.grabs = grabs;
 }
 
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uint32_t substep,
-             std::uint32_t substeps, Kick kick) {
+void addPass(Build& build, const Substep& substep) {
+    const ParticleBuffers& particles = substep.particles;
     if (!particles.grabs) return;
     const Grabs& grabs = *particles.grabs;
     std::vector<BufferId> buffers{grabs.requests,      grabs.states,         grabs.bodies,
                                   grabs.grips,         grabs.held,           grabs.pulling,
                                   particles.positions, particles.velocities, particles.step};
-    const layout::GrabPush push = pushOf(grabs, substep, substeps, kick);
+    if (substep.isOpen()) buffers.push_back(substep.corrections);
+    const layout::GrabPush push = pushOf(grabs, substep.index, build.model.settings.substeps, substep.kick);
     ProgramBuilder::Constants constants;
     forces::bindTo(particles, &forces::Forces::ofGrabs, buffers, constants);
-    program.dispatchIndirect(kernels::solveGrabs, itemsOf(grabs), buffers, push, constants);
-}
-
-void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
-                 std::uint32_t substep, std::uint32_t substeps) {
-    if (!particles.grabs) return;
-    const Grabs& grabs = *particles.grabs;
-    std::vector<BufferId> buffers{grabs.requests, grabs.states,  grabs.bodies,        grabs.grips,
-                                  grabs.held,     grabs.pulling, particles.positions, particles.velocities,
-                                  particles.step, corrections};
-    const layout::GrabPush push = pushOf(grabs, substep, substeps, Kick::half);
-    ProgramBuilder::Constants constants;
-    forces::bindTo(particles, &forces::Forces::ofGrabs, buffers, constants);
-    program.dispatchIndirect(kernels::solveGrabsOpen, itemsOf(grabs), buffers, push, constants);
+    build.program.dispatchIndirect(substep.isOpen() ? kernels::solveGrabsOpen : kernels::solveGrabs,
+                                   itemsOf(grabs), buffers, push, constants);
 }
 
 bool GrabRequests::areFree() const noexcept {

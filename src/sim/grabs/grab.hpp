@@ -6,7 +6,7 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/model/scene_model.hpp"
+#include "sim/model/feature.hpp"
 #include "sinew/step.hpp"
 
 #include <array>
@@ -18,15 +18,11 @@ struct Grabs {
     BufferId requests, states, bodies, grips, held, holding, pulling;
 };
 
-/// Appends the passes at the start of a step: call it before the substeps. Null without Settings::grabs.
-std::shared_ptr<Grabs> add(ProgramBuilder& program, const SceneModel& model);
-
-/// Appends the pull at the end of a substep, counted from 0. Nothing if particles.grabs is null.
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uint32_t substep,
-             std::uint32_t substeps, Kick kick);
-/// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
-void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
-                 std::uint32_t substep, std::uint32_t substeps);
+/// Sets build.particles.grabs and appends the passes at the start of a step. Nothing without
+/// Settings::grabs.
+void add(Build& build);
+/// Appends the pull at the end of a substep.
+void addPass(Build& build, const Substep& substep);
 
 /// The grabs on the host: contents of the grabs buffer of a step.
 class GrabRequests {

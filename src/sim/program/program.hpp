@@ -425,19 +425,7 @@ public:
     /// repeated with the same bits: the state that publishing restores after an undone step is rounded.
     void keepForRepeat(BufferId buffer) { keptForRepeat_.push_back(buffer); }
     const std::vector<BufferId>& keptForRepeat() const { return keptForRepeat_; }
-    /// Registers passes between the check of a step's state and the publishing that depends on it.
-    void afterCheck(std::function<void()> addPasses) { checked_.push_back(std::move(addPasses)); }
-    const std::vector<std::function<void()>>& checked() const { return checked_; }
-    /// Registers passes at the end of the step, after the check of its state.
-    void atEnd(std::function<void()> addPasses) { endings_.push_back(std::move(addPasses)); }
-    const std::vector<std::function<void()>>& endings() const { return endings_; }
     const std::vector<BufferId>& restoredOnUndo() const { return restoredOnUndo_; }
-    /// Registers passes of the list of skins between positions and normals of vertices.
-    void beforeNormals(std::function<void()> addPasses) { skinMiddles_.push_back(std::move(addPasses)); }
-    const std::vector<std::function<void()>>& skinMiddles() const { return skinMiddles_; }
-    /// Registers passes at the end of the list of skins.
-    void atSkin(std::function<void()> addPasses) { skinEndings_.push_back(std::move(addPasses)); }
-    const std::vector<std::function<void()>>& skinEndings() const { return skinEndings_; }
     void fill(BufferId buffer, std::uint32_t value);
     void copy(BufferId from, BufferId to);
     void updateParameters(BufferId parameters) { update(parameters, HostData::parameters); }
@@ -491,7 +479,6 @@ private:
     StepProgram program_;
     std::map<const vk::ShaderCode*, vk::KernelInterface> interfaces_;
     std::vector<BufferId> restoredOnUndo_, keptForRepeat_;
-    std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
     Indirection indirection_;
     List list_ = List::step;
     When when_ = When::always;

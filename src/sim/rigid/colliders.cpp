@@ -121,10 +121,13 @@ ProgramBuilder::Constants constantsOf(const Colliders& colliders) {
 
 } // namespace
 
-Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-              const StateLayout& layout) {
+void add(Build& build) {
+    ProgramBuilder& program = build.program;
+    const Scene& scene = build.model.scene;
+    const Settings& settings = build.model.settings;
+    const StateLayout& layout = build.model.layout;
     const auto count = static_cast<std::uint32_t>(scene.colliders.size()) + settings.hostColliders;
-    if (count == 0 && scene.driven.empty()) return {};
+    if (count == 0 && scene.driven.empty()) return;
     const auto moves = [](const auto& item) { return isMoving(item); };
     const auto rebounds = [](const auto& item) { return item.restitution > 0; };
     Colliders colliders{.count = count,
@@ -141,54 +144,43 @@ Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& setti
          std::ranges::any_of(scene.contacts.surfaces, rebounds)); // the way is then not h v
     addShapes(program, scene, layout, colliders);
     addPoses(program, scene, settings.substeps, colliders);
-    return colliders;
-}
-
-void addMemory(ProgramBuilder& program, Colliders& colliders) {
-    if (colliders.hasRebound)
+    if (colliders.hasRebound && settings.solver != Solver::gaussSeidel)
         colliders.before =
             program.scratch<layout::vec4>("colliders.before", 2 * std::uint64_t{colliders.particles});
+    build.keep(colliders);
 }
 
-void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
-                bool isFirst) {
-    if (!colliders.hasRebound) return;
-    const std::array buffers{particles.positions, particles.velocities, colliders.before, particles.step};
-    dispatchTouching(program, colliders, kernels::saveSubstepStart, buffers,
-                     layout::SubstepPush{colliders.particles, isFirst});
+void addSaving(Build& build, const Substep& substep) {
+    const Colliders* colliders = build.find<Colliders>();
+    if (!colliders || colliders->before == BufferId{}) return;
+    const ParticleBuffers& particles = substep.particles;
+    const std::array buffers{particles.positions, particles.velocities, colliders->before, particles.step};
+    dispatchTouching(build.program, *colliders, kernels::saveSubstepStart, buffers,
+                     layout::SubstepPush{colliders->particles, substep.index == 0});
 }
 
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
-             std::uint32_t substep, Kick kick, const ParticleBuffers* predicted) {
-    if (colliders.count == 0) return;
-    std::vector<BufferId> buffers{colliders.shapes,
-                                  colliders.poses,
-                                  colliders.contactOffsets,
-                                  particles.positions,
-                                  particles.velocities,
-                                  particles.step,
-                                  boundIf(colliders.hasRebound, colliders.before)};
-    const bool hasContacts = predicted && !colliders.hasRebound;
-    buffers.insert(buffers.end(), {hasContacts ? predicted->positions : unbound,
-                                   hasContacts ? predicted->velocities : unbound});
-    ProgramBuilder::Constants constants = constantsOf(colliders);
-    constants.insert({{hasReboundId, colliders.hasRebound}, {hasContactsId, hasContacts}});
-    constants.merge(remainderConstants(particles.layout));
-    forces::bindTo(particles, &forces::Forces::ofColliders, buffers, constants);
-    dispatchTouching(program, colliders, kernels::solveColliders, buffers, pushOf(colliders, substep, kick),
-                     constants);
-}
-
-void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
-                 const Colliders& colliders, std::uint32_t substep) {
-    if (colliders.count == 0) return;
+void addPass(Build& build, const Substep& substep) {
+    const Colliders* found = build.find<Colliders>();
+    if (!found || found->count == 0) return;
+    const Colliders& colliders = *found;
+    const ParticleBuffers& particles = substep.particles;
     std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
-                                  particles.positions, particles.velocities, particles.step,
-                                  corrections};
+                                  particles.positions, particles.velocities, particles.step};
     ProgramBuilder::Constants constants = constantsOf(colliders);
+    if (substep.isOpen()) {
+        buffers.push_back(substep.corrections);
+    } else {
+        const bool hasContacts = substep.predicted && !colliders.hasRebound;
+        buffers.insert(buffers.end(), {boundIf(colliders.hasRebound, colliders.before),
+                                       hasContacts ? substep.predicted->positions : unbound,
+                                       hasContacts ? substep.predicted->velocities : unbound});
+        constants.insert({{hasReboundId, colliders.hasRebound}, {hasContactsId, hasContacts}});
+        constants.merge(remainderConstants(particles.layout));
+    }
     forces::bindTo(particles, &forces::Forces::ofColliders, buffers, constants);
-    dispatchTouching(program, colliders, kernels::solveCollidersOpen, buffers,
-                     pushOf(colliders, substep, Kick::half), constants);
+    dispatchTouching(build.program, colliders,
+                     substep.isOpen() ? kernels::solveCollidersOpen : kernels::solveColliders, buffers,
+                     pushOf(colliders, substep.index, substep.kick), constants);
 }
 
 } // namespace sinew::sim::rigid::colliders

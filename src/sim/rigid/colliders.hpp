@@ -6,7 +6,7 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/model/state.hpp"
+#include "sim/model/feature.hpp"
 
 namespace sinew::sim::rigid::colliders {
 
@@ -24,22 +24,12 @@ struct Colliders {
     BufferId ways; ///< start and end poses in this step; invalid unless areMoving
 };
 
-/// Also appends the pass that computes the poses of colliders and driven bodies: call it once, before the
-/// substeps.
-Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-              const StateLayout& layout);
-
-/// Adds the buffer that addOpening() fills, for `split` and `jacobi`; only if something has restitution.
-void addMemory(ProgramBuilder& program, Colliders& colliders);
-/// Appends the pass before the links of a substep.
-void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
-                bool isFirst);
-/// Appends the end of that substep, which counts from 0. `predicted`: particles before contacts with each
-/// other; null if they touch nothing else.
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
-             std::uint32_t substep, Kick kick, const ParticleBuffers* predicted = nullptr);
-/// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
-void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
-                 const Colliders& colliders, std::uint32_t substep);
+/// Keeps Colliders, and appends the pass that computes the poses of colliders and driven bodies.
+void add(Build& build);
+/// Appends the pass before the links of a substep; only if something has restitution, and not in
+/// `gauss_seidel`.
+void addSaving(Build& build, const Substep& substep);
+/// Appends the end of that substep.
+void addPass(Build& build, const Substep& substep);
 
 } // namespace sinew::sim::rigid::colliders

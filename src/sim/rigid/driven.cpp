@@ -26,28 +26,31 @@ std::vector<bool> areDriven(const Scene& scene) {
     return result;
 }
 
-Driven add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout,
-           const colliders::Colliders& placed) {
+void add(Build& build) {
+    const auto* placed = build.find<colliders::Colliders>();
+    if (!placed) return;
+    const Scene& scene = build.model.scene;
     std::vector<layout::DrivenParticle> particles;
-    const std::uint32_t first = placed.count;
     forDriven(scene, [&](std::uint32_t body, const Pose& pose, std::uint32_t particle) {
         const Vec3 local = toLocal(pose, scene.particles[particle].position);
-        particles.push_back({{local.x, local.y, local.z, 0}, layout.slot[particle], first + body, 0, 0});
+        particles.push_back(
+            {{local.x, local.y, local.z, 0}, build.model.layout.slot[particle], placed->count + body, 0, 0});
     });
-    if (particles.empty()) return {};
-    return {.count = static_cast<std::uint32_t>(particles.size()),
-            .row = placed.placed,
-            .particles = program.upload("driven", particles),
-            .poses = placed.poses};
+    if (particles.empty()) return;
+    build.keep(Driven{.count = static_cast<std::uint32_t>(particles.size()),
+                      .row = placed->placed,
+                      .particles = build.program.upload("driven", particles),
+                      .poses = placed->poses});
 }
 
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Driven& driven,
-             std::uint32_t substep) {
-    if (driven.count == 0) return;
-    program.dispatch(
-        kernels::driveParticles, driven.count,
-        {driven.particles, driven.poses, particles.positions, particles.velocities, particles.step},
-        layout::DrivenPush{driven.count, substep * driven.row, (substep + 1) * driven.row});
+void addPass(Build& build, const Substep& substep) {
+    const Driven* driven = build.find<Driven>();
+    if (!driven) return;
+    const ParticleBuffers& particles = substep.particles;
+    build.program.dispatch(
+        kernels::driveParticles, driven->count,
+        {driven->particles, driven->poses, particles.positions, particles.velocities, particles.step},
+        layout::DrivenPush{driven->count, substep.index * driven->row, (substep.index + 1) * driven->row});
 }
 
 } // namespace sinew::sim::rigid::driven

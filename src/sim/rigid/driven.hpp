@@ -3,7 +3,6 @@
 // pass.
 #pragma once
 
-#include "sim/model/state.hpp"
 #include "sim/rigid/colliders.hpp"
 
 namespace sinew::sim::rigid::driven {
@@ -14,13 +13,11 @@ struct Driven {
     BufferId particles, poses;
 };
 
-/// `placed` has the poses of colliders, followed by those of driven bodies.
-Driven add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout,
-           const colliders::Colliders& placed);
+/// Keeps Driven, whose poses follow those of the colliders.
+void add(Build& build);
 
-/// Appends the pass that moves them to their pose at the end of a substep, counted from 0.
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Driven& driven,
-             std::uint32_t substep);
+/// Appends the pass that moves them to their pose at the end of a substep.
+void addPass(Build& build, const Substep& substep);
 
 /// By particle: whether it belongs to a driven body that moves.
 std::vector<bool> areDriven(const Scene& scene);

@@ -2,7 +2,9 @@
 #include "sim/sleep/sleep.hpp"
 
 #include "kernels.hpp"
+#include "sim/constraints/attachment.hpp"
 #include "sim/grabs/grab.hpp"
+#include "sim/rigid/colliders.hpp"
 #include "sim/rigid/driven.hpp"
 
 #include <algorithm>
@@ -105,38 +107,6 @@ void makeIndirect(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) 
     });
 }
 
-// Passes after the check of a step: detect rest, and put islands to sleep.
-void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuffers& particles) {
-    const auto& status = program.program().status;
-    const BufferId positions = particles.positions, velocities = particles.velocities;
-    const auto add = [&](const vk::ShaderCode& code, const std::vector<BufferId>& buffers,
-                         const ProgramBuilder::Constants& constants = {}) {
-        program.dispatchIndirect(code, wakingItems(sleep, SLEEP_RESTING, sleep.push.count), buffers,
-                                 sleep.push, constants);
-    };
-    program.setIndirection({});
-    program.dispatch(k::closeSleep, GROUP_ITEMS,
-                     {sleep.state, status, sleep.waking, particles.step, sleep.anchors, sleep.seenAnchors,
-                      sleep.ways, sleep.seenPoses, sleep.arguments},
-                     sleep.push);
-    add(k::measureRestTimes, {sleep.weights, sleep.limits, positions, velocities, particles.step, sleep.rests,
-                              sleep.components, sleep.islands, sleep.least});
-    const auto& pairs = sleep.pairs;
-    if (pairs.contacts != BufferId{})
-        add(k::joinIslands, {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.lists,
-                             pairs.hits, pairs.touching});
-    for (const SeenRows& rows : sleep.rows) {
-        std::vector<BufferId> buffers{sleep.weights, velocities, sleep.islands};
-        buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());
-        add(k::joinRows, buffers, rows.constants);
-    }
-    add(k::findIslands, {sleep.weights, velocities, sleep.rests, sleep.islands, sleep.least});
-    program.dispatchIndirect(
-        k::fallAsleep, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
-        {sleep.weights, positions, velocities, particles.step, sleep.islands, sleep.least, sleep.rests},
-        sleep.push, remainderConstants(particles.layout));
-}
-
 // Sets the buffers of attachments and colliders, or placeholders for them.
 void setMoving(ProgramBuilder& program, Sleep& sleep, const constraints::attachment::Attachments& attachments,
                const rigid::colliders::Colliders& colliders) {
@@ -169,7 +139,10 @@ void setContents(ProgramBuilder& program, BufferId buffer, std::span<const std::
 
 } // namespace
 
-std::shared_ptr<Sleep> add(ProgramBuilder& program, const SceneModel& model) {
+void add(Build& build) {
+    const SceneModel& model = build.model;
+    if (!model.settings.sleeps) return;
+    ProgramBuilder& program = build.program;
     const StateLayout& layout = model.layout;
     const auto count = static_cast<std::uint32_t>(layout.count);
     auto sleep = std::make_shared<Sleep>();
@@ -198,15 +171,18 @@ std::shared_ptr<Sleep> add(ProgramBuilder& program, const SceneModel& model) {
     for (const BufferId buffer : {sleep->state, sleep->rests, sleep->islands})
         program.addToState(buffer, buffer);
     itemsOf(*sleep, SLEEP_ALL, GROUP_ITEMS, GROUP_ITEMS); // element 0: whether anything runs
-    return sleep;
+    build.particles.sleep = sleep;
 }
 
-void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
-                const constraints::attachment::Attachments& attachments,
-                const rigid::colliders::Colliders& colliders) {
+void addOpening(Build& build) {
+    ProgramBuilder& program = build.program;
+    const ParticleBuffers& particles = build.particles;
     if (!particles.sleep) return;
     Sleep& sleep = *particles.sleep;
-    setMoving(program, sleep, attachments, colliders);
+    const auto* attachments = build.find<constraints::attachment::Attachments>();
+    const auto* colliders = build.find<rigid::colliders::Colliders>();
+    setMoving(program, sleep, attachments ? *attachments : constraints::attachment::Attachments{},
+              colliders ? *colliders : rigid::colliders::Colliders{});
     program.dispatch(k::openSleep, GROUP_ITEMS,
                      {sleep.state, program.program().status, sleep.waking, particles.step, sleep.anchors,
                       sleep.seenAnchors, sleep.ways, sleep.seenPoses},
@@ -223,10 +199,6 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
                              sleep.push);
     addWaking(program, sleep, particles.velocities, SLEEP_OPENING, SLEEP_OPENING_ONE);
     makeIndirect(program, particles.sleep);
-    program.afterCheck([&program, particles] {
-        addJudgement(program, *particles.sleep, particles);
-        makeIndirect(program, particles.sleep);
-    });
 }
 
 void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
@@ -251,7 +223,45 @@ void addRowTouches(ProgramBuilder& program, const ParticleBuffers& predicted, co
     addWakingTouched(program, sleep, predicted.velocities);
 }
 
-void finish(ProgramBuilder& program, const ParticleBuffers& particles) {
+void addDetection(Build& build) {
+    ProgramBuilder& program = build.program;
+    const ParticleBuffers& particles = build.particles;
+    if (!particles.sleep) return;
+    const Sleep& sleep = *particles.sleep;
+    const auto& status = program.program().status;
+    const BufferId positions = particles.positions, velocities = particles.velocities;
+    const auto add = [&](const vk::ShaderCode& code, const std::vector<BufferId>& buffers,
+                         const ProgramBuilder::Constants& constants = {}) {
+        program.dispatchIndirect(code, wakingItems(sleep, SLEEP_RESTING, sleep.push.count), buffers,
+                                 sleep.push, constants);
+    };
+    program.setIndirection({});
+    program.dispatch(k::closeSleep, GROUP_ITEMS,
+                     {sleep.state, status, sleep.waking, particles.step, sleep.anchors, sleep.seenAnchors,
+                      sleep.ways, sleep.seenPoses, sleep.arguments},
+                     sleep.push);
+    add(k::measureRestTimes, {sleep.weights, sleep.limits, positions, velocities, particles.step, sleep.rests,
+                              sleep.components, sleep.islands, sleep.least});
+    const auto& pairs = sleep.pairs;
+    if (pairs.contacts != BufferId{})
+        add(k::joinIslands, {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.lists,
+                             pairs.hits, pairs.touching});
+    for (const SeenRows& rows : sleep.rows) {
+        std::vector<BufferId> buffers{sleep.weights, velocities, sleep.islands};
+        buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());
+        add(k::joinRows, buffers, rows.constants);
+    }
+    add(k::findIslands, {sleep.weights, velocities, sleep.rests, sleep.islands, sleep.least});
+    program.dispatchIndirect(
+        k::fallAsleep, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
+        {sleep.weights, positions, velocities, particles.step, sleep.islands, sleep.least, sleep.rests},
+        sleep.push, remainderConstants(particles.layout));
+    makeIndirect(program, particles.sleep);
+}
+
+void finish(Build& build) {
+    ProgramBuilder& program = build.program;
+    const ParticleBuffers& particles = build.particles;
     if (!particles.sleep) return;
     const Sleep& sleep = *particles.sleep;
     program.dispatch(k::countAwake, sleep.push.count,

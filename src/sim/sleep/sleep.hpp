@@ -6,9 +6,7 @@
 // these passes.
 #pragma once
 
-#include "sim/constraints/attachment.hpp"
-#include "sim/model/scene_model.hpp"
-#include "sim/rigid/colliders.hpp"
+#include "sim/model/feature.hpp"
 
 namespace sinew::sim::sleep {
 
@@ -32,21 +30,22 @@ struct Sleep {
     std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`
 };
 
-/// Adds the buffers.
-std::shared_ptr<Sleep> add(ProgramBuilder& program, const SceneModel& model);
+/// Sets build.particles.sleep: adds the buffers. Nothing unless Settings::sleeps; the functions below then
+/// add nothing either.
+void add(Build& build);
 
-/// Appends the passes at the start of a step; none if particles.sleep is null. Later passes run only while a
-/// particle is awake.
-void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
-                const constraints::attachment::Attachments& attachments = {},
-                const rigid::colliders::Colliders& colliders = {});
+/// Appends the passes at the start of a step, after attachments and colliders were added. Later passes run
+/// only while a particle is awake.
+void addOpening(Build& build);
 /// Appends passes in a substep, before contacts of `predicted` are counted: touched particles wake.
 void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted);
 /// Appends passes in a substep, after contacts with faces, or between edges, were found: touched particles
 /// wake.
 void addRowTouches(ProgramBuilder& program, const ParticleBuffers& predicted, const SeenRows& rows);
 
+/// Appends passes after the check of a step: detect rest, and put islands to sleep.
+void addDetection(Build& build);
 /// Appends passes after publishing, and ends the range that addOpening began.
-void finish(ProgramBuilder& program, const ParticleBuffers& particles);
+void finish(Build& build);
 
 } // namespace sinew::sim::sleep

@@ -4,12 +4,9 @@
 #include "sim/solvers/gauss_seidel.hpp"
 
 #include "kernels.hpp"
-#include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
-#include "sim/constraints/tether.hpp"
 #include "sim/forces/forces.hpp"
-#include "sim/grabs/grab.hpp"
 #include "sim/rigid/colliders.hpp"
 #include "sim/rigid/planes.hpp"
 
@@ -77,31 +74,31 @@ void addSweeps(ProgramBuilder& program, const Work& work, const Settings& settin
     }
 }
 
-void addPasses(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles) {
-    const Scene& scene = model.scene;
-    const Settings& settings = model.settings;
+void addPasses(Build& build) {
+    ProgramBuilder& program = build.program;
+    const Scene& scene = build.model.scene;
+    const Settings& settings = build.model.settings;
+    const ParticleBuffers& particles = build.particles;
     Work work{.particles = particles,
-              .edges = constraints::distance::uploadColors(program, model),
-              .bends = constraints::bend::uploadColors(program, model),
+              .edges = constraints::distance::uploadColors(program, build.model),
+              .bends = constraints::bend::uploadColors(program, build.model),
               .planes = rigid::planes::add(program, scene, particles.layout),
               .corrections =
                   program.scratch<layout::ParticleCorrection>("state.displacements", particles.layout.count)};
-    const auto attachments = constraints::attachment::add(program, scene, particles.layout);
-    const auto tethers = constraints::tether::add(program, model);
-    const auto colliders = rigid::colliders::add(program, scene, settings, particles.layout);
-    work.hasColliders = colliders.count > 0;
+    build.add(&Feature::open);
+    const auto* colliders = build.find<rigid::colliders::Colliders>();
+    work.hasColliders = colliders && colliders->count > 0;
     const bool isDamped = scene.dampingTime > 0 && !work.edges.colors.empty();
-    for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
-        const bool isFirst = substep == 0;
+    for (std::uint32_t index = 0; index < settings.substeps; ++index) {
+        const bool isFirst = index == 0;
+        const Substep substep{
+            .particles = particles, .index = index, .kick = Kick::half, .corrections = work.corrections};
         program.beginSubstep();
         addBetween(program, work, isFirst || isDamped ? open : advance, isFirst);
         addSweeps(program, work, settings, isFirst);
-        constraints::attachment::addOpenPass(program, particles, work.corrections, attachments, substep,
-                                             settings.substeps);
-        grabs::addOpenPass(program, particles, work.corrections, substep, settings.substeps);
-        constraints::tether::addOpenPass(program, particles, work.corrections, tethers);
+        build.add(&Feature::afterContacts, substep);
         if (work.hasColliders) rigid::planes::addTouch(program, particles, work.corrections, work.planes);
-        rigid::colliders::addOpenPass(program, particles, work.corrections, colliders, substep);
+        build.add(&Feature::substepEnd, substep);
         if (!isDamped) continue;
         addBetween(program, work, close, false);
         constraints::distance::addDamping(program, particles, work.edges, scene.dampingTime);
@@ -115,9 +112,7 @@ void addPasses(ProgramBuilder& program, const SceneModel& model, const ParticleB
 } // namespace
 
 SolverPlan plan(const SceneModel& model) {
-    return {model.inverseMass, [&model](ProgramBuilder& program, const ParticleBuffers& particles) {
-                addPasses(program, model, particles);
-            }};
+    return {model.inverseMass, addPasses};
 }
 
 } // namespace sinew::sim::solvers::gaussSeidel

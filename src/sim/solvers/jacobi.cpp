@@ -3,13 +3,9 @@
 #include "sim/solvers/jacobi.hpp"
 
 #include "kernels.hpp"
-#include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
 #include "sim/constraints/correction_slots.hpp"
 #include "sim/constraints/distance.hpp"
-#include "sim/constraints/tether.hpp"
-#include "sim/grabs/grab.hpp"
-#include "sim/rigid/colliders.hpp"
 #include "sim/rigid/planes.hpp"
 
 namespace sinew::sim::solvers::jacobi {
@@ -52,20 +48,20 @@ void addIteration(ProgramBuilder& program, const ParticleBuffers& particles, con
                      layout::CountPush{particles.count});
 }
 
-void addPasses(ProgramBuilder& program, const SceneModel& model, const ParticleBuffers& particles) {
-    const Scene& scene = model.scene;
-    const Settings& settings = model.settings;
-    const Corrections corrections = addCorrections(program, model);
+void addPasses(Build& build) {
+    ProgramBuilder& program = build.program;
+    const Scene& scene = build.model.scene;
+    const Settings& settings = build.model.settings;
+    const ParticleBuffers& particles = build.particles;
+    const Corrections corrections = addCorrections(program, build.model);
     const rigid::planes::Contacts contacts = rigid::planes::addContacts(program, scene);
-    const auto attachments = constraints::attachment::add(program, scene, particles.layout);
-    const auto tethers = constraints::tether::add(program, model);
-    auto colliders = rigid::colliders::add(program, scene, settings, particles.layout);
-    rigid::colliders::addMemory(program, colliders);
+    build.add(&Feature::open);
     const std::uint32_t iterations = corrections.slotCount > 0 ? settings.iterations : 1;
-    for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
+    for (std::uint32_t index = 0; index < settings.substeps; ++index) {
         program.beginSubstep();
+        const Substep substep{.particles = particles, .index = index, .kick = Kick::half};
         rigid::planes::addOpen(program, particles, contacts);
-        rigid::colliders::addOpening(program, particles, colliders, substep == 0);
+        build.add(&Feature::substepBegin, substep);
         program.dispatch(kernels::predict, particles.count,
                          {particles.positions, particles.velocities, particles.step},
                          layout::CountPush{particles.count}, remainderConstants(particles.layout));
@@ -73,13 +69,10 @@ void addPasses(ProgramBuilder& program, const SceneModel& model, const ParticleB
             addIteration(program, particles, corrections, iteration == 0);
             rigid::planes::addSolve(program, particles, contacts);
         }
-        constraints::attachment::addPass(program, particles, attachments, substep, settings.substeps);
-        grabs::addPass(program, particles, substep, settings.substeps, Kick::half);
-        constraints::tether::addPass(program, particles, tethers);
-        rigid::colliders::addPass(program, particles, colliders, substep, Kick::half);
-        if (scene.damping > 0 || !scene.planes.empty()) {
+        build.add(&Feature::afterContacts, substep);
+        build.add(&Feature::substepEnd, substep);
+        if (scene.damping > 0 || !scene.planes.empty())
             rigid::planes::addVelocityUpdate(program, particles, contacts);
-        }
     }
     program.endSubsteps();
     if (corrections.slotCount > 0) program.program().sweeps = std::uint64_t{settings.substeps} * iterations;
@@ -88,9 +81,7 @@ void addPasses(ProgramBuilder& program, const SceneModel& model, const ParticleB
 } // namespace
 
 SolverPlan plan(const SceneModel& model) {
-    return {model.inverseMass, [&model](ProgramBuilder& program, const ParticleBuffers& particles) {
-                addPasses(program, model, particles);
-            }};
+    return {model.inverseMass, addPasses};
 }
 
 } // namespace sinew::sim::solvers::jacobi

@@ -3,31 +3,20 @@
 // first.
 #include "sim/solvers/split.hpp"
 
-#include "sim/collision/cut_contacts.hpp"
-#include "sim/collision/cut_faces.hpp"
-#include "sim/collision/edge_contacts.hpp"
-#include "sim/collision/face_contacts.hpp"
-#include "sim/collision/particle_contacts.hpp"
-#include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
-#include "sim/constraints/tether.hpp"
 #include "sim/cutting/cut_lists.hpp"
 #include "sim/forces/forces.hpp"
-#include "sim/grabs/grab.hpp"
 #include "sim/model/grids.hpp"
 #include "sim/model/touching.hpp"
-#include "sim/rigid/colliders.hpp"
-#include "sim/rigid/driven.hpp"
 #include "sim/rigid/planes.hpp"
-#include "sim/sleep/sleep.hpp"
 #include "sim/solvers/batches.hpp"
 #include "sim/solvers/split_kernels.hpp"
+#include "sim/solvers/touching.hpp"
 #include "sim/stiffness/shares.hpp"
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 
 namespace sinew::sim::solvers::split {
 
@@ -43,10 +32,11 @@ struct Gather {
 
 // Data that all dispatches of a program share.
 struct Common {
-    ProgramBuilder& program;
-    const SceneModel& model;
+    Build& build;
     const stiffness::Shares& shares;
     rigid::planes::Planes planes;
+    ProgramBuilder& program = build.program;
+    const SceneModel& model = build.model;
 
     Gather gather() const {
         ProgramBuilder::Constants constants = remainderConstants(model.layout);
@@ -137,7 +127,7 @@ Gather generalGather(const Common& common, std::span<const constraints::distance
     if (isRanged) {
         const auto links = constraints::distance::rangedLinks(listed, count);
         gather.buffers.push_back(common.program.upload("distance.links", links.links));
-        if (isCut) cutting::addListFilter(common.program, gather.buffers.back(), allOf(links), false);
+        if (isCut) cutting::addListFilter(common.build, gather.buffers.back(), allOf(links), false);
         gather.buffers.push_back(common.program.upload("distance.first_links", links.first));
     } else {
         const auto links = constraints::distance::gatherLinks(listed, count);
@@ -145,12 +135,12 @@ Gather generalGather(const Common& common, std::span<const constraints::distance
         gather.buffers.push_back(links.degree > 0 ? common.program.upload("distance.links", links.links)
                                                   : unbound);
         if (isCut && links.degree > 0)
-            cutting::addListFilter(common.program, gather.buffers.back(), allOf(links), false);
+            cutting::addListFilter(common.build, gather.buffers.back(), allOf(links), false);
     }
     gather.constants[bendDegreeId] = bends.degree;
     gather.buffers.push_back(bends.degree > 0 ? common.program.upload("bends", bends.bends) : unbound);
     if (isCut && bends.degree > 0)
-        cutting::addListFilter(common.program, gather.buffers.back(), allOf(bends), true);
+        cutting::addListFilter(common.build, gather.buffers.back(), allOf(bends), true);
     gather.alternatesVelocities = !listed.empty() && common.model.scene.dampingTime > 0;
     gather.constants[hasDampingId] = gather.alternatesVelocities;
     setDispatch(common, gather, isRanged ? k::gatherSplitRanged : k::gatherSplit,
@@ -231,9 +221,10 @@ std::vector<Gather> addGathers(const Common& common) {
 }
 
 // Appends one dispatch a kind of body, for the whole step: positions stay in shared memory.
-void addResident(const Common& common, const ParticleBuffers& particles) {
+void addResident(const Common& common) {
+    const ParticleBuffers& particles = common.build.particles;
     const auto [batches, cells] = uploadGrids(common, Residence::sharedMemory);
-    sleep::addOpening(common.program, particles);
+    common.build.add(&Feature::open);
     for (const Batch& batch : batches.batches) {
         Gather gather = gridGather(common, batch, cells);
         gather.constants[residentSlotsId] = batch.push.bodySlots;
@@ -259,187 +250,80 @@ void addLinks(const std::vector<Gather>& gathers, const ParticleBuffers& current
     }
 }
 
-// Adds the colliders other than planes.
-rigid::colliders::Colliders addRigid(const Common& common) {
-    auto rigid =
-        rigid::colliders::add(common.program, common.model.scene, common.model.settings, common.model.layout);
-    rigid::colliders::addMemory(common.program, rigid);
-    return rigid;
-}
-
-void addSubsteps(const Common& common, const ParticleBuffers& particles) {
-    ProgramBuilder& program = common.program;
-    const StateLayout& layout = common.model.layout;
-    const std::uint32_t substeps = common.model.settings.substeps;
+void addSubsteps(const Common& common) {
+    Build& build = common.build;
+    ProgramBuilder& program = build.program;
+    const StateLayout& layout = build.model.layout;
+    const ParticleBuffers& particles = build.particles;
     const std::vector<Gather> gathers = addGathers(common);
     const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
-    const auto attachments = constraints::attachment::add(program, common.model.scene, layout);
-    const auto tethers = constraints::tether::add(program, common.model);
-    const auto rigid = addRigid(common);
-    const auto driven = rigid::driven::add(program, common.model.scene, layout, rigid);
-    sleep::addOpening(program, particles, attachments, rigid);
+    build.add(&Feature::open);
     ParticleBuffers current = particles, next = particles;
     next.positions = program.scratch<layout::vec4>("state.next_positions", positionCount(layout));
     if (alternates) next.velocities = program.scratch<layout::vec4>("state.next_velocities", layout.count);
-    for (std::uint32_t substep = 0; substep < substeps; ++substep) {
+    for (std::uint32_t index = 0; index < build.model.settings.substeps; ++index) {
         program.beginSubstep();
-        rigid::colliders::addOpening(program, current, rigid, substep == 0);
-        addLinks(gathers, current, next, substep == 0);
+        const Substep substep{.particles = current, .index = index};
+        build.add(&Feature::substepBegin, substep);
+        addLinks(gathers, current, next, index == 0);
         std::swap(current, next);
-        rigid::driven::addPass(program, current, driven, substep);
-        constraints::attachment::addPass(program, current, attachments, substep, substeps);
-        grabs::addPass(program, current, substep, substeps, Kick::whole);
-        constraints::tether::addPass(program, current, tethers);
-        rigid::colliders::addPass(program, current, rigid, substep, Kick::whole);
+        build.add(&Feature::afterLinks, substep);
+        build.add(&Feature::afterContacts, substep);
+        build.add(&Feature::substepEnd, substep);
     }
     program.endSubsteps();
     if (current.positions != particles.positions) program.copy(current.positions, particles.positions);
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
 }
 
-// The contacts of a scene in order: of particles with faces, of edges of faces, of particles with particles.
-struct Touching {
-    std::optional<collision::face_contacts::Contacts> faces;
-    std::optional<collision::edge_contacts::Contacts> edges;
-    std::optional<collision::particle_contacts::Contacts> pairs;
-    BufferId before; // velocities at the start of the substep
-    // Planes and the slots that hold a particle; only if no particles touch each other.
-    rigid::planes::Planes planes;
-    BufferId particles;
-    std::uint32_t particleCount = 0;
-
-    // Starts a substep with these velocities, which stay until its contacts are solved.
-    void begin(BufferId velocities) {
-        before = velocities;
-        if (faces) faces->rows.before = velocities;
-        if (edges) edges->rows.before = velocities;
-        if (pairs) pairs->before = velocities;
-    }
-    void addPasses(ProgramBuilder& program, const ParticleBuffers& predicted, const ParticleBuffers& next,
-                   bool isFirst) const {
-        if (faces) collision::face_contacts::addPasses(program, *faces, predicted, isFirst);
-        if (edges) collision::edge_contacts::addPasses(program, *edges, predicted, isFirst);
-        if (pairs)
-            collision::particle_contacts::addPasses(program, *pairs, predicted, next, isFirst);
-        else
-            addFinish(program, predicted, next);
-    }
-    // Appends the end of a substep in which no particles touch each other.
-    void addFinish(ProgramBuilder& program, const ParticleBuffers& predicted,
-                   const ParticleBuffers& next) const {
-        std::vector<BufferId> buffers{predicted.positions, predicted.velocities, next.step, next.positions,
-                                      next.velocities};
-        ProgramBuilder::Constants constants = remainderConstants(next.layout);
-        buffers.insert(buffers.end(), {before, planes.planes, planes.contactOffsets});
-        constants.merge(planes.constants());
-        forces::bindTo(next, &forces::Forces::ofPlanes, buffers, constants);
-        buffers.push_back(particles);
-        program.dispatch(kernels::finishAfterSurfaces, particleCount, buffers,
-                         layout::CountPush{particleCount}, constants);
-    }
-    // Appends restitution after all contacts of a substep; velocities alternate.
-    void addBounces(ProgramBuilder& program, const ParticleBuffers& met, ParticleBuffers& current) {
-        if (faces) collision::row_contacts::addBounces(program, faces->rows, current);
-        if (edges) collision::row_contacts::addBounces(program, edges->rows, current);
-        if (!pairs || !pairs->surfaces.hasRestitution) return;
-        collision::particle_contacts::addBounces(program, *pairs, met, current);
-        std::swap(current.velocities, pairs->rebounding);
-    }
-    // Whether a particle may end a substep at another position than its velocity gives.
-    bool moveUnseen() const { return pairs || (faces && (faces->hasStops() || faces->zones.exist())); }
-    void joinIslands(sleep::Sleep& sleep) const {
-        if (faces) collision::row_contacts::joinIslands(faces->rows, sleep);
-        if (edges) collision::row_contacts::joinIslands(edges->rows, sleep);
-        if (pairs) collision::particle_contacts::joinIslands(*pairs, sleep);
-    }
-    void addPublishing(ProgramBuilder& program) const {
-        if (faces) collision::row_contacts::addPublishing(program, faces->rows, faces->lists.grid);
-        if (edges) collision::row_contacts::addPublishing(program, edges->rows, edges->lists.grid);
-        if (pairs) collision::particle_contacts::addPublishing(program, *pairs);
-    }
-};
-
-Touching addTouching(const Common& common, const ParticleBuffers& particles) {
-    namespace faces = collision::face_contacts;
-    namespace edges = collision::edge_contacts;
-    const SceneModel& model = common.model;
-    Touching touching;
-    if (model.facesTouch()) touching.faces = faces::add(common.program, model, particles);
-    if (const auto meeting = edges::edgesThatMeet(model); !meeting.empty())
-        touching.edges = edges::add(common.program, model, meeting, particles, *touching.faces);
-    if (model.particlesTouch()) {
-        touching.pairs = collision::particle_contacts::add(common.program, model);
-        return touching;
-    }
-    const std::vector<std::uint32_t> slots = slotsInOrder(model.layout);
-    touching.planes = rigid::planes::add(common.program, model.scene, model.layout);
-    touching.particles = common.program.upload("state.particles", slots);
-    touching.particleCount = static_cast<std::uint32_t>(slots.size());
-    return touching;
-}
-
 // Appends the substeps of a scene with contacts: gathers leave predicted positions, and the passes of the
 // contacts turn these into the state after the substep. Positions end in the buffer that they started in;
 // velocities end in another one, so that contacts can read the old ones.
-void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles) {
-    ProgramBuilder& program = common.program;
-    const StateLayout& layout = common.model.layout;
-    const std::uint32_t substeps = common.model.settings.substeps;
-    Touching contacts = addTouching(common, particles);
-    if (particles.sleep) contacts.joinIslands(*particles.sleep);
-    if (contacts.faces) collision::addFaceFilter(program, *contacts.faces);
-    if (contacts.edges) collision::addEdgeFilter(program, *contacts.edges);
-    if (contacts.pairs) collision::addContactFilter(program, *contacts.pairs);
+void addTouchingSubsteps(const Common& common) {
+    Build& build = common.build;
+    ProgramBuilder& program = build.program;
+    const StateLayout& layout = build.model.layout;
+    const ParticleBuffers& particles = build.particles;
+    Touching& contacts = addTouching(build);
     const std::vector<Gather> gathers = addGathers(common);
-    const auto attachments = constraints::attachment::add(program, common.model.scene, layout);
-    const auto tethers = constraints::tether::add(program, common.model);
-    const auto rigid = addRigid(common);
-    const auto driven = rigid::driven::add(program, common.model.scene, layout, rigid);
-    sleep::addOpening(program, particles, attachments, rigid);
+    build.add(&Feature::open);
     ParticleBuffers current = particles, predicted = particles;
     predicted.positions = program.scratch<layout::vec4>("state.next_positions", positionCount(layout));
     predicted.velocities = program.scratch<layout::vec4>("state.linked_velocities", layout.count);
     BufferId spare = program.scratch<layout::vec4>("state.next_velocities", layout.count);
-    for (std::uint32_t substep = 0; substep < substeps; ++substep) {
+    const ParticleBuffers* unseen = contacts.moveUnseen() ? &predicted : nullptr;
+    for (std::uint32_t index = 0; index < build.model.settings.substeps; ++index) {
         program.beginSubstep();
-        rigid::colliders::addOpening(program, current, rigid, substep == 0);
+        const Substep substep{.particles = current, .index = index, .predicted = unseen};
+        build.add(&Feature::substepBegin, substep);
         contacts.begin(current.velocities);
-        addLinks(gathers, current, predicted, substep == 0);
-        if (particles.forces) forces::addPulls(program, predicted);
-        rigid::driven::addPass(program, predicted, driven, substep);
+        addLinks(gathers, current, predicted, index == 0);
+        build.add(&Feature::afterLinks, {.particles = predicted, .index = index});
         std::swap(current.velocities, spare);
-        contacts.addPasses(program, predicted, current, substep == 0);
+        contacts.addPasses(program, predicted, current, index == 0);
         contacts.addBounces(program, predicted, current);
-        constraints::attachment::addPass(program, current, attachments, substep, substeps);
-        grabs::addPass(program, current, substep, substeps, Kick::whole);
-        constraints::tether::addPass(program, current, tethers);
-        if (contacts.faces) {
-            collision::face_contacts::addZones(program, *contacts.faces, predicted, current);
-            collision::face_contacts::addStops(program, *contacts.faces, current);
-        }
-        rigid::colliders::addPass(program, current, rigid, substep, Kick::whole,
-                                  contacts.moveUnseen() ? &predicted : nullptr);
+        build.add(&Feature::afterContacts, substep);
+        contacts.addStops(program, predicted, current);
+        build.add(&Feature::substepEnd, substep);
     }
     program.endSubsteps();
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
     program.keepForRepeat(particles.positions);
     program.keepForRepeat(particles.velocities);
-    program.atEnd([&program, contacts] { contacts.addPublishing(program); });
 }
 
-void addPasses(ProgramBuilder& program, const SceneModel& model, const stiffness::Shares& shares,
-               const ParticleBuffers& particles) {
-    const Scene& scene = model.scene;
-    program.program().sweeps = scene.distances.empty() ? 0 : model.settings.substeps;
+void addPasses(Build& build, const stiffness::Shares& shares) {
+    const SceneModel& model = build.model;
+    build.program.program().sweeps = model.scene.distances.empty() ? 0 : model.settings.substeps;
     if (model.particlesTouch() || model.facesTouch() || model.settings.keepsForces) {
-        addTouchingSubsteps({program, model, shares, {}}, particles);
+        addTouchingSubsteps({build, shares, {}});
         return;
     }
-    const Common common{program, model, shares, rigid::planes::add(program, scene, model.layout)};
-    if (isResident(scene, model.settings, model.grids))
-        addResident(common, particles);
+    const Common common{build, shares, rigid::planes::add(build.program, model.scene, model.layout)};
+    if (isResident(model.scene, model.settings, model.grids))
+        addResident(common);
     else
-        addSubsteps(common, particles);
+        addSubsteps(common);
 }
 
 } // namespace
@@ -451,10 +335,7 @@ bool contactsFollow(const Scene& scene, const Settings& settings) {
 SolverPlan plan(const SceneModel& model) {
     stiffness::Shares shares = stiffness::sharesOf(model.scene, model.settings, model.inverseMass);
     std::vector<float> times = shares.times;
-    return {std::move(times),
-            [&model, shares = std::move(shares)](ProgramBuilder& program, const ParticleBuffers& particles) {
-                addPasses(program, model, shares, particles);
-            }};
+    return {std::move(times), [shares = std::move(shares)](Build& build) { addPasses(build, shares); }};
 }
 
 } // namespace sinew::sim::solvers::split

@@ -71,31 +71,6 @@ void addGradients(ProgramBuilder& program, const CutSurface& surface) {
                                  source.runs[r]);
 }
 
-void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
-    const StepProgram& built = program.program();
-    const CutSurfaceBuffers drawn = built.cutSurface;
-    if (surface.hung.prismCount == 0) addGradients(program, surface);
-    addWholeNormals(program, surface);
-    addRimNormals(program, surface);
-    addPartNormals(program, surface);
-    const IndirectItems points{surface.arguments, surface.push.runs + SURFACE_POINTS, surface.push.room};
-    const IndirectItems outside{surface.arguments, surface.push.runs + SURFACE_OUTSIDE, surface.push.room};
-    const layout::CountPush room{surface.push.room};
-    std::vector<BufferId> buffers{
-        drawn.state,       built.cutting.links, surface.rest, surface.source.particles, built.positions,
-        surface.gradients, surface.near,        drawn.rest,   drawn.vertices,           surface.turns};
-    const bool hasHung = surface.hung.prismCount > 0;
-    for (const BufferId buffer :
-         {built.skinVertices, surface.hung.vertices, surface.hung.moved, surface.hung.grids})
-        buffers.push_back(boundIf(hasHung, buffer));
-    constexpr std::uint32_t hasHungId = 1; // constant_id in place_cut_points.comp
-    program.dispatchIndirect(k::placeCutPoints, points, buffers, room, {{hasHungId, hasHung}});
-    program.dispatchIndirect(k::placePieceCorners, outside,
-                             {drawn.state, drawn.rest, built.positions, surface.gradients, drawn.vertices,
-                              built.skinVertices, surface.turns},
-                             room);
-}
-
 // Appends the passes that rewrite the whole surface from the state of cells.
 void addRewriting(ProgramBuilder& program, const CutSurface& surface, BufferId blade) {
     const CuttingBuffers& cutting = program.program().cutting;
@@ -165,13 +140,38 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
         program.addToState(buffer, buffer);
     }
     addHungBuffers(program, *surface, bodies);
-    if (surface->hung.prismCount > 0)
-        program.beforeNormals([&program, surface] {
-            addGradients(program, *surface);
-            addSplitVertices(program, *surface);
-        });
-    program.atSkin([&program, surface] { addDrawing(program, *surface); });
     return surface;
+}
+
+void addNormalsOfCuts(ProgramBuilder& program, const CutSurface& surface) {
+    if (surface.hung.prismCount == 0) return;
+    addGradients(program, surface);
+    addSplitVertices(program, surface);
+}
+
+void addCutDrawing(ProgramBuilder& program, const CutSurface& surface) {
+    const StepProgram& built = program.program();
+    const CutSurfaceBuffers drawn = built.cutSurface;
+    if (surface.hung.prismCount == 0) addGradients(program, surface);
+    addWholeNormals(program, surface);
+    addRimNormals(program, surface);
+    addPartNormals(program, surface);
+    const IndirectItems points{surface.arguments, surface.push.runs + SURFACE_POINTS, surface.push.room};
+    const IndirectItems outside{surface.arguments, surface.push.runs + SURFACE_OUTSIDE, surface.push.room};
+    const layout::CountPush room{surface.push.room};
+    std::vector<BufferId> buffers{
+        drawn.state,       built.cutting.links, surface.rest, surface.source.particles, built.positions,
+        surface.gradients, surface.near,        drawn.rest,   drawn.vertices,           surface.turns};
+    const bool hasHung = surface.hung.prismCount > 0;
+    for (const BufferId buffer :
+         {built.skinVertices, surface.hung.vertices, surface.hung.moved, surface.hung.grids})
+        buffers.push_back(boundIf(hasHung, buffer));
+    constexpr std::uint32_t hasHungId = 1; // constant_id in place_cut_points.comp
+    program.dispatchIndirect(k::placeCutPoints, points, buffers, room, {{hasHungId, hasHung}});
+    program.dispatchIndirect(k::placePieceCorners, outside,
+                             {drawn.state, drawn.rest, built.positions, surface.gradients, drawn.vertices,
+                              built.skinVertices, surface.turns},
+                             room);
 }
 
 void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, BufferId blade) {

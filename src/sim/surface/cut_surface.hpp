@@ -88,6 +88,12 @@ BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId
 void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bladePlaces,
                  BufferId placesBefore, BufferId blade, BufferId points);
 
+/// Appends, to the list of skins between positions and normals, what normals of clipped meshes depend on.
+void addNormalsOfCuts(ProgramBuilder& program, const CutSurface& surface);
+
+/// Appends the surface to the list of skins, after all normals.
+void addCutDrawing(ProgramBuilder& program, const CutSurface& surface);
+
 /// Appends the passes at the end of a step.
 void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, BufferId blade);
 

@@ -128,16 +128,6 @@ void findSkins(ProgramBuilder& program, const Scene& scene, const StateLayout& l
     }
 }
 
-void addDrawing(ProgramBuilder& program, const SheetPieces& pieces) {
-    const StepProgram& built = program.program();
-    for (const SheetSkin& skin : pieces.skins)
-        program.dispatchIndirect(k::placeSheetPieces,
-                                 {pieces.arguments, 2 * skin.push.skin + 1, skin.push.vertexRoom},
-                                 {skin.state, skin.vertices, built.cutting.links, pieces.particles,
-                                  built.positions, built.skinVertices},
-                                 skin.skinPush);
-}
-
 } // namespace
 
 std::optional<std::vector<layout::SheetTriangle>>
@@ -189,8 +179,17 @@ std::shared_ptr<SheetPieces> addSheetPieces(ProgramBuilder& program, const Scene
         built.cutting.topology.push_back(buffer);
         program.addToState(buffer, buffer);
     }
-    program.atSkin([&program, pieces] { addDrawing(program, *pieces); });
     return pieces;
+}
+
+void addSheetDrawing(ProgramBuilder& program, const SheetPieces& pieces) {
+    const StepProgram& built = program.program();
+    for (const SheetSkin& skin : pieces.skins)
+        program.dispatchIndirect(k::placeSheetPieces,
+                                 {pieces.arguments, 2 * skin.push.skin + 1, skin.push.vertexRoom},
+                                 {skin.state, skin.vertices, built.cutting.links, pieces.particles,
+                                  built.positions, built.skinVertices},
+                                 skin.skinPush);
 }
 
 void addSheetPasses(ProgramBuilder& program, const SheetPieces& pieces, bool isFirst) {

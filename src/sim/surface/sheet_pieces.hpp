@@ -45,6 +45,9 @@ std::shared_ptr<SheetPieces> addSheetPieces(ProgramBuilder& program, const Scene
                                             const StateLayout& layout, BufferId particles,
                                             std::uint32_t leastRoom);
 
+/// Appends the parts of sheets to the list of skins, after all normals.
+void addSheetDrawing(ProgramBuilder& program, const SheetPieces& pieces);
+
 /// Appends the passes after the links of a step are settled. `isFirst`: no surface of cuts before it reports
 /// missing room.
 void addSheetPasses(ProgramBuilder& program, const SheetPieces& pieces, bool isFirst);

@@ -139,7 +139,9 @@ void addNormals(ProgramBuilder& program, BufferId indices, const VertexFans& fan
         {{isOfWholesId, wholes.hung != unbound}});
 }
 
-void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
+void addSkins(Build& build) {
+    ProgramBuilder& program = build.program;
+    const std::vector<Skin>& skins = build.model.scene.skins;
     StepProgram& built = program.program();
     std::uint32_t vertexCount = 0;
     for (const Skin& skin : skins) vertexCount += allVertices(skin);
@@ -155,10 +157,10 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
         all.holders.push_back(skin.vertexCount() > 0 ? uploadHolders(program, skin) : BufferId{});
     program.into(List::skin, [&] {
         addVertices(program, all, allVertices);
-        for (const auto& addMore : program.skinMiddles()) addMore();
+        build.add(&Feature::skinNormals);
         addNormals(program, built.skinIndices, uploadFans(program, indices, vertexCount, "skin"),
                    {vertexCount, vertexCount});
-        for (const auto& addMore : program.skinEndings()) addMore();
+        build.add(&Feature::skinEnd);
     });
     addWholeSkins(program, all);
 }

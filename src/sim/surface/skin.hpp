@@ -3,8 +3,7 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sim/program/program.hpp"
-#include "sinew/scene.hpp"
+#include "sim/model/feature.hpp"
 
 namespace sinew::sim::surface {
 
@@ -19,9 +18,9 @@ VertexFans uploadFans(ProgramBuilder& program, const std::vector<std::uint32_t>&
                       std::uint32_t vertexCount, const std::string& name);
 
 /// Appends the skin passes, and those of whole skins if some were split, and sets the program's skin buffers;
-/// nothing if `skins` is empty. Skins are consecutive in one vertex and one index buffer, in the order of the
-/// scene.
-void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins);
+/// nothing if the scene has no skins. Skins are consecutive in one vertex and one index buffer, in the order
+/// of the scene.
+void addSkins(Build& build);
 
 /// Bound vertices, and marks of those beside a cut.
 struct WholeVertices {

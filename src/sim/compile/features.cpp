@@ -1,0 +1,55 @@
+// A row has a function for each stage at which the feature takes part (sim/model/feature.hpp). The order of
+// the rows is that of the passes within a stage.
+#include "sim/compile/features.hpp"
+
+#include "sim/constraints/attachment.hpp"
+#include "sim/constraints/tether.hpp"
+#include "sim/cutting/cut.hpp"
+#include "sim/cutting/cut_lists.hpp"
+#include "sim/forces/forces.hpp"
+#include "sim/grabs/grab.hpp"
+#include "sim/rigid/colliders.hpp"
+#include "sim/rigid/driven.hpp"
+#include "sim/sleep/sleep.hpp"
+#include "sim/solvers/touching.hpp"
+
+namespace sinew::sim {
+
+namespace {
+
+constexpr Feature rows[] = {
+    {.name = "cuts",
+     .cut = cutting::addOpening,
+     .cutEnd = cutting::addClosing,
+     .skinNormals = cutting::addSkinNormals,
+     .skinEnd = cutting::addSkinEnd},
+    {.name = "attachments",
+     .open = constraints::attachment::add,
+     .afterContacts = constraints::attachment::addPass},
+    {.name = "grabs", .begin = grabs::add, .afterContacts = grabs::addPass},
+    {.name = "contacts", .cutEnd = solvers::addCutFilters, .end = solvers::addContactMemory},
+    {.name = "cuts of listed links", .cutEnd = cutting::addListFilters},
+    {.name = "tethers",
+     .open = constraints::tether::add,
+     .afterContacts = constraints::tether::addPass,
+     .cutEnd = constraints::tether::addCutPass},
+    {.name = "forces", .begin = forces::add, .afterLinks = forces::addPulls, .end = forces::addSums},
+    {.name = "colliders",
+     .open = rigid::colliders::add,
+     .substepBegin = rigid::colliders::addSaving,
+     .substepEnd = rigid::colliders::addPass},
+    {.name = "driven bodies", .open = rigid::driven::add, .afterLinks = rigid::driven::addPass},
+    {.name = "sleep",
+     .buffers = sleep::add,
+     .open = sleep::addOpening,
+     .check = sleep::addDetection,
+     .finish = sleep::finish},
+};
+
+} // namespace
+
+std::span<const Feature> features() {
+    return rows;
+}
+
+} // namespace sinew::sim
