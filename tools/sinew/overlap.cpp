@@ -2,6 +2,7 @@
 // the scene.
 #include "sinew/overlap.hpp"
 
+#include "sim/model/links.hpp"
 #include "sim/model/touching.hpp"
 
 #include <algorithm>
@@ -35,8 +36,7 @@ class Apart {
 public:
     explicit Apart(const sim::Scene& scene) : scene_(scene), body_(scene.particles.size()) {
         std::iota(body_.begin(), body_.end(), 0u);
-        for (const sim::DistanceConstraint& d : scene.distances) link(d.a, d.b);
-        for (const sim::BendConstraint& b : scene.bends) link(b.a, b.b), link(b.b, b.c), link(b.a, b.c);
+        sim::forEachLinkedPair(scene, [this](std::uint32_t a, std::uint32_t b) { link(a, b); });
     }
 
     bool hold(std::uint32_t i, std::uint32_t j) {

@@ -1,5 +1,7 @@
-// Factors by particle, which links, bends and grids look up at their ends.
+// Factors by particle, which links and grids look up at their ends.
 #include "sinew/material.hpp"
+
+#include "sim/model/links.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +30,10 @@ float softened(float compliance, double factor) {
 }
 
 void stiffen(Scene& scene, std::span<const double> factors) {
-    for (DistanceConstraint& link : scene.distances)
-        link.compliance = softened(link.compliance, std::sqrt(factors[link.a] * factors[link.b]));
-    for (BendConstraint& bend : scene.bends) bend.compliance = softened(bend.compliance, factors[bend.b]);
+    forEachKind(scene, [&]<typename Link>(std::vector<Link>& links) {
+        for (Link& link : links)
+            link.compliance = softened(link.compliance, LinkTraits<Link>::factor(link, factors));
+    });
     for (Grid& grid : scene.grids) {
         const double factor = factors[grid.firstParticle];
         for (float& compliance : grid.compliance) compliance = softened(compliance, factor);

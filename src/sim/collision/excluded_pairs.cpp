@@ -1,7 +1,7 @@
 // Pairs of particles of linked bodies that may not touch, from the scene at rest. Bodies are assumed to start
 // at rest; other initial positions are used as they are.
 #include "sim/collision/contact_lists.hpp"
-#include "sim/model/state.hpp"
+#include "sim/model/links.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,12 +17,7 @@ using Pair = std::array<std::uint32_t, 2>;
 
 std::vector<Pair> linkedPairs(const Scene& scene) {
     std::vector<Pair> pairs;
-    for (const DistanceConstraint& d : scene.distances) pairs.push_back({d.a, d.b});
-    for (const BendConstraint& b : scene.bends) {
-        pairs.push_back({b.a, b.b});
-        pairs.push_back({b.b, b.c});
-        pairs.push_back({b.a, b.c});
-    }
+    forEachLinkedPair(scene, [&](std::uint32_t a, std::uint32_t b) { pairs.push_back({a, b}); });
     return pairs;
 }
 

@@ -7,6 +7,7 @@
 #include "sim/compile/publish.hpp"
 #include "sim/core/hash.hpp"
 #include "sim/lattice/cells.hpp"
+#include "sim/model/links.hpp"
 #include "sim/solvers/gauss_seidel.hpp"
 #include "sim/solvers/jacobi.hpp"
 #include "sim/solvers/solver_plan.hpp"
@@ -109,8 +110,8 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     ProgramBuilder program(settings.isReversed, settings.forms.usesTexels);
     StepProgram& built = program.program();
     built.particleCount = static_cast<std::uint32_t>(scene.particles.size());
-    built.constraintCount = static_cast<std::uint32_t>(scene.distances.size() + scene.bends.size() +
-                                                       scene.attachments.size() + scene.tethers.size());
+    built.constraintCount =
+        static_cast<std::uint32_t>(linkCount(scene) + scene.attachments.size() + scene.tethers.size());
     const SceneModel model(scene, settings);
     const std::vector<float>& inverseMass = model.inverseMass;
     const StateLayout& layout = model.layout;

@@ -9,6 +9,7 @@
 #include "sim/lattice/check_grid.hpp"
 #include "sim/model/coloring.hpp"
 #include "sim/model/grids.hpp"
+#include "sim/model/links.hpp"
 #include "sim/model/touching.hpp"
 #include "sim/rigid/check_colliders.hpp"
 #include "sim/stiffness/shares.hpp"
@@ -526,7 +527,7 @@ void checkForces(const Scene& scene, const Settings& settings, Complaints& compl
 } // namespace
 
 bool canRecover(const Scene& scene, const Settings& settings) {
-    return settings.solver == Solver::split && settings.forms.usesGrids && scene.bends.empty() &&
+    return settings.solver == Solver::split && settings.forms.usesGrids && linksFitGrids(scene) &&
            scene.dampingTime == 0 && stiffness::recoveryBudget(settings) > 0;
 }
 

@@ -4,6 +4,7 @@
 #include "common/layout.h"
 #include "kernels.hpp"
 #include "sim/lattice/link_masks.hpp"
+#include "sim/model/links.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -111,17 +112,20 @@ std::string tiedPast(const Scene& scene, const Grid& sheet) {
         const int x = apart(0), z = apart(2);
         return std::max(x, z) == 1 || (mayLeap && std::max(x, z) == 2 && x % 2 == 0 && z % 2 == 0);
     };
-    for (std::size_t c = 0; c < scene.distances.size(); ++c) {
-        const auto& [a, b, length, compliance] = scene.distances[c];
-        if ((has(a) || has(b)) && !isTie(a, b, true)) return "distance[" + std::to_string(c) + "]";
-    }
-    for (std::size_t c = 0; c < scene.bends.size(); ++c) {
-        const BendConstraint& bend = scene.bends[c];
-        if ((has(bend.a) || has(bend.b) || has(bend.c)) &&
-            !(isTie(bend.a, bend.b, false) && isTie(bend.b, bend.c, false)))
-            return "bend[" + std::to_string(c) + "]";
-    }
-    return {};
+    // Only a link with two ends may lead over a node.
+    const auto isLost = [&](const auto& ends) {
+        if (std::ranges::none_of(ends, has)) return false;
+        for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+            if (!isTie(ends[i], ends[i + 1], ends.size() == 2)) return true;
+        return false;
+    };
+    std::string tied;
+    forEachKind(scene, [&]<typename Link>(const std::vector<Link>& links) {
+        for (std::size_t c = 0; tied.empty() && c < links.size(); ++c)
+            if (isLost(LinkTraits<Link>::ends(links[c])))
+                tied = std::string(LinkTraits<Link>::name) + "[" + std::to_string(c) + "]";
+    });
+    return tied;
 }
 
 bool haveLists(const StepProgram& program, std::uint32_t listed) {

@@ -14,9 +14,8 @@ namespace sinew::sim::cutting {
 bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g,
               std::span<const std::uint32_t> computed);
 
-/// The first distance constraint or bend of the scene that belongs to such a sheet but follows no link of the
-/// mask: it leads out of the sheet or over more than one node, and would hold cut pieces together.
-/// "distance[3]", or empty.
+/// The first link of the scene that belongs to such a sheet but follows no link of the mask: it leads out of
+/// the sheet or over more than one node, and would hold cut pieces together. "distance[3]", or empty.
 std::string tiedPast(const Scene& scene, const Grid& sheet);
 
 /// Whether the links of the first `listed` slots can be cut. Call it after cutting::addOpening.

@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 #include "sim/model/inverse_masses.hpp"
+#include "sim/model/links.hpp"
 #include "sim/model/solver_names.hpp"
 
 #include <algorithm>
@@ -145,16 +146,14 @@ void addBodies(ProgramBuilder& program, const Scene& scene, const Forces& forces
                      pushed);
 }
 
-// Whether a link or a bend pulls at a static particle.
+// Whether a link pulls at a static particle.
 bool areLinksHeld(const Scene& scene) {
     const std::vector<float> inverseMass = inverseMasses(scene);
-    const auto isHeld = [&](std::uint32_t i) { return inverseMass[i] == 0; };
-    return std::ranges::any_of(
-               scene.distances,
-               [&](const DistanceConstraint& link) { return isHeld(link.a) || isHeld(link.b); }) ||
-           std::ranges::any_of(scene.bends, [&](const BendConstraint& bend) {
-               return isHeld(bend.a) || isHeld(bend.b) || isHeld(bend.c);
-           });
+    bool areHeld = false;
+    forEachLink(scene, [&](const auto& ends) {
+        for (const std::uint32_t end : ends) areHeld = areHeld || inverseMass[end] == 0;
+    });
+    return areHeld;
 }
 
 // All members except the buffer.
@@ -180,7 +179,7 @@ void check(const Scene& scene, const Settings& settings, Complaints& complaints)
     if (settings.sleeps)
         complaints.add("settings.keepsForces",
                        "is set, but bodies that sleep have no forces: leave out one of the two");
-    if (settings.solver == Solver::jacobi && !(scene.distances.empty() && scene.bends.empty()))
+    if (settings.solver == Solver::jacobi && linkCount(scene) > 0)
         complaints.add(
             "settings.keepsForces",
             "is set, but solver jacobi averages the effects of links on a particle, so that the forces on a "

@@ -1,6 +1,8 @@
 // Union-find with path halving.
 #include "sim/model/components.hpp"
 
+#include "sim/model/links.hpp"
+
 #include <algorithm>
 #include <numeric>
 
@@ -21,12 +23,7 @@ template <typename Connects> std::vector<std::uint32_t> unite(const Scene& scene
         const std::uint32_t first = root(a), second = root(b);
         parent[std::max(first, second)] = std::min(first, second);
     };
-    for (const DistanceConstraint& d : scene.distances) join(d.a, d.b);
-    for (const BendConstraint& b : scene.bends) {
-        join(b.a, b.b);
-        join(b.b, b.c);
-        join(b.a, b.c);
-    }
+    forEachLinkedPair(scene, join);
     for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
     return parent;
 }

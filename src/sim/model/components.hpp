@@ -7,8 +7,8 @@
 
 namespace sinew::sim {
 
-/// For each particle the smallest index in its component, connected by distance and bend constraints. Static
-/// particles (inverse mass 0) do not connect others.
+/// For each particle the smallest index in its component, connected by links (links.hpp). Static particles
+/// (inverse mass 0) do not connect others.
 std::vector<std::uint32_t> linkedComponents(const Scene& scene, std::span<const float> inverseMass);
 
 /// The same, but connected also through static particles.

@@ -1,6 +1,8 @@
 // Listed particles stand at the head of the state, boxes of grids behind them.
 #include "sim/model/grids.hpp"
 
+#include "sim/model/links.hpp"
+
 namespace sinew::sim {
 
 namespace {
@@ -32,8 +34,8 @@ std::optional<EqualBoxes> equalBoxes(const Scene& scene, std::span<const std::ui
 
 std::vector<std::uint32_t> computedGrids(const Scene& scene, const Settings& settings) {
     std::vector<std::uint32_t> grids;
-    // kernels of grids support neither bends nor internal damping
-    if (!settings.forms.usesGrids || !scene.bends.empty() || scene.dampingTime > 0) return grids;
+    // kernels of grids support no internal damping either
+    if (!settings.forms.usesGrids || !linksFitGrids(scene) || scene.dampingTime > 0) return grids;
     std::vector<std::uint32_t> links(scene.particles.size()); // by particle
     for (const DistanceConstraint& c : scene.distances) {
         ++links[c.a];

@@ -1,6 +1,8 @@
 // FNV-1a over 32-bit words, list by list; the length of a list precedes its elements.
 #include "sim/model/scene_key.hpp"
 
+#include "sim/model/links.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <concepts>
@@ -47,8 +49,12 @@ void addOfSplit(Key& key, const Scene& scene) {
 void addLinks(Key& key, const Scene& scene) {
     key.each(scene.particles,
              [&](const Particle& p) { key.addAll(p.position, p.inverseMass, p.contactOffset); });
-    key.each(scene.distances, [&](const DistanceConstraint& d) { key.addAll(d.a, d.b, d.restLength); });
-    key.each(scene.bends, [&](const BendConstraint& bend) { key.addAll(bend.a, bend.b, bend.c); });
+    forEachKind(scene, [&]<typename Link>(const std::vector<Link>& links) {
+        key.each(links, [&](const Link& link) {
+            for (const std::uint32_t end : LinkTraits<Link>::ends(link)) key.add(end);
+            for (const float value : LinkTraits<Link>::rest(link)) key.add(value);
+        });
+    });
     key.each(scene.attachments, [&](const Attachment& a) { key.add(a.particle); });
     key.each(scene.tethers, [&](const Tether& t) { key.addAll(t.particle, t.anchor, t.length); });
     key.each(scene.fixed, [&](const FixedConstraint& f) { key.add(f.particle); });

@@ -5,6 +5,7 @@
 #include "sim/collision/loads.hpp"
 #include "sim/core/complaints.hpp"
 #include "sim/core/counted.hpp"
+#include "sim/model/links.hpp"
 #include "sim/model/touching.hpp"
 #include "sim/stiffness/folds.hpp"
 #include "sim/stiffness/shares.hpp"
@@ -168,8 +169,8 @@ std::uint32_t neededFor(const Scene& scene, const Settings& settings, const Load
 }
 
 bool hasOnlyFreeParticles(const Scene& scene) {
-    return scene.distances.empty() && scene.bends.empty() && scene.attachments.empty() &&
-           scene.planes.empty() && scene.colliders.empty() && !canTouch(scene);
+    return linkCount(scene) == 0 && scene.attachments.empty() && scene.planes.empty() &&
+           scene.colliders.empty() && !canTouch(scene);
 }
 
 // Lower limit of the automatic choice.

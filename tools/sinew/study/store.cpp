@@ -5,6 +5,7 @@
 #include "mesh/export.hpp"
 #include "sim/compile/compile.hpp"
 #include "sim/core/hash.hpp"
+#include "sim/model/links.hpp"
 #include "sinew/json.hpp"
 #include "sinew/validate.hpp"
 
@@ -39,9 +40,13 @@ void addBodies(Hash& hash, const sim::Scene& scene) {
                             &sim::Particle::keepsRest)) // else it is the hash of a scene from before there
                                                         // were rest distances
         for (const sim::Particle& p : scene.particles) hash.addValues(p.keepsRest);
-    for (const sim::DistanceConstraint& d : scene.distances)
-        hash.addValues(d.a, d.b, d.restLength, d.compliance);
-    for (const sim::BendConstraint& b : scene.bends) hash.addValues(b.a, b.b, b.c, b.compliance);
+    sim::forEachKind(scene, [&]<typename Link>(const std::vector<Link>& links) {
+        for (const Link& link : links) {
+            for (const std::uint32_t end : sim::LinkTraits<Link>::ends(link)) hash.addValues(end);
+            for (const float value : sim::LinkTraits<Link>::rest(link)) hash.addValues(value);
+            hash.addValues(link.compliance);
+        }
+    });
     for (const sim::Attachment& a : scene.attachments)
         hash.addValues(a.particle, a.anchor, a.compliance, a.maxForce, a.maxSpeed);
     for (const sim::Tether& t : scene.tethers) hash.addValues(t.particle, t.anchor, t.length);
