@@ -4,6 +4,7 @@
   tools/figures.py            writes the files
   tools/figures.py --check    fails if a committed file differs from the output of this script
 """
+import math
 import pathlib
 import sys
 
@@ -296,7 +297,47 @@ def cutting():
     return f
 
 
-FIGURES = {"layers.svg": layers, "step.svg": step, "contacts.svg": contacts, "cutting.svg": cutting}
+def curves(f, left, title, xAxis, yAxis, lines, isLog=False):
+    """A plot 300 px wide. An axis is (label, values of its ticks); a line is (color, name, points)."""
+    (xName, xTicks), (yName, yTicks) = xAxis, yAxis
+    bottom, w, h = 250, 300, 190
+    yScale = math.log10 if isLog else float
+    low, high = yScale(yTicks[0]), yScale(yTicks[-1])
+
+    def at(x, y):
+        return (left + w * (x - xTicks[0]) / (xTicks[-1] - xTicks[0]), bottom - h * (yScale(y) - low) / (high - low))
+
+    f.text(left, 28, title, 13, "start", weight="bold")
+    f.text(left, 48, yName, 12, "start", QUIET)
+    for x in xTicks:
+        f.text(at(x, yTicks[0])[0], bottom + 18, number(x), 12, color=QUIET)
+    f.text(left + w, bottom + 36, xName, 12, "end", QUIET)
+    for y in yTicks:
+        f.line([(left, at(xTicks[0], y)[1]), (left + w, at(xTicks[0], y)[1])], "#c3ccd5", 1)
+        f.text(left - 6, at(xTicks[0], y)[1] + 4, f"{y:g}", 12, "end", QUIET)
+    for row, (color, name, points) in enumerate(lines):
+        f.line([at(x, min(max(y, yTicks[0]), yTicks[-1])) for x, y in points], color, 1.8)
+        f.text(left + 10, 78 + 16 * row, name, 12, "start", color)
+
+
+def knot():
+    """A rope in a knot that is pulled on until its strands no longer keep apart (docs/accuracy.md)."""
+    f = Figure(300, "A rope of voxels in an overhand knot, pulled at both ends")
+    stretch = [1.036, 1.061, 1.138, 1.267, 1.381, 1.509, 1.645, 1.785, 1.936, 2.076]
+    tension = [51, 96, 195, 400, 546, 774, 978, 1282, 1609, 1864]
+    edges = {24: [0, 0, 0, 0, 0, 4, 33, 51, 63, 116], 32: [0, 0, 0, 0, 0, 10, 16, 59, 60, 98],
+             48: [0, 0, 0, 0, 0, 6, 23, 45, 89, 103], 64: [0, 0, 0, 0, 0, 0, 23, 71, 71, 101]}
+    xAxis = ("length of the rope / length at rest", [1, 1.4, 1.8, 2.2])
+    curves(f, 70, "Tension, 64 substeps", xAxis, ("N", [0, 500, 1000, 1500, 2000]),
+           [("#1f5f9e", "", list(zip(stretch, tension)))])
+    curves(f, 450, "Edges through faces", xAxis, ("", [0, 40, 80, 120]),
+           [(color, f"{substeps} substeps", list(zip(stretch, edges[substeps])))
+            for color, substeps in zip(("#c0392b", "#b7791f", "#2f855a", "#1f5f9e"), edges)])
+    return f
+
+
+FIGURES = {"layers.svg": layers, "step.svg": step, "contacts.svg": contacts, "cutting.svg": cutting,
+           "knot.svg": knot}
 
 
 def main():
