@@ -36,13 +36,7 @@ Watched Backstage::ready(const Watched& wanted) {
         if (!has(ready)) part = before;
     };
     add(ready.layers.section, wanted.layers.section);
-    add(ready.layers.skin, wanted.layers.skin);
-    add(ready.layers.map, wanted.layers.map);
-    add(ready.layers.hasWires, wanted.layers.hasWires);
-    add(ready.layers.hasBalls, wanted.layers.hasBalls);
-    add(ready.layers.hasLinks, wanted.layers.hasLinks);
-    add(ready.layers.hasContacts, wanted.layers.hasContacts);
-    add(ready.layers.hasCells, wanted.layers.hasCells);
+    for (std::size_t i = 0; i < mostLayers; ++i) add(ready.layers.looks[i], wanted.layers.looks[i]);
     add(ready.isCounting, wanted.isCounting);
     return ready;
 }

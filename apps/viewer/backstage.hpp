@@ -4,7 +4,7 @@
 #pragma once
 
 #include "sinew/vk/queue.hpp"
-#include "viewer/hands/inspection.hpp"
+#include "viewer/layers/inspection.hpp"
 #include "viewer/prepared_show.hpp"
 
 #include <functional>

@@ -12,8 +12,8 @@
 #include "viewer/beside.hpp"
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
-#include "viewer/hands/inspection.hpp"
 #include "viewer/headless_times.hpp"
+#include "viewer/layers/inspection.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/pictures/picture_writer.hpp"
 #include "viewer/pictures/video.hpp"
@@ -268,23 +268,24 @@ private:
         if (!inspection_) inspection_.emplace(device_, stage_, 1);
         inspection_->prepare(layers_);
         inspection_->record(commands, layers_, 0);
-        float range = 0, cellRange = 0;
-        if (layers_.map != ColorMap::none || layers_.hasCells) {
+        LayerRanges ranges{};
+        const auto hasRange = [&](const Layer* layer) { return layer->hasRange && layers_.has(*layer); };
+        if (std::ranges::any_of(layerTable(), hasRange)) {
             queue_.wait(queue_.submit(commands));
-            if (layers_.map != ColorMap::none) range = inspection_->reading(0).range;
-            if (layers_.hasCells) sayCells(cellRange);
+            for (std::size_t i = 0; i < layerTable().size(); ++i)
+                if (hasRange(layerTable()[i])) ranges[i] = rangeOf(i);
             commands = queue_.begin();
         }
-        overlay.buffers = inspection_->buffers(layers_, range, cellRange);
+        overlay.buffers = inspection_->buffers(layers_, ranges);
         return overlay;
     }
 
-    // Reads the range of cells; notes once that there are none.
-    void sayCells(float& range) {
-        const std::vector<GridFacts> grids = inspection_->grids(0);
-        range = cellRangeOf(grids);
-        if (grids.empty() && !std::exchange(isGridMissed_, true))
-            std::fprintf(stderr, "note: this scene has no hash grid: no cells are drawn\n");
+    // Reads the range of a layer; notes once why nothing is drawn.
+    float rangeOf(std::size_t layer) {
+        const LayerReading reading = inspection_->reading(layer, 0);
+        if (!reading.note.empty() && !std::exchange(isNoted_[layer], true))
+            std::fprintf(stderr, "note: %s\n", reading.note.c_str());
+        return reading.values.range;
     }
 
     struct Submission {
@@ -445,9 +446,9 @@ private:
     Layers layers_;
     std::optional<Inspection> inspection_;
     std::optional<Replay> replay_;
-    bool isCompared_ = false; // with the recorded hash
-    bool isGridMissed_ = false;
-    std::optional<Tools> tools_; // of the replay
+    bool isCompared_ = false;                // with the recorded hash
+    std::array<bool, mostLayers> isNoted_{}; // by layer
+    std::optional<Tools> tools_;             // of the replay
     std::optional<BesideShape> besideShape_;
     std::unique_ptr<Beside> beside_;
     std::optional<HeadlessTimes> times_;

@@ -9,37 +9,18 @@ namespace sinew::viewer {
 
 bool LayerView::act(Action action) {
     Layers& layers = show_.screen.layers();
-    switch (action) {
-    case Action::section:
-    case Action::turnSection:
-    case Action::faceSection:
-        actOnSection(action);
+    if (const std::optional<std::size_t> layer = layerOf(action)) {
+        if (layerTable()[*layer] == &layer::wires && !drawsEdges(show_.device))
+            show_.screen.warn("this device cannot draw the edges of triangles");
+        else
+            layers.turn(*layer);
+        if (layerTable()[*layer] == &layer::colors) mapRange_ = {};
         return true;
-    case Action::skinLook:
-        layers.skin = next(layers.skin);
-        return true;
-    case Action::wires:
-        toggleWires();
-        return true;
-    case Action::balls:
-        layers.hasBalls = !layers.hasBalls;
-        return true;
-    case Action::links:
-        layers.hasLinks = !layers.hasLinks;
-        return true;
-    case Action::contacts:
-        layers.hasContacts = !layers.hasContacts;
-        return true;
-    case Action::cells:
-        layers.hasCells = !layers.hasCells;
-        return true;
-    case Action::colorMap:
-        layers.map = next(layers.map);
-        mapRange_ = {};
-        return true;
-    default:
-        return false;
     }
+    if (action != Action::section && action != Action::turnSection && action != Action::faceSection)
+        return false;
+    actOnSection(action);
+    return true;
 }
 
 // A section that is turned while there is none begins across the camera.
@@ -52,11 +33,6 @@ void LayerView::actOnSection(Action action) {
         section = sectionFacing(camera);
     else
         section = section ? turned(*section, camera.target) : sectionAcross(camera);
-}
-
-void LayerView::toggleWires() {
-    if (!drawsEdges(show_.device)) return show_.screen.warn("this device cannot draw the edges of triangles");
-    show_.screen.layers().hasWires = !show_.screen.layers().hasWires;
 }
 
 void LayerView::moveSectionTo(float offset) {
@@ -96,20 +72,29 @@ Overlay LayerView::record(const Presenter::Frame& frame) {
     if (!layers.needsBuffers()) return overlay;
     const Inspection& inspection = backstage_.inspection();
     inspection.record(frame.commands, layers, frame.slot);
-    pending_[frame.slot] = {layers.map, layers.hasContacts, layers.hasCells};
-    overlay.buffers = inspection.buffers(layers, mapRange_.range(), cellRangeOf(grids_));
+    pending_[frame.slot] = layers;
+    overlay.buffers = inspection.buffers(layers, ranges());
     return overlay;
 }
 
+LayerRanges LayerView::ranges() const {
+    LayerRanges all{};
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = readings_[i].values.range;
+    all[indexOf(layer::colors)] = mapRange_.range();
+    return all;
+}
+
 void LayerView::settle(std::uint32_t slot) {
-    const Pending pending = std::exchange(pending_[slot], {});
-    const Inspection& inspection = backstage_.inspection();
-    const float range = mapRange_.range(), cellRange = cellRangeOf(grids_);
-    if (pending.map != ColorMap::none && pending.map == show_.screen.layers().map)
-        mapRange_.read(inspection.reading(slot));
-    if (pending.hasContacts && drawn_.layers.hasContacts) contactsFound_ = inspection.contacts(slot);
-    if (pending.hasCells && drawn_.layers.hasCells) grids_ = inspection.grids(slot);
-    if (mapRange_.range() != range || cellRangeOf(grids_) != cellRange) show_.redraw();
+    const Layers pending = std::exchange(pending_[slot], {});
+    const LayerRanges before = ranges();
+    for (std::size_t i = 0; i < layerTable().size(); ++i) {
+        const auto isStill = [&](const Layers& layers) { return layers.looks[i] == pending.looks[i]; };
+        if (pending.looks[i] == 0 || !layerTable()[i]->make) continue;
+        if (!isStill(drawn_.layers) || !isStill(show_.screen.layers())) continue;
+        readings_[i] = backstage_.inspection().reading(i, slot);
+        if (layerTable()[i] == &layer::colors) mapRange_.read(readings_[i].values);
+    }
+    if (ranges() != before) show_.redraw();
 }
 
 void LayerView::restart() {
@@ -126,9 +111,8 @@ void LayerView::addTo(Facts& facts) const {
     }
     facts.map = mapRange_.newest();
     facts.mapRange = mapRange_.range();
-    facts.contactsFound = contactsFound_;
-    if (drawn_.layers.hasCells) facts.grids = grids_;
-    if (drawn_.layers.hasLinks) facts.links = backstage_.inspection().links();
+    for (std::size_t i = 0; i < mostLayers; ++i)
+        if (drawn_.layers.looks[i] > 0) facts.legends[i] = readings_[i].legend;
     facts.isPreparing = drawn_.layers != layers;
 }
 

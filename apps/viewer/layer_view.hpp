@@ -38,20 +38,15 @@ public:
     void addTo(Facts& facts) const;
 
 private:
-    struct Pending {
-        ColorMap map = ColorMap::none;
-        bool hasContacts = false, hasCells = false;
-    };
     void actOnSection(Action action);
-    void toggleWires();
+    LayerRanges ranges() const;
 
     const ShowContext& show_;
     Backstage& backstage_;
     Watched drawn_;
     MapRange mapRange_;
-    std::uint32_t contactsFound_ = 0;
-    std::vector<GridFacts> grids_; // of the newest picture with cells
-    std::array<Pending, Presenter::framesInFlight> pending_;
+    std::array<LayerReading, mostLayers> readings_; // of the newest picture with each layer
+    std::array<Layers, Presenter::framesInFlight> pending_;
 };
 
 } // namespace sinew::viewer

@@ -47,13 +47,6 @@ Options withScene(Options options, const app::SavedRun& run) {
     return options;
 }
 
-// A number with separators: "12,345".
-std::string grouped(std::size_t number) {
-    std::string digits = std::to_string(number);
-    for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, 1, ',');
-    return digits;
-}
-
 } // namespace
 
 Opening::Opening() = default;

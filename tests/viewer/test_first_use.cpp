@@ -194,7 +194,7 @@ TEST(Backstage, MakesAndRehearsesLayersInOtherThreads) {
     constexpr VkFormat format = VK_FORMAT_B8G8R8A8_UNORM;
     PreparedShow show(test::device(), opening, format);
     Backstage backstage(test::device(), show, opening.camera, 2);
-    Watched wanted{.layers = {.skin = SkinLook::glass, .map = ColorMap::strain}, .isCounting = true};
+    Watched wanted{.layers = shown({"glass", "strain"}), .isCounting = true};
     for (const char* layer : {"wires", "particles", "links", "contacts"}) addLayer(layer, wanted.layers);
     wanted.layers.section = Section{};
     const std::size_t made = pipelinesMadeHere();
@@ -219,7 +219,7 @@ TEST(Backstage, MakesAndRehearsesLayersInOtherThreads) {
     show.stage.recordSkin(commands);
     backstage.inspection().record(commands, wanted.layers, 0);
     Overlay overlay{.layers = wanted.layers};
-    overlay.buffers = backstage.inspection().buffers(wanted.layers, 1);
+    overlay.buffers = backstage.inspection().buffers(wanted.layers, mapRange(1));
     shot.record(commands, 2, opening.camera, show.stage.simulation(), overlay);
     test::queue().wait(test::queue().submit(commands));
     EXPECT_EQ(pipelinesMadeHere(), made);

@@ -39,15 +39,11 @@ void makeDrawing(const vk::Device& device, const Quality& quality) {
         const PanelPainter panels(device, format, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, 1);
         Renderer renderer(device, {.color = format, .finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR}, quality,
                           light());
-        for (const SkinLook look : {SkinLook::solid, SkinLook::glass})
+        for (const bool isGlass : {false, true})
             for (const bool isOpened : {false, true}) {
-                Layers layers{.skin = look,
-                              .map = ColorMap::strain,
-                              .hasWires = true,
-                              .hasBalls = true,
-                              .hasLinks = true,
-                              .hasContacts = true,
-                              .hasCells = true};
+                Layers layers;
+                for (const std::string& name : layerNames()) addLayer(name, layers);
+                layers.looks[indexOf(layer::skin)] = isGlass ? 1 : 0;
                 if (isOpened) layers.section.emplace();
                 renderer.add(renderer.make(layers));
             }

@@ -1,6 +1,6 @@
 // Tests of pictures of layers, drawn under validation like those of test_pictures.
 #include "scene_shot.hpp"
-#include "viewer/hands/inspection.hpp"
+#include "viewer/layers/inspection.hpp"
 
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
@@ -24,7 +24,7 @@ struct LayerShot : SceneShot {
         stage.recordSkin(commands);
         inspection.record(commands, layers, 0);
         offscreen.record(commands, camera, stage.simulation(),
-                         {.layers = layers, .buffers = inspection.buffers(layers, range)});
+                         {.layers = layers, .buffers = inspection.buffers(layers, mapRange(range))});
         test::queue().wait(test::queue().submit(commands));
         return offscreen.read();
     }
@@ -45,14 +45,14 @@ TEST(Layers, ColorSkinsByTheirStrain) {
     constexpr float range = 0.1f;
     std::array<Color, 3> seen;
     for (std::size_t i = 0; i < 3; ++i) {
-        LayerShot shot(stretchedBlock(0.5f * range * static_cast<float>(i)), {.map = ColorMap::strain});
+        LayerShot shot(stretchedBlock(0.5f * range * static_cast<float>(i)), shown({"strain"}));
         seen[i] = colorAt(shot.take(range), shot.camera, front);
     }
     EXPECT_GT(seen[0][2], seen[0][0]) << "blue without strain";
     EXPECT_GT(brightness(seen[1]), brightness(seen[0]) + 40);
     EXPECT_GT(brightness(seen[2]), brightness(seen[1]) + 40);
     EXPECT_GT(seen[2][0], seen[2][2] + 20) << "yellow at the end of the range";
-    LayerShot unknown(stretchedBlock(range), {.map = ColorMap::strain});
+    LayerShot unknown(stretchedBlock(range), shown({"strain"}));
     const Color grey = colorAt(unknown.take(), unknown.camera, front);
     EXPECT_LT(std::abs(grey[0] - grey[2]), 12) << "no range is known yet";
 }
@@ -63,7 +63,7 @@ TEST(Layers, ColorTheSurfaceOfCutsAsWell) {
     scene.grids[0].isCuttable = true;
     const std::array<sim::Vec3, 2> from{{{0.01f, 1, -1}, {0.01f, 1, 1}}},
         to{{{0.01f, -1, -1}, {0.01f, -1, 1}}};
-    LayerShot shot(scene, {.map = ColorMap::strain});
+    LayerShot shot(scene, shown({"strain"}));
     const Picture cut = shot.take(0.1f, {.from = from, .to = to});
     for (const float x : {-0.05f, 0.05f}) { // the cut surface draws the cells along the cut
         const Color color = colorAt(cut, shot.camera, {x, 0.3f, 0.2f});
@@ -78,7 +78,7 @@ TEST(Layers, ColorTheSkinOfACutSheetAsWell) {
     scene.gravity = {0, 0, 0};
     const std::array<sim::Vec3, 2> from{{{0.06f, 1, -1}, {0.06f, 1, 1}}},
         to{{{0.06f, -1, -1}, {0.06f, -1, 1}}};
-    LayerShot shot(scene, {.map = ColorMap::strain});
+    LayerShot shot(scene, shown({"strain"}));
     const Picture cut = shot.take(0.1f, {.from = from, .to = to});
     EXPECT_GT(shot.stage.simulation().status(1).linksCut, 0u);
     for (const float x : {-0.2f, 0.02f, 0.11f, 0.3f}) {
@@ -102,16 +102,15 @@ constexpr std::array<sim::Vec3, 2> from{{{0, 1, -1}, {0, 1, 1}}}, to{{{0, -1, -1
 TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
     constexpr std::uint32_t poison = 0x7fc12345; // a NaN
     const sim::Scene scene = smallOrgan();
-    for (const Layers& layers :
-         {Layers{}, Layers{.skin = SkinLook::glass}, Layers{.hasWires = true}, Layers{.section = Section{}},
-          Layers{.map = ColorMap::strain}, Layers{.skin = SkinLook::hidden, .hasBalls = true}}) {
+    for (const Layers& layers : {Layers{}, shown({"glass"}), shown({"wires"}), Layers{.section = Section{}},
+                                 shown({"strain"}), shown({"hidden", "particles"})}) {
         LayerShot shot(scene, layers);
         const Picture expected = shot.take(0.1f, {.from = from, .to = to});
         const VkCommandBuffer commands = test::queue().begin();
         vk::Commands(test::device(), commands).fill(shot.stage.simulation().skinVertices(), poison);
         test::queue().wait(test::queue().submit(commands));
         EXPECT_EQ(largestDifference(shot.take(0.1f), expected), 0)
-            << "skin " << static_cast<int>(layers.skin) << (layers.hasWires ? ", wires" : "")
+            << "skin " << static_cast<int>(layers.skin()) << (layers.has(layer::wires) ? ", wires" : "")
             << (layers.section ? ", section" : "");
     }
 }
@@ -177,9 +176,8 @@ TEST(Layers, ShowParticlesInAHiddenAndThroughATranslucentSkin) {
     };
     const Camera camera = viewOf(scene);
     const Vector3 between(0.05f, 0.35f, 0.2f); // four balls around it
-    const Picture solid = seen({}), hidden = seen({.skin = SkinLook::hidden}),
-                  glass = seen({.skin = SkinLook::glass}),
-                  balls = seen({.skin = SkinLook::hidden, .hasBalls = true});
+    const Picture solid = seen({}), hidden = seen(shown({"hidden"})), glass = seen(shown({"glass"})),
+                  balls = seen(shown({"hidden", "particles"}));
     EXPECT_LT(redness(colorAt(hidden, camera, between)), 25) << "nothing is left";
     const int through = redness(colorAt(glass, camera, between));
     EXPECT_GT(through, redness(colorAt(hidden, camera, between)));
@@ -191,7 +189,7 @@ TEST(Layers, ShowParticlesInAHiddenAndThroughATranslucentSkin) {
 
 TEST(Layers, DrawEdgesOverASkin) {
     const sim::Scene scene = block(0.1f, true);
-    LayerShot with(scene, {.hasWires = true}), without(scene, {});
+    LayerShot with(scene, shown({"wires"})), without(scene, {});
     const Picture a = with.take(), b = without.take();
     std::size_t darker = 0, other = 0;
     for (std::size_t i = 0; i < a.pixels.size(); i += 4) {
@@ -205,9 +203,9 @@ TEST(Layers, DrawEdgesOverASkin) {
 
 TEST(Layers, MarkContactsThroughTheBody) {
     const sim::Scene scene = block(0, true);
-    LayerShot with(scene, {.hasContacts = true}), without(scene, {});
+    LayerShot with(scene, shown({"contacts"})), without(scene, {});
     const Picture a = with.take(), b = without.take();
-    EXPECT_EQ(with.inspection.contacts(0), 25u);
+    EXPECT_EQ(with.inspection.part<ContactMarks>(layer::contacts).found(0), 25u);
     const Vector3 hidden(0, 0, 0);
     EXPECT_NE(colorAt(a, with.camera, hidden), colorAt(b, with.camera, hidden))
         << "in the middle, below the body";

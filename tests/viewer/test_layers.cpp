@@ -1,7 +1,9 @@
 // Tests of layers: their names and colors, the tables behind color maps, and the results on the device, under
 // validation.
 #include "viewer/draw/stage.hpp"
-#include "viewer/hands/inspection.hpp"
+#include "viewer/layers/hash_cells.hpp"
+#include "viewer/layers/inspection.hpp"
+#include "viewer/layers/value_maps.hpp"
 
 #include "sinew/bodies.hpp"
 #include "support/device.hpp"
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <set>
 
 namespace sinew::viewer {
 namespace {
@@ -25,11 +28,34 @@ TEST(Layers, AreAllReachedByTheirNames) {
     EXPECT_FALSE(addLayer("x-rays", layers));
 }
 
-TEST(Layers, GoRoundThroughAllLooksAndMaps) {
-    EXPECT_EQ(next(next(next(SkinLook::solid))), SkinLook::solid);
-    EXPECT_EQ(next(next(next(next(ColorMap::none)))), ColorMap::none);
-    EXPECT_NE(next(SkinLook::solid), SkinLook::solid);
-    EXPECT_EQ(next(ColorMap::none), ColorMap::strain);
+TEST(Layers, GoRoundThroughAllTheirLooksAndOff) {
+    for (std::size_t i = 0; i < layerTable().size(); ++i) {
+        const Layer& layer = *layerTable()[i];
+        EXPECT_EQ(indexOf(layer), i);
+        Layers layers;
+        for (const Layer::Look& look : layer.looks) {
+            layers.turn(i);
+            EXPECT_TRUE(layers.has(layer)) << look.name;
+            EXPECT_EQ(layers, shown({look.name}));
+        }
+        layers.turn(i);
+        EXPECT_EQ(layers, Layers{}) << layer.key;
+    }
+    EXPECT_EQ(shown({"hidden"}).skin(), SkinLook::hidden);
+    EXPECT_EQ(shown({"sleep"}).map(), ColorMap::sleep);
+}
+
+// A row with a key or a name of another one would never be reached.
+TEST(Layers, HaveKeysAndNamesOfTheirOwn) {
+    std::set<char> keys;
+    for (const Layer* layer : layerTable()) {
+        EXPECT_TRUE(keys.insert(layer->key).second) << layer->key;
+        EXPECT_FALSE(layer->help.empty()) << layer->key;
+        EXPECT_FALSE(layer->looks.empty()) << layer->key;
+        EXPECT_EQ(layer->pipeline != nullptr, layer->opened != nullptr) << layer->key;
+    }
+    const std::vector<std::string> names = layerNames();
+    EXPECT_EQ(std::set(names.begin(), names.end()).size(), names.size());
 }
 
 // CIE 1976 L*, a, b of a color. The color map was designed by another measure.
@@ -147,6 +173,9 @@ struct Inspected {
         test::queue().wait(test::queue().submit(commands));
     }
 
+    // Of the map.
+    MapReading values() const { return inspection.reading(indexOf(layer::colors), 0).values; }
+
     Layers layers;
     Stage stage;
     Inspection inspection;
@@ -156,14 +185,14 @@ TEST(StrainMap, SaysHowFarABodyIsStretched) {
     sim::Scene scene = cuttableBlock();
     for (sim::DistanceConstraint& link : scene.distances) link.restLength /= 1.1f;
     scene.grids[0].restLength = {0.1f / 1.1f, 0.1f * std::sqrt(2.0f) / 1.1f, 0.1f * std::sqrt(3.0f) / 1.1f};
-    Inspected stretched(scene, {.map = ColorMap::strain});
+    Inspected stretched(scene, shown({"strain"}));
     stretched.step(0);
-    const MapReading reading = stretched.inspection.reading(0);
+    const MapReading reading = stretched.values();
     EXPECT_NEAR(reading.largest, 0.1f, 1e-4f);
     EXPECT_FLOAT_EQ(reading.range, reading.largest > 0.1f ? 0.2f : 0.1f);
-    Inspected resting(cuttableBlock(), {.map = ColorMap::strain});
+    Inspected resting(cuttableBlock(), shown({"strain"}));
     resting.step(0);
-    EXPECT_LT(resting.inspection.reading(0).largest, 1e-5f);
+    EXPECT_LT(resting.values().largest, 1e-5f);
 }
 
 // The halves of a block separate: the links cut by a blade get long, the others do not.
@@ -173,20 +202,20 @@ TEST(StrainMap, LeavesOutWhatWasCut) {
         particle.velocity = {particle.position.x < 0.19f ? -2.0f : 2.0f, 0, 0};
     const std::array<sim::Vec3, 2> from{{{0.17f, 1, -1}, {0.17f, 1, 1}}},
         to{{{0.17f, -1, -1}, {0.17f, -1, 1}}};
-    Inspected cut(scene, {.map = ColorMap::strain}), whole(scene, {.map = ColorMap::strain});
+    Inspected cut(scene, shown({"strain"})), whole(scene, shown({"strain"}));
     cut.step(20, {.from = from, .to = to});
     whole.step(20);
-    EXPECT_GT(whole.inspection.reading(0).largest, 0.05f);
-    EXPECT_LT(cut.inspection.reading(0).largest, 0.02f);
+    EXPECT_GT(whole.values().largest, 0.05f);
+    EXPECT_LT(cut.values().largest, 0.02f);
 }
 
 TEST(SpeedMap, SaysHowFastParticlesAre) {
     sim::Scene scene = cuttableBlock();
     for (sim::Particle& particle : scene.particles) particle.velocity = {0, 2.4f, 3.2f};
-    Inspected flying(scene, {.map = ColorMap::speed});
+    Inspected flying(scene, shown({"speed"}));
     flying.step(3);
-    EXPECT_NEAR(flying.inspection.reading(0).largest, 4, 1e-3f);
-    EXPECT_FLOAT_EQ(flying.inspection.reading(0).range, 5);
+    EXPECT_NEAR(flying.values().largest, 4, 1e-3f);
+    EXPECT_FLOAT_EQ(flying.values().range, 5);
 }
 
 TEST(SleepMap, KnowsWhoSleepsAndWhoNeverMoves) {
@@ -196,15 +225,15 @@ TEST(SleepMap, KnowsWhoSleepsAndWhoNeverMoves) {
     sim::addParticles(scene, {.center = {4, 0.1f, 0}, .count = {1, 1, 1}, .radius = 0.1f});
     scene.particles[2].inverseMass = 0;
     scene.planes.push_back({});
-    Inspected resting(scene, {.map = ColorMap::sleep}, {.substeps = 8, .sleeps = true});
-    const vk::BufferView values = resting.inspection.buffers(resting.layers, 0).particles;
+    Inspected resting(scene, shown({"sleep"}), {.substeps = 8, .sleeps = true});
+    const vk::BufferView values = resting.inspection.buffers(resting.layers).particles;
     std::array<float, 3> read{};
     for (int i = 0; i < 90; ++i) resting.step(1);
     test::queue().download(values, read.data(), sizeof read);
     EXPECT_EQ(read[0], 0) << "asleep";
     EXPECT_EQ(read[1], 1) << "falls";
     EXPECT_LT(read[2], 0) << "fixed";
-    EXPECT_EQ(resting.inspection.buffers(resting.layers, 0.1f).range, 1) << "from asleep to awake";
+    EXPECT_EQ(resting.inspection.buffers(resting.layers, mapRange(0.1f)).range, 1) << "from asleep to awake";
 }
 
 // Loose balls at rest, so that the grid fits their positions.
@@ -225,11 +254,11 @@ struct Cells {
 };
 
 Cells cellsOf(const sim::Scene& scene) {
-    Inspected still(scene, {.hasCells = true});
+    Inspected still(scene, shown({"cells"}));
     still.step(1);
-    const std::vector<GridFacts> grids = still.inspection.grids(0);
+    const std::vector<GridFacts> grids = still.inspection.part<HashCells>(layer::cells).grids(0);
     if (grids.size() != 1) return {};
-    const HashCells& cells = *still.inspection.buffers(still.layers, 0).cells;
+    const HashCells& cells = still.inspection.part<HashCells>(layer::cells);
     auto marks = test::queue().download<layout::CellMark>(cells.marks());
     marks.resize(grids[0].cells);
     return {grids[0], marks};
@@ -294,19 +323,25 @@ TEST(HashCells, SayWhoSharesASlotWhereTheTableIsTooSmallForTheBox) {
 
 TEST(HashCells, AreOfEveryGridThatTheSolverHas) {
     sim::Scene scene = scattered(40, 0.3f);
-    Inspected before(scene, {.hasCells = true});
+    Inspected before(scene, shown({"cells"}));
     before.step(0);
-    ASSERT_EQ(before.inspection.grids(0).size(), 1u);
-    EXPECT_EQ(before.inspection.grids(0)[0].cells, 0u) << "no step has built it";
-    Inspected block(cuttableBlock(), {.hasCells = true});
+    ASSERT_EQ(before.inspection.part<HashCells>(layer::cells).grids(0).size(), 1u);
+    EXPECT_EQ(before.inspection.part<HashCells>(layer::cells).grids(0)[0].cells, 0u)
+        << "no step has built it";
+    Inspected block(cuttableBlock(), shown({"cells"}));
     block.step(2);
-    EXPECT_TRUE(block.inspection.grids(0).empty()) << "nothing can meet";
+    EXPECT_TRUE(block.inspection.part<HashCells>(layer::cells).grids(0).empty()) << "nothing can meet";
     for (const sim::Vec3& x : {sim::Vec3{0, 0, 0}, sim::Vec3{0.1f, 0, 0}, sim::Vec3{0, 0.1f, 0}})
         scene.particles.push_back({.position = x, .radius = 0.01f});
     scene.faces = {{{40, 41, 42}, 0.01f}};
-    Inspected faces(scene, {.hasCells = true});
+    const auto cellsSay = [](const Inspected& of) { return of.inspection.reading(indexOf(layer::cells), 0); };
+    EXPECT_EQ(cellsSay(before).legend.at(0).name, "no step has been taken yet: the grids are empty");
+    EXPECT_EQ(cellsSay(before).note, "");
+    EXPECT_EQ(cellsSay(block).legend.at(0).name, "no hash grid: the scene has no contacts that need one");
+    EXPECT_NE(cellsSay(block).note, "");
+    Inspected faces(scene, shown({"cells"}));
     faces.step(1);
-    const std::vector<GridFacts> grids = faces.inspection.grids(0);
+    const std::vector<GridFacts> grids = faces.inspection.part<HashCells>(layer::cells).grids(0);
     ASSERT_GE(grids.size(), 2u);
     for (const GridFacts& grid : grids) {
         EXPECT_GT(grid.cells, 0u) << grid.name;
@@ -321,9 +356,10 @@ TEST(ContactMarks, AreWhereBallsLieOnTheFloorAndOnEachOther) {
     sim::addParticles(scene, {.center = {1, 0.5f, 0}, .count = {1, 1, 1}, .radius = 0.1f});
     scene.planes.push_back({});
     scene.gravity = {0, 0, 0};
-    Inspected heap(scene, {.hasContacts = true});
+    Inspected heap(scene, shown({"contacts"}));
     heap.step(2);
-    EXPECT_EQ(heap.inspection.contacts(0), 2u) << "one on the floor, one on that, one in the air";
+    EXPECT_EQ(heap.inspection.part<ContactMarks>(layer::contacts).found(0), 2u)
+        << "one on the floor, one on that, one in the air";
 }
 
 // Two triangles whose edges cross at a distance of both thicknesses.
@@ -336,9 +372,9 @@ TEST(ContactMarks, AreWhereTwoEdgesCross) {
           sim::Vec3{0.1f, 0.0201f, -1}, sim::Vec3{-0.05f, 0.0201f, 0.8f}, sim::Vec3{0, 2, 0}})
         scene.particles.push_back({.position = x, .radius = thickness});
     scene.faces = {{{0, 1, 2}, thickness}, {{3, 4, 5}, thickness}};
-    Inspected crossed(scene, {.hasContacts = true});
+    Inspected crossed(scene, shown({"contacts"}));
     crossed.step(1);
-    EXPECT_EQ(crossed.inspection.contacts(0), 1u);
+    EXPECT_EQ(crossed.inspection.part<ContactMarks>(layer::contacts).found(0), 1u);
     const ContactMarks counter(test::device(), scene, crossed.stage.settings(), crossed.stage.simulation(), 2,
                                ContactMarks::Room::none);
     VkCommandBuffer commands = test::queue().begin();
@@ -375,9 +411,9 @@ TEST(ContactMarks, AreWhereABallLiesOnATriangle) {
     sim::addMeshCollider(scene, {.vertices = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, -1}, {1, 0, 1}},
                                  .triangles = {{{0, 1, 2}}, {{2, 1, 3}}}});
     scene.gravity = {0, 0, 0};
-    Inspected lying(scene, {.hasContacts = true});
+    Inspected lying(scene, shown({"contacts"}));
     lying.step(2);
-    EXPECT_EQ(lying.inspection.contacts(0), 1u);
+    EXPECT_EQ(lying.inspection.part<ContactMarks>(layer::contacts).found(0), 1u);
 }
 
 TEST(ContactMarks, AreWhereABodyTouchesACollider) {
@@ -385,9 +421,9 @@ TEST(ContactMarks, AreWhereABodyTouchesACollider) {
     scene.colliders = {{.shape = sim::ColliderShape::box,
                         .halfExtents = {1, 0.1f, 1},
                         .pose = {.position = {0.2f, -0.1f, 0.2f}, .rotation = {}}}};
-    Inspected lying(scene, {.hasContacts = true});
+    Inspected lying(scene, shown({"contacts"}));
     lying.step(1);
-    EXPECT_EQ(lying.inspection.contacts(0), 25u) << "the lowest layer";
+    EXPECT_EQ(lying.inspection.part<ContactMarks>(layer::contacts).found(0), 25u) << "the lowest layer";
 }
 
 } // namespace

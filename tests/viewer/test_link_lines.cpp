@@ -2,7 +2,8 @@
 // drawing on the device, under validation.
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
-#include "viewer/hands/inspection.hpp"
+#include "viewer/layers/inspection.hpp"
+#include "viewer/layers/link_lines.hpp"
 
 #include "sim/compile/compile.hpp"
 #include "sinew/bodies.hpp"
@@ -99,14 +100,14 @@ struct Lines {
         test::queue().wait(test::queue().submit(commands));
     }
     std::size_t leftOut() {
-        const LinkLines& links = *inspection.buffers(layers, 0).links;
+        const LinkLines& links = inspection.part<LinkLines>(layer::links);
         const auto ends = test::queue().download<std::uint32_t>(links.indices());
         std::size_t count = 0;
         for (std::size_t i = 0; i < ends.size(); i += 2) count += ends[i] == ends[i + 1] ? 1 : 0;
         return count;
     }
 
-    Layers layers{.skin = SkinLook::hidden, .hasLinks = true};
+    Layers layers = shown({"hidden", "links"});
     Stage stage;
     Inspection inspection;
 };
@@ -191,9 +192,9 @@ TEST(LinkLines, AreDrawnInTheColorsOfTheirClasses) {
     lines.step();
     Overlay overlay;
     overlay.layers = lines.layers;
-    overlay.buffers = lines.inspection.buffers(lines.layers, 0);
-    const Picture with = take(overlay), without = take({.layers = {.skin = SkinLook::hidden}});
-    const std::size_t classes = lines.inspection.links().classes.size();
+    overlay.buffers = lines.inspection.buffers(lines.layers);
+    const Picture with = take(overlay), without = take({.layers = shown({"hidden"})});
+    const std::size_t classes = lines.inspection.part<LinkLines>(layer::links).facts().classes.size();
     ASSERT_EQ(classes, 6u);
     for (std::size_t k = 0; k < classes; ++k)
         EXPECT_GT(pixelsOf(with, classColor(k)), pixelsOf(without, classColor(k)) + 10) << "class " << k;

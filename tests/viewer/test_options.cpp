@@ -1,4 +1,5 @@
 // Tests of the command line: accepted and refused options, and the frames that become pictures.
+#include "viewer/draw/layer.hpp"
 #include "viewer/options.hpp"
 
 #include "app/guard.hpp"
@@ -104,10 +105,10 @@ TEST(Options, RefuseWhatMakesNoSense) {
 
 TEST(Options, ShowTakesLayersByTheirNames) {
     const Layers layers = parse({"--show", "glass,strain,wires"}).layers;
-    EXPECT_EQ(layers.skin, SkinLook::glass);
-    EXPECT_EQ(layers.map, ColorMap::strain);
-    EXPECT_TRUE(layers.hasWires);
-    EXPECT_FALSE(layers.hasBalls);
+    EXPECT_EQ(layers.skin(), SkinLook::glass);
+    EXPECT_EQ(layers.map(), ColorMap::strain);
+    EXPECT_TRUE(layers.has(layer::wires));
+    EXPECT_FALSE(layers.has(layer::particles));
     EXPECT_EQ(parse({}).layers, Layers{});
     for (const char* names : {"x-rays", "strain;wires", ""})
         EXPECT_NE(complaint({"--show", names}).find("--show"), std::string::npos) << names;

@@ -2,8 +2,9 @@
 // of grabs, under validation.
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
-#include "viewer/hands/inspection.hpp"
 #include "viewer/hands/state_probe.hpp"
+#include "viewer/layers/inspection.hpp"
+#include "viewer/layers/link_lines.hpp"
 
 #include "sim/compile/compile.hpp"
 #include "sinew/bodies.hpp"
@@ -76,6 +77,7 @@ struct Cut {
         record(commands);
         test::queue().wait(test::queue().submit(commands));
     }
+    std::uint32_t contacts() const { return inspection.part<ContactMarks>(layer::contacts).found(0); }
     std::optional<Pick> at(const Ray& ray) { return pick(scene, ballsOf(scene), ray, probe.seen()); }
 
     Layers layers;
@@ -98,9 +100,9 @@ TEST(Removed, IsCutOffInTheSceneOfTheseTests) {
 
 TEST(Removed, HasNoLines) {
     for (const std::uint32_t debris : {0u, 5u}) {
-        Cut cut(block(debris), {.hasLinks = true});
+        Cut cut(block(debris), shown({"links"}));
         const auto ends =
-            test::queue().download<std::uint32_t>(cut.inspection.buffers(cut.layers, 0).links->indices());
+            test::queue().download<std::uint32_t>(cut.inspection.part<LinkLines>(layer::links).indices());
         std::size_t inside = 0;
         for (std::size_t i = 0; i < ends.size(); i += 2)
             inside += ends[i] != ends[i + 1] && isOfCorner(ends[i]) ? 1 : 0;
@@ -110,22 +112,22 @@ TEST(Removed, HasNoLines) {
 
 TEST(Removed, HasNoMarks) {
     for (const int more : {0, 2}) { // the step after the cut rebuilds lists
-        EXPECT_EQ(Cut(block(0), {.hasContacts = true}, cornerCut, more).inspection.contacts(0), 25u);
-        EXPECT_EQ(Cut(block(5), {.hasContacts = true}, cornerCut, more).inspection.contacts(0), 25u - 3);
+        EXPECT_EQ(Cut(block(0), shown({"contacts"}), cornerCut, more).contacts(), 25u);
+        EXPECT_EQ(Cut(block(5), shown({"contacts"}), cornerCut, more).contacts(), 25u - 3);
     }
 }
 
 TEST(Removed, HasNoValues) {
-    for (const ColorMap map : {ColorMap::strain, ColorMap::speed, ColorMap::sleep})
+    for (const char* map : {"strain", "speed", "sleep"})
         for (const std::uint32_t debris : {0u, 5u}) {
-            Cut cut(block(debris, Look::bare, 2), {.map = map});
+            Cut cut(block(debris, Look::bare, 2), shown({map}));
             std::array<float, 125> values{};
-            test::queue().download(cut.inspection.buffers(cut.layers, 0).particles, values.data(),
+            test::queue().download(cut.inspection.buffers(cut.layers).particles, values.data(),
                                    sizeof values);
             for (std::uint32_t i = 0; i < values.size(); ++i)
                 EXPECT_EQ(values[i]<0, debris> 0 && isOfCorner(i)) << i;
-            if (map != ColorMap::speed) continue;
-            const float largest = cut.inspection.reading(0).largest;
+            if (map != std::string_view("speed")) continue;
+            const float largest = cut.inspection.reading(indexOf(layer::colors), 0).values.largest;
             EXPECT_EQ(largest<1, debris> 0) << "the corner flies off at 2.8 m/s";
         }
 }
@@ -167,7 +169,7 @@ struct Photo {
     }
     Picture take(Overlay overlay = {}) {
         overlay.layers = cut.layers;
-        overlay.buffers = cut.inspection.buffers(cut.layers, 0);
+        overlay.buffers = cut.inspection.buffers(cut.layers);
         offscreen->prepare(overlay.layers);
         cut.run([&](VkCommandBuffer commands) {
             cut.stage.recordSkin(commands);
@@ -192,7 +194,7 @@ std::size_t redPixels(const Picture& picture) {
 TEST(Removed, IsNotDrawn) {
     for (const Look look : {Look::bare, Look::skin})
         for (const bool hasBalls : {false, true}) {
-            const Layers layers{.skin = hasBalls ? SkinLook::hidden : SkinLook::solid, .hasBalls = hasBalls};
+            const Layers layers = hasBalls ? shown({"hidden", "particles"}) : Layers{};
             Cut kept(block(0, look), layers, halfCut), removed(block(200, look), layers, halfCut);
             EXPECT_GT(redPixels(Photo(kept).take()), 500u);
             EXPECT_EQ(redPixels(Photo(removed).take()), 0u);

@@ -1,8 +1,8 @@
 // Tests of the section plane: its position, the visible parts of bodies, and picking on it. Pictures are
 // drawn under validation (support/device.hpp).
 #include "scene_shot.hpp"
-#include "viewer/hands/inspection.hpp"
 #include "viewer/hands/pick.hpp"
+#include "viewer/layers/inspection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ struct Shot {
         inspection.prepare(layers);
         if (layers.needsBuffers()) inspection.record(commands, layers, 0);
         offscreen.record(commands, camera, stage.simulation(),
-                         {.layers = layers, .buffers = inspection.buffers(layers, 1)});
+                         {.layers = layers, .buffers = inspection.buffers(layers, mapRange(1))});
         test::queue().wait(test::queue().submit(commands));
         Picture picture = offscreen.read();
         if (const char* folder = std::getenv("SINEW_PICTURES")) // to look at
@@ -183,19 +183,19 @@ TEST(Section, GivesAnOpenSheetNoInside) {
 
 TEST(Section, OpensBallsAndLeavesOfLinksAndEdgesWhatIsBehindIt) {
     Shot shot(blocks({0}));
-    Layers layers{.skin = SkinLook::hidden, .hasBalls = true, .section = Section{Vector3::UnitZ(), 0}};
+    Layers layers = shown({"hidden", "particles"}, Section{Vector3::UnitZ(), 0});
     const Picture balls = shot.take(fromFront, layers);
     EXPECT_TRUE(isGreen(colorAt(balls, fromFront, {0, 0, 0})));
-    layers.map = ColorMap::strain;
+    addLayer("strain", layers);
     shot.take(fromFront, layers);
     Camera camera = fromFront; // a line along the view has no length on screen
     camera.azimuth = 0.5f;
     camera.elevation = 0.4f;
-    layers = {.skin = SkinLook::hidden, .hasLinks = true, .section = Section{Vector3::UnitZ(), -0.3f}};
-    Layers nothing{.skin = SkinLook::hidden};
+    layers = shown({"hidden", "links"}, Section{Vector3::UnitZ(), -0.3f});
+    Layers nothing = shown({"hidden"});
     EXPECT_EQ(differences(shot.take(camera, layers), shot.take(camera, nothing)), 0u)
         << "all links are before the plane";
-    layers = {.skin = SkinLook::glass, .hasWires = true, .section = Section{Vector3::UnitZ(), -0.3f}};
+    layers = shown({"glass", "wires"}, Section{Vector3::UnitZ(), -0.3f});
     EXPECT_EQ(differences(shot.take(camera, layers), shot.take(camera, nothing)), 0u);
 }
 

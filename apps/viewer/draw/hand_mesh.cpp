@@ -2,6 +2,7 @@
 #include "viewer/draw/hand_mesh.hpp"
 
 #include "viewer/draw/balls.hpp"
+#include "viewer/draw/layer.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
 
 #include <cmath>
@@ -38,8 +39,8 @@ Mesh makeMesh(const HandMesh::Shape& shape) {
 
 Overlay overlayBeside(const Overlay& overlay) {
     Overlay other = overlay;
-    other.layers.map = ColorMap::none;
-    other.layers.hasLinks = other.layers.hasContacts = other.layers.hasCells = false;
+    for (std::size_t i = 0; i < layerTable().size(); ++i)
+        if (layerTable()[i]->make && !layerTable()[i]->isOfScene) other.layers.looks[i] = 0;
     other.buffers = {.balls = overlay.buffers.balls};
     return other;
 }

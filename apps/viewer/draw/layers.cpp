@@ -1,28 +1,15 @@
-// Names and colours of layers.
+// Names and colours of layers; the table is in layers/table.cpp.
 #include "viewer/draw/layers.hpp"
 
+#include "viewer/draw/layer.hpp"
+
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sinew::viewer {
 
 namespace {
-
-struct Name {
-    std::string_view name;
-    void (*add)(Layers&);
-};
-
-constexpr std::array names{Name{"glass", [](Layers& layers) { layers.skin = SkinLook::glass; }},
-                           Name{"hidden", [](Layers& layers) { layers.skin = SkinLook::hidden; }},
-                           Name{"strain", [](Layers& layers) { layers.map = ColorMap::strain; }},
-                           Name{"speed", [](Layers& layers) { layers.map = ColorMap::speed; }},
-                           Name{"sleep", [](Layers& layers) { layers.map = ColorMap::sleep; }},
-                           Name{"wires", [](Layers& layers) { layers.hasWires = true; }},
-                           Name{"particles", [](Layers& layers) { layers.hasBalls = true; }},
-                           Name{"links", [](Layers& layers) { layers.hasLinks = true; }},
-                           Name{"contacts", [](Layers& layers) { layers.hasContacts = true; }},
-                           Name{"cells", [](Layers& layers) { layers.hasCells = true; }}};
 
 // Linear sRGB of an OKLab colour: lightness 0 to 1, and two axes that are 0 for grey.
 std::array<float, 3> fromLab(double lightness, double a, double b) {
@@ -37,24 +24,55 @@ std::array<float, 3> fromLab(double lightness, double a, double b) {
 
 } // namespace
 
-SkinLook next(SkinLook look) {
-    return static_cast<SkinLook>((static_cast<int>(look) + 1) % 3);
+std::size_t indexOf(const Layer& layer) {
+    return static_cast<std::size_t>(std::ranges::find(layerTable(), &layer) - layerTable().begin());
 }
 
-ColorMap next(ColorMap map) {
-    return static_cast<ColorMap>((static_cast<int>(map) + 1) % 4);
+bool Layers::needsBuffers() const {
+    return std::ranges::any_of(layerTable(), [&](const Layer* layer) { return layer->make && has(*layer); });
+}
+
+void Layers::turn(std::size_t layer) {
+    looks[layer] = static_cast<std::uint8_t>((looks[layer] + 1) % (layerTable()[layer]->looks.size() + 1));
 }
 
 std::vector<std::string> layerNames() {
     std::vector<std::string> all;
-    for (const Name& one : names) all.emplace_back(one.name);
+    for (const Layer* layer : layerTable())
+        for (const Layer::Look& look : layer->looks) all.emplace_back(look.name);
     return all;
 }
 
-bool addLayer(const std::string& name, Layers& layers) {
-    const auto* found = std::ranges::find(names, name, &Name::name);
-    if (found != names.end()) found->add(layers);
-    return found != names.end();
+bool addLayer(std::string_view name, Layers& layers) {
+    for (std::size_t i = 0; i < layerTable().size(); ++i) {
+        const std::span<const Layer::Look> looks = layerTable()[i]->looks;
+        const auto found = std::ranges::find(looks, name, &Layer::Look::name);
+        if (found == looks.end()) continue;
+        layers.looks[i] = static_cast<std::uint8_t>(found - looks.begin() + 1);
+        return true;
+    }
+    return false;
+}
+
+Layers shown(std::initializer_list<std::string_view> names, const std::optional<Section>& section) {
+    Layers layers{.section = section};
+    for (const std::string_view name : names) {
+        [[maybe_unused]] const bool isKnown = addLayer(name, layers);
+        assert(isKnown);
+    }
+    return layers;
+}
+
+LayerRanges mapRange(float range) {
+    LayerRanges all{};
+    all[indexOf(layer::colors)] = range;
+    return all;
+}
+
+std::string grouped(std::uint64_t number) {
+    std::string digits = std::to_string(number);
+    for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, 1, ',');
+    return digits;
 }
 
 std::array<std::array<float, 3>, mapColorCount> mapColors() {

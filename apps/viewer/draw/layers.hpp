@@ -1,12 +1,14 @@
 // The layers of a picture: what is drawn of bodies besides their lit skins, or instead of them. Chosen by the
-// user.
+// user. Each layer is a record (draw/layer.hpp) in one table.
 #pragma once
 
-#include "sinew/simulation.hpp"
 #include "sinew/vk/buffer.hpp"
 #include "viewer/draw/section.hpp"
 
 #include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,9 +17,8 @@
 namespace sinew::viewer {
 
 class Balls;
-class ContactMarks;
-class HashCells;
-class LinkLines;
+class LayerPart;
+struct Layer;
 
 enum class SkinLook { solid, glass, hidden };
 
@@ -29,32 +30,40 @@ enum class ColorMap {
     sleep   ///< 1 = awake, 0 = asleep
 };
 
+/// All layers, in the order of buttons and legends; those without a depth test are drawn last. At most
+/// mostLayers.
+std::span<const Layer* const> layerTable();
+constexpr std::size_t mostLayers = 16;
+/// Index into layerTable().
+std::size_t indexOf(const Layer& layer);
+
+namespace layer {
+/// Layers that change how the renderer draws bodies; the others draw something of their own.
+extern const Layer skin, wires, particles, colors;
+} // namespace layer
+
+/// What is on.
 struct Layers {
-    SkinLook skin = SkinLook::solid;
-    ColorMap map = ColorMap::none;
-    bool hasWires = false; ///< edges of all triangles of skins
-    bool hasBalls = false; ///< also particles of bodies with a skin
-    bool hasLinks = false; ///< in the colours of their classes
-    bool hasContacts = false;
-    bool hasCells = false;          ///< cells of hash grids that are not empty
+    /// The look of each layer of the table: 0 = off, else 1 + index into Layer::looks.
+    std::array<std::uint8_t, mostLayers> looks{};
     std::optional<Section> section; ///< plane that opens bodies
+
     bool operator==(const Layers&) const = default;
+    bool has(const Layer& layer) const { return looks[indexOf(layer)] > 0; }
+    SkinLook skin() const { return static_cast<SkinLook>(looks[indexOf(layer::skin)]); }
+    ColorMap map() const { return static_cast<ColorMap>(looks[indexOf(layer::colors)]); }
     /// Whether a layer needs buffers of its own (Inspection).
-    bool needsBuffers() const {
-        return map != ColorMap::none || hasBalls || hasLinks || hasContacts || hasCells;
-    }
+    bool needsBuffers() const;
+    /// Turns a layer to its next look, cyclically; after the last one it is off.
+    void turn(std::size_t layer);
 };
 
-/// The next look, cyclically: solid, glass, hidden.
-SkinLook next(SkinLook look);
-/// The next map, cyclically: none, strain, speed, sleep.
-ColorMap next(ColorMap map);
-
-/// Names of layers on the command line: "glass", "hidden", "strain", "speed", "sleep", "wires", "particles",
-/// "links", "contacts", "cells".
+/// Names of layers on the command line, a name for each look: "glass", "hidden", "wires", "particles", ...
 std::vector<std::string> layerNames();
 /// Adds the layer of this name; false if the name is unknown.
-bool addLayer(const std::string& name, Layers& layers);
+bool addLayer(std::string_view name, Layers& layers);
+/// The layers of these names, which must be known.
+Layers shown(std::initializer_list<std::string_view> names, const std::optional<Section>& section = {});
 
 /// Colours of a map from its lowest value to its highest, linear RGB. Equal steps look equally far apart and
 /// get evenly lighter, so that colour-blind users can read them: a straight path up in lightness, half-way
@@ -66,42 +75,27 @@ std::array<std::array<float, 3>, mapColorCount> mapColors();
 /// clearly.
 std::array<float, 3> classColor(std::size_t index);
 
-/// Counts of links by the class in which the solver corrects them.
-struct LinkFacts {
-    std::vector<std::uint32_t> classes; ///< number of links of each class
-    std::size_t fixed = 0;              ///< links between two fixed particles, in no class
-    std::string note;                   ///< how the solver treats links
-};
-
-/// Distribution of a map's values over the particles.
+/// Distribution of a layer's values.
 struct MapReading {
-    float range = 0;   ///< 1, 2 or 5 times a power of ten: at most 1 % of particles exceed it; 0 = no values
+    float range = 0;   ///< value of the last colour; 0 = no values
     float largest = 0; ///< largest value
-    float beyond = 0;  ///< share of particles above `range`
+    float beyond = 0;  ///< share of values above `range`
 };
 
-/// Statistics of a hash grid at its last rebuild.
-struct GridFacts {
-    std::string name;         ///< its contents
-    float edge = 0;           ///< side of a cell [m]
-    std::uint32_t cells = 0;  ///< cells that are not empty
-    std::uint32_t shared = 0; ///< cells that share their slot of the table with others
-    std::uint32_t most = 0;   ///< largest number of items in a cell
-    std::uint32_t held = 0;   ///< number of items in all cells
-    std::uint32_t slots = 0;  ///< slots of the table
-};
+/// Values of the last colours of layers, by index into layerTable(); 0 = not known yet.
+using LayerRanges = std::array<float, mostLayers>;
+/// Only the range of the map.
+LayerRanges mapRange(float range);
 
-/// Buffers that layers are drawn from, made by Inspection. Views for layers that are off are empty.
+/// Buffers that layers are drawn from, made by Inspection. Those of layers that are off are empty.
 struct LayerBuffers {
     vk::BufferView particles; ///< float per particle: the map's value; negative = no value
     vk::BufferView skins;     ///< float per vertex of skins
     vk::BufferView cuts;      ///< float per vertex of the surface of cuts
     float range = 0;          ///< value of the last colour of the map
     const Balls* balls = nullptr;
-    const LinkLines* links = nullptr;
-    const ContactMarks* contacts = nullptr;
-    const HashCells* cells = nullptr;
-    float cellRange = 0; ///< number of items in a cell that has the last colour; 0 = not known yet
+    std::array<const LayerPart*, mostLayers> parts{}; ///< of all layers that are on, by index
+    LayerRanges ranges{};
 };
 
 } // namespace sinew::viewer

@@ -4,7 +4,6 @@
 #include "common/layout.h"
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/kernel_store.hpp"
-#include "viewer/values.h"
 
 #include <array>
 #include <utility>
@@ -83,21 +82,6 @@ constexpr std::array cutValueBindings{cutBindings[0], cutBindings[1],
                                       valueBinding(2, VK_VERTEX_INPUT_RATE_VERTEX)};
 constexpr std::array cutValueAttributes{cutAttributes[0], cutAttributes[1], valueAttribute(2)};
 
-constexpr std::array markBindings{
-    ballBindings[0],
-    VkVertexInputBindingDescription{1, sizeof(layout::ContactMark), VK_VERTEX_INPUT_RATE_INSTANCE}};
-constexpr std::array markAttributes{ballAttributes[0],
-                                    VkVertexInputAttributeDescription{1, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
-                                                                      offsetof(layout::ContactMark, point)},
-                                    VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
-                                                                      offsetof(layout::ContactMark, normal)}};
-
-constexpr VkVertexInputBindingDescription cellBinding{0, sizeof(layout::CellMark),
-                                                      VK_VERTEX_INPUT_RATE_INSTANCE};
-constexpr std::array cellAttributes{
-    VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(layout::CellMark, low)},
-    VkVertexInputAttributeDescription{1, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(layout::CellMark, held)}};
-
 constexpr std::array panelBindings{
     VkVertexInputBindingDescription{0, sizeof(PanelVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
 constexpr std::array panelAttributes{
@@ -105,11 +89,7 @@ constexpr std::array panelAttributes{
     VkVertexInputAttributeDescription{1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(PanelVertex, atlas)},
     VkVertexInputAttributeDescription{2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(PanelVertex, color)}};
 
-// Layout of a vertex, in the order of PipelineRequest::Input.
-struct VertexForm {
-    std::span<const VkVertexInputBindingDescription> bindings;
-    std::span<const VkVertexInputAttributeDescription> attributes;
-};
+// In the order of PipelineRequest::Input.
 constexpr std::array vertexForms{VertexForm{},
                                  VertexForm{{&skinBinding, 1}, {skinAttributes.data(), 1}},
                                  VertexForm{{&skinBinding, 1}, skinAttributes},
@@ -119,13 +99,12 @@ constexpr std::array vertexForms{VertexForm{},
                                  VertexForm{panelBindings, panelAttributes},
                                  VertexForm{skinValueBindings, skinValueAttributes},
                                  VertexForm{ballValueBindings, ballValueAttributes},
-                                 VertexForm{cutValueBindings, cutValueAttributes},
-                                 VertexForm{markBindings, markAttributes},
-                                 VertexForm{{ballBindings.data(), 1}, {ballAttributes.data(), 1}},
-                                 VertexForm{{&cellBinding, 1}, cellAttributes}};
+                                 VertexForm{cutValueBindings, cutValueAttributes}};
 
-VkPipelineVertexInputStateCreateInfo vertexInput(PipelineRequest::Input input) {
-    const VertexForm& form = vertexForms[static_cast<std::size_t>(input)];
+VkPipelineVertexInputStateCreateInfo vertexInput(const PipelineRequest& request) {
+    const VertexForm& form = request.input == PipelineRequest::Input::own
+                                 ? request.vertices
+                                 : vertexForms[static_cast<std::size_t>(request.input)];
     return {.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
             .vertexBindingDescriptionCount = static_cast<std::uint32_t>(form.bindings.size()),
             .pVertexBindingDescriptions = form.bindings.data(),
@@ -192,7 +171,7 @@ constexpr std::array blends{&opaque, &blended, &summed, &laid,
 
 VkPipeline create(const vk::Device& device, const PipelineRequest& request,
                   std::span<const VkPipelineShaderStageCreateInfo> stages) {
-    const VkPipelineVertexInputStateCreateInfo input = vertexInput(request.input);
+    const VkPipelineVertexInputStateCreateInfo input = vertexInput(request);
     const VkPipelineDepthStencilStateCreateInfo depth = depthState(request.depth);
     const VkPipelineRasterizationStateCreateInfo raster = rasterState(request);
     const VkPipelineInputAssemblyStateCreateInfo assembly{

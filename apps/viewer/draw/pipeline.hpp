@@ -13,6 +13,12 @@ struct PanelVertex {
     std::uint8_t color[4]; ///< red, green, blue in sRGB, alpha
 };
 
+/// The layout of a vertex, or of an instance.
+struct VertexForm {
+    std::span<const VkVertexInputBindingDescription> bindings;
+    std::span<const VkVertexInputAttributeDescription> attributes;
+};
+
 struct PipelineRequest {
     std::string name;
     const vk::ShaderCode* vertex = nullptr;
@@ -24,8 +30,7 @@ struct PipelineRequest {
     /// Vertex inputs. positions, positionsAndNormals: SkinVertex at binding 0. balls: corners at 0, and per
     /// instance position (1), piece (2, location 4) and radius (3); hand: as balls without radius. cuts:
     /// SkinVertex at 0, CutVertex at 1. panels: PanelVertex. skinValues, ballValues, cutValues: also a float
-    /// at location 3, from binding 1, 4 (per instance) and 2. marks: corners as for a hand at 0, and a
-    /// ContactMark per instance at 1. particles: positions. cells: a CellMark per instance at 0.
+    /// at location 3, from binding 1, 4 (per instance) and 2. own: `vertices`.
     enum class Input {
         none,
         positions,
@@ -37,10 +42,9 @@ struct PipelineRequest {
         skinValues,
         ballValues,
         cutValues,
-        marks,
-        particles,
-        cells
+        own
     } input = Input::none;
+    VertexForm vertices{}; ///< must outlive the request
     enum class Depth { none, test, testAndWrite } depth = Depth::none;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     enum class Faces {

@@ -157,8 +157,8 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
 void Renderer::drawShades(VkCommandBuffer commands, const Shades& shades, const sim::Simulation& simulation,
                           const Overlay& overlay) const noexcept {
     const Layers& layers = overlay.layers;
-    const bool hasSkins =
-        layers.skin == SkinLook::solid || (layers.skin == SkinLook::glass && !layers.hasBalls);
+    const bool hasSkins = layers.skin() == SkinLook::solid ||
+                          (layers.skin() == SkinLook::glass && !layers.has(layer::particles));
     const std::size_t ofAll = opened(shades.all, layers);
     const std::size_t ofSolids = quality_.leavesBacks && !layers.section ? shades.facing : ofAll;
     const std::size_t ofCuts = light_.areSolidsOutward() ? ofSolids : ofAll;
@@ -220,11 +220,11 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
     const Layers& layers = overlay.layers;
     drawThings(commands, simulation, layers, skinPipeline);
     drawThings(commands, simulation, layers, skinBacksPipeline);
-    if (layers.map != ColorMap::none) {
+    if (layers.map() != ColorMap::none) {
         drawValues(commands, simulation, overlay);
     } else {
         drawBalls(commands, opened(ballPipeline, layers), simulation, overlay);
-        if (layers.skin == SkinLook::solid)
+        if (layers.skin() == SkinLook::solid)
             drawCuts(commands, opened(insidePipeline, layers), opened(clippedPipeline, layers), simulation);
     }
     drawMarks(commands, simulation, layers);

@@ -116,7 +116,8 @@ private:
         return layers.section && has(pipeline + pipelineCount) ? pipeline + pipelineCount : pipeline;
     }
     bool has(std::size_t pipeline) const noexcept { return pipelines_[pipeline].has_value(); }
-    /// The pipelines of a layer; if the first one exists, all do.
+    bool hasSection() const noexcept;
+    /// The pipelines of layers that change how bodies are drawn; if the first one exists, all do.
     struct Feature {
         bool (*isIn)(const Layers& layers);
         std::size_t first;
@@ -124,12 +125,12 @@ private:
     };
     static std::span<const Feature> features();
     bool isDrawn(const Feature& feature, const Layers& layers) const;
+    /// Whether a layer of the table is on and draws something of its own.
+    static bool isDrawn(std::size_t layer, const Layers& layers);
+    void makeLayer(Additions& to, std::size_t layer) const;
     void makeGlass(Additions& to) const;
     void makeValues(Additions& to) const;
     void makeWires(Additions& to) const;
-    void makeContacts(Additions& to) const;
-    void makeLinks(Additions& to) const;
-    void makeCells(Additions& to) const;
     void makeSection(Additions& to) const;
     void makeOpened(Additions& to, std::size_t index, const PipelineRequest& whole) const;
     void makeCounts(Additions& to) const;
@@ -140,7 +141,7 @@ private:
     void makeCuts(Additions& to) const;
     void makeBalls(Additions& to) const;
     void makeHeld(Additions& to) const;
-    bool isOpened(std::size_t index) const noexcept;
+    static const vk::ShaderCode* openedForm(std::size_t index, const PipelineRequest& request) noexcept;
     const RenderPass& countsPass(Additions& to) const;
     const RenderPass& passOf(const Canvas& canvas) const noexcept;
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation, const Overlay& overlay,
@@ -156,8 +157,8 @@ private:
     void drawCap(VkCommandBuffer commands, const Canvas& canvas, const Layers& layers) const noexcept;
     void recordLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
                       const Overlay& overlay) const noexcept;
-    void drawLinks(VkCommandBuffer commands, const sim::Simulation& simulation,
-                   const Overlay& overlay) const noexcept;
+    void drawLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
+                    const Overlay& overlay) const noexcept;
     void drawValues(VkCommandBuffer commands, const sim::Simulation& simulation,
                     const Overlay& overlay) const noexcept;
     /// The target of a picture.
@@ -256,15 +257,13 @@ private:
         cutValuesPipeline,
         ballValuesPipeline,
         wiresPipeline,
-        contactPipeline,
-        linkPipeline,
-        cellPipeline,
         skinCountPipeline,
         cutCountPipeline,
         ballCountPipeline,
         ballValuesCountPipeline,
         capPipeline,
-        pipelineCount
+        layerPipelines, // one for each row of layerTable()
+        pipelineCount = layerPipelines + mostLayers
     };
     std::array<PipelineRequest, pipelineCount> requests_; // of the pipelines that exist
     // A pipeline exists once a layer that uses it is prepared. The second half holds, in the same order, the

@@ -20,7 +20,7 @@ void Renderer::drawThings(VkCommandBuffer commands, const sim::Simulation& simul
                           std::size_t pipeline) const noexcept {
     drawColliders(commands, pipeline, simulation);
     drawHostColliders(commands, pipeline, simulation);
-    if (layers.map == ColorMap::none && layers.skin == SkinLook::solid)
+    if (layers.map() == ColorMap::none && layers.skin() == SkinLook::solid)
         drawSkins(commands, opened(pipeline, layers), simulation);
 }
 
@@ -128,7 +128,7 @@ void Renderer::drawSkins(VkCommandBuffer commands, OfSkins pipelines, const sim:
 
 void Renderer::drawBalls(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
                          const Overlay& overlay) const noexcept {
-    const bool isAll = overlay.layers.hasBalls && overlay.buffers.balls != nullptr;
+    const bool isAll = overlay.layers.has(layer::particles) && overlay.buffers.balls != nullptr;
     const Balls& balls = isAll ? *overlay.buffers.balls : balls_;
     if (balls.ranges().empty() || !has(pipeline)) return;
     const bool isMap = pipeline % pipelineCount == ballValuesPipeline || pipeline == ballValuesCountPipeline;

@@ -191,33 +191,4 @@ void Renderer::makeWires(Additions& to) const {
             .blend = Blend::over});
 }
 
-void Renderer::makeLinks(Additions& to) const {
-    addLit(to, linkPipeline,
-           {.name = "links",
-            .vertex = &shaders::wiresVert,
-            .fragment = &shaders::linkFrag,
-            .input = Input::particles,
-            .depth = solid,
-            .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST});
-}
-
-void Renderer::makeCells(Additions& to) const {
-    addLit(to, cellPipeline,
-           {.name = "cells",
-            .vertex = &shaders::cellVert,
-            .fragment = &shaders::cellFrag,
-            .input = Input::cells,
-            .depth = solid,
-            .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST});
-}
-
-// Contact points are hidden between the bodies, so marks are drawn through everything.
-void Renderer::makeContacts(Additions& to) const {
-    addLit(to, contactPipeline,
-           {.name = "contacts",
-            .vertex = &shaders::markVert,
-            .fragment = &shaders::markFrag,
-            .input = Input::marks});
-}
-
 } // namespace sinew::viewer

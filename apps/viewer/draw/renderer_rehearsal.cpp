@@ -45,7 +45,7 @@ void Renderer::recordRehearsal(VkCommandBuffer commands, std::uint32_t slot, Can
     buffers.fill(nothing_.view().buffer);
     offsets.fill(nothing_.view().offset);
     functions.vkCmdBindVertexBuffers(commands, 0, mostBindings, buffers.data(), offsets.data());
-    push(commands, {{layers.map != ColorMap::none ? 1.0f : 0.0f}});
+    push(commands, {{layers.map() != ColorMap::none ? 1.0f : 0.0f}});
     functions.vkCmdDraw(commands, 3, 1, 0, 0);
     functions.vkCmdEndRenderPass(commands);
 }

@@ -5,6 +5,7 @@
 // triangles.
 #include "viewer/draw/renderer.hpp"
 
+#include "viewer/draw/layer.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>
@@ -27,15 +28,7 @@ constexpr std::array forms{Form{&shaders::depthVert, &shaders::depthSectionVert}
                            Form{&shaders::insideGlassFrag, &shaders::insideGlassSectionFrag},
                            Form{&shaders::clippedGlassFrag, &shaders::clippedGlassSectionFrag},
                            Form{&shaders::valuesFrag, &shaders::valuesSectionFrag},
-                           Form{&shaders::wiresFrag, &shaders::wiresSectionFrag},
-                           Form{&shaders::linkFrag, &shaders::linkSectionFrag},
-                           Form{&shaders::cellFrag, &shaders::cellSectionFrag},
-                           Form{&shaders::markFrag, &shaders::markSectionFrag}};
-
-const vk::ShaderCode* openedForm(const vk::ShaderCode* shader) {
-    const auto* found = std::ranges::find(forms, shader, &Form::first);
-    return found == forms.end() ? nullptr : found->second;
-}
+                           Form{&shaders::wiresFrag, &shaders::wiresSectionFrag}};
 
 } // namespace
 
@@ -46,29 +39,26 @@ const RenderPass& Renderer::countsPass(Additions& to) const {
     return *to.countsPass_;
 }
 
-bool Renderer::has(const Layers& layers) const noexcept {
-    const auto isMissing = [&](const Feature& feature) {
-        return isDrawn(feature, layers) && !has(feature.first);
-    };
-    if (std::ranges::any_of(features(), isMissing)) return false;
-    if (!layers.section) return true;
+bool Renderer::hasSection() const noexcept {
     for (std::size_t i = 0; i < pipelineCount; ++i)
-        if (has(i) && !has(i + pipelineCount) && isOpened(i)) return false;
+        if (has(i) && !has(i + pipelineCount) && openedForm(i, requests_[i]) != nullptr) return false;
     return has(capPipeline);
 }
 
-// Grabs are drawn through the plane.
-bool Renderer::isOpened(std::size_t index) const noexcept {
-    const PipelineRequest& request = requests_[index];
-    return index != handPipeline &&
-           openedForm(request.fragment == nullptr ? request.vertex : request.fragment) != nullptr;
+// The shader that replaces the last one of a pipeline. Grabs are drawn through the plane.
+const vk::ShaderCode* Renderer::openedForm(std::size_t index, const PipelineRequest& request) noexcept {
+    if (index == handPipeline) return nullptr;
+    if (index >= layerPipelines) return layerTable()[index - layerPipelines]->opened;
+    const auto* shader = request.fragment == nullptr ? request.vertex : request.fragment;
+    const auto* found = std::ranges::find(forms, shader, &Form::first);
+    return found == forms.end() ? nullptr : found->second;
 }
 
 void Renderer::makeOpened(Additions& to, std::size_t index, const PipelineRequest& whole) const {
     PipelineRequest request = whole;
     const bool isDepth = request.fragment == nullptr;
-    const vk::ShaderCode* form = openedForm(isDepth ? request.vertex : request.fragment);
-    if (form == nullptr || index == handPipeline) return;
+    const vk::ShaderCode* form = openedForm(index, request);
+    if (form == nullptr) return;
     (isDepth ? request.vertex : request.fragment) = form;
     if (isDepth) request.fragment = &shaders::sectionDepthFrag;
     request.isDepthOnly = isDepth;
@@ -122,14 +112,14 @@ void Renderer::makeCounts(Additions& to) const {
 void Renderer::recordCounts(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,
                             const Overlay& overlay) const noexcept {
     const Layers& layers = overlay.layers;
-    const bool isSolid = layers.skin == SkinLook::solid, isMap = layers.map != ColorMap::none;
+    const bool isSolid = layers.skin() == SkinLook::solid, isMap = layers.map() != ColorMap::none;
     constexpr std::array nothing{VkClearValue{.color = {{0, 0, 0, 0}}}};
     begin(commands, *countsPass_, canvas.countsFramebuffer(), canvas.extent(), nothing);
     if (isSolid) {
         drawSkins(commands, skinCountPipeline, simulation);
         drawCuts(commands, cutCountPipeline, cutCountPipeline, simulation);
     }
-    if (!isSolid || !layers.hasBalls) {
+    if (!isSolid || !layers.has(layer::particles)) {
         if (!isMap) drawBalls(commands, ballCountPipeline, simulation, overlay);
         if (isMap && overlay.buffers.particles.size > 0)
             drawBalls(commands, ballValuesCountPipeline, simulation, overlay);
@@ -140,7 +130,7 @@ void Renderer::recordCounts(VkCommandBuffer commands, const Canvas& canvas, cons
 void Renderer::drawCap(VkCommandBuffer commands, const Canvas& canvas, const Layers& layers) const noexcept {
     if (!layers.section || !canvas.hasCounts() || !has(capPipeline)) return;
     bind(commands, capPipeline);
-    push(commands, {layers.map != ColorMap::none ? 1.0f : 0.0f, 0, 0}, capGloss, {});
+    push(commands, {layers.map() != ColorMap::none ? 1.0f : 0.0f, 0, 0}, capGloss, {});
     device_.functions().vkCmdDraw(commands, 3, 1, 0, 0);
 }
 

@@ -1,6 +1,8 @@
 // The table of bindings.
 #include "viewer/hands/bindings.hpp"
 
+#include "viewer/draw/layer.hpp"
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -17,7 +19,7 @@ constexpr auto key = Trigger::Kind::key, drag = Trigger::Kind::drag, wheel = Tri
                doubleClick = Trigger::Kind::doubleClick, held = Trigger::Kind::held;
 
 // Bindings of one action are adjacent; the help shows the text of the first one.
-constexpr std::array table{
+constexpr std::array beforeLayers{
     Binding{{drag, GLFW_MOUSE_BUTTON_LEFT}, grab, "left drag", "on a body: grab and pull; elsewhere: orbit"},
     Binding{{drag, GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_CONTROL},
             grab,
@@ -70,18 +72,9 @@ constexpr std::array table{
     Binding{{key, GLFW_KEY_T, GLFW_MOD_SHIFT}, lessFriction, "Shift + T", "less friction"},
     Binding{{key, GLFW_KEY_G}, moreGravity, "G", "more gravity"},
     Binding{{key, GLFW_KEY_G, GLFW_MOD_SHIFT}, lessGravity, "Shift + G", "less gravity"},
-    Binding{{key, GLFW_KEY_1}, skinLook, "1", "skin: solid, translucent, hidden", "Skin"},
-    Binding{{key, GLFW_KEY_2}, wires, "2", "wireframe: edges of the drawn triangles", "Wires"},
-    Binding{{key, GLFW_KEY_3}, balls, "3", "a ball for every particle", "Particles"},
-    Binding{
-        {key, GLFW_KEY_4}, links, "4", "links, in one color if the solver corrects them together", "Links"},
-    Binding{{key, GLFW_KEY_5}, contacts, "5", "contacts with their normals", "Contacts"},
-    Binding{{key, GLFW_KEY_6},
-            cells,
-            "6",
-            "cells of the hash grids that are not empty, colored by count",
-            "Cells"},
-    Binding{{key, GLFW_KEY_M}, colorMap, "M", "colors: of bodies, strain, speed, sleep", "Colors"},
+};
+
+constexpr std::array afterLayers{
     Binding{{key, GLFW_KEY_I},
             inspect,
             "I",
@@ -140,7 +133,29 @@ constexpr std::array table{
     Binding{{key, GLFW_KEY_Q, GLFW_MOD_CONTROL}, quit, "Ctrl + Q", "quit", "Quit"},
 };
 
+// GLFW's codes of digits and letters are their characters.
+std::vector<Binding> allBindings() {
+    std::vector<Binding> all(beforeLayers.begin(), beforeLayers.end());
+    for (std::size_t i = 0; i < layerTable().size(); ++i) {
+        const Layer& layer = *layerTable()[i];
+        all.push_back({{key, layer.key}, actionOfLayer(i), {&layer.key, 1}, layer.help, layer.button});
+    }
+    all.insert(all.end(), afterLayers.begin(), afterLayers.end());
+    return all;
+}
+
+const std::vector<Binding> table = allBindings();
+
 } // namespace
+
+std::optional<std::size_t> layerOf(Action action) {
+    const auto index = static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::firstLayer);
+    return index < layerTable().size() ? std::optional(index) : std::nullopt;
+}
+
+Action actionOfLayer(std::size_t layer) {
+    return static_cast<Action>(static_cast<std::size_t>(Action::firstLayer) + layer);
+}
 
 std::span<const Binding> bindings() {
     return table;
@@ -150,15 +165,15 @@ std::optional<Action> actionFor(const Trigger& trigger) {
     Trigger known = trigger;
     const int ofWheel = trigger.kind == Trigger::Kind::wheel ? GLFW_MOD_ALT : 0;
     known.modifiers &= GLFW_MOD_SHIFT | GLFW_MOD_CONTROL | ofWheel;
-    const auto* found = std::ranges::find(table, known, &Binding::trigger);
+    const auto found = std::ranges::find(table, known, &Binding::trigger);
     return found == table.end() ? std::nullopt : std::optional(found->action);
 }
 
 std::vector<HelpLine> helpLines() {
     std::vector<HelpLine> lines;
-    for (const auto* line = table.begin(); line != table.end();) {
+    for (auto line = table.begin(); line != table.end();) {
         std::string triggers(line->shown);
-        const auto* next = line + 1;
+        auto next = line + 1;
         for (; next != table.end() && next->action == line->action; ++next)
             if (!next->shown.empty()) triggers.append(", ").append(next->shown);
         lines.push_back({std::move(triggers), line->help});
@@ -177,7 +192,7 @@ std::string helpText() {
 }
 
 std::string_view keyOf(Action action) {
-    const auto* found = std::ranges::find(table, action, &Binding::action);
+    const auto found = std::ranges::find(table, action, &Binding::action);
     return found == table.end() ? std::string_view() : found->shown;
 }
 

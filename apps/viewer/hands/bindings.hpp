@@ -42,13 +42,6 @@ enum class Action {
     previousScene,
     nextScene,
     open,
-    skinLook,
-    wires,
-    balls,
-    links,
-    contacts,
-    cells,
-    colorMap,
     inspect,
     beside,
     section,
@@ -65,8 +58,13 @@ enum class Action {
     smallerTexts,
     panels,
     help,
-    quit
+    quit,
+    firstLayer ///< turns the first row of layerTable() to its next look; those of further rows follow
 };
+
+/// The layer that an action turns to its next look: index into layerTable().
+std::optional<std::size_t> layerOf(Action action);
+Action actionOfLayer(std::size_t layer);
 
 /// A user input. `code` and `modifiers` are GLFW's: a key, a mouse button, or 0 for the wheel and for
 /// modifiers that are held.

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "sinew/holds.hpp"
-#include "viewer/draw/contact_marks.hpp"
 #include "viewer/hands/found.hpp"
 #include "viewer/hands/pick.hpp"
+#include "viewer/layers/contact_marks.hpp"
 
 #include <chrono>
 #include <functional>

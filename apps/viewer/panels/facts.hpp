@@ -5,6 +5,7 @@
 #include "app/piece_count.hpp"
 #include "sinew/vk/device.hpp"
 #include "viewer/draw/layers.hpp"
+#include "viewer/draw/legend.hpp"
 #include "viewer/hands/bindings.hpp"
 #include "viewer/hands/found.hpp"
 
@@ -150,10 +151,8 @@ struct Facts {
     std::array<float, 2> sectionReach{}; ///< lowest and highest offset of the section plane [m]
     MapReading map;                      ///< of the active map, if any
     float mapRange = 0;                  ///< value of the last colour; 0 = not known yet
-    std::uint32_t contactsFound = 0;     ///< number of contacts, if shown
-    LinkFacts links;                     ///< of the links, if shown
-    std::vector<GridFacts> grids;        ///< the hash grids, if shown; empty if the solver has none
-    bool isPreparing = false;            ///< some active layers are not ready to be drawn
+    std::array<std::vector<LegendLine>, mostLayers> legends; ///< of layers that are drawn
+    bool isPreparing = false;                                ///< some active layers are not ready to be drawn
     BesideFacts beside;
     bool isInspecting = false;
     std::optional<Found> found; ///< while inspecting

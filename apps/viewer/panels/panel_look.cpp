@@ -1,6 +1,8 @@
 // The layers of the bodies, and the legends of their colours.
 #include "viewer/panels/panel_parts.hpp"
 
+#include "viewer/draw/layer.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,10 +10,6 @@
 namespace sinew::viewer::parts {
 
 namespace {
-
-constexpr std::array skinNames{"Skin", "Glass", "No skin"};
-constexpr std::array<float, 3> sharedColor{0.79f, 0.0f, 0.21f}; // cell.vert
-constexpr std::array mapNames{"Colors", "Strain", "Speed", "Sleep"};
 
 // A value with its unit: "2 %", "0.5 m/s".
 std::string valueText(ColorMap map, float value) {
@@ -62,8 +60,8 @@ void sleepLegend(const Facts& facts, std::size_t particles) {
     row("asleep", grouped(facts.sleeping) + " of " + grouped(particles));
 }
 
-void legend(const Facts& facts, std::size_t particles) {
-    const ColorMap map = facts.layers.map;
+void mapLegend(const Facts& facts, std::size_t particles) {
+    const ColorMap map = facts.layers.map();
     if (map == ColorMap::sleep) return sleepLegend(facts, particles);
     if (facts.mapRange <= 0) return wrapped("no particle has a value", quiet());
     colorBar();
@@ -85,48 +83,55 @@ void legend(const Facts& facts, std::size_t particles) {
     row(limit.c_str(), beyond + valueText(map, facts.map.largest));
 }
 
-// Legend with a square per class, in the order of solving; link counts in a tooltip.
-void linkLegend(const LinkFacts& links) {
+// A square for each color, as many in a line as fit.
+void squares(const LegendLine& line) {
     const float side = 0.8f * ImGui::GetTextLineHeight(), between = 0.5f * ImGui::GetStyle().ItemSpacing.x;
-    if (links.classes.size() > 1) {
-        const ImVec2 from = ImGui::GetCursorScreenPos();
-        const auto inARow =
-            std::max(static_cast<std::size_t>(contentWidth() / (side + between)), std::size_t{1});
-        for (std::size_t i = 0; i < links.classes.size(); ++i) {
-            const ImVec2 at{from.x + static_cast<float>(i % inARow) * (side + between),
-                            from.y + static_cast<float>(i / inARow) * (side + between)};
-            const ImVec2 end{at.x + side, at.y + side};
-            ImGui::GetWindowDrawList()->AddRectFilled(at, end, shown(classColor(i)));
-            if (ImGui::IsMouseHoveringRect(at, end))
-                ImGui::SetTooltip("class %zu: %s links", i + 1, grouped(links.classes[i]).c_str());
-        }
-        const auto rows = static_cast<float>((links.classes.size() + inARow - 1) / inARow);
-        ImGui::Dummy({contentWidth(), rows * (side + between)});
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const auto inARow = std::max(static_cast<std::size_t>(contentWidth() / (side + between)), std::size_t{1});
+    for (std::size_t i = 0; i < line.colors.size(); ++i) {
+        const ImVec2 at{from.x + static_cast<float>(i % inARow) * (side + between),
+                        from.y + static_cast<float>(i / inARow) * (side + between)};
+        const ImVec2 end{at.x + side, at.y + side};
+        ImGui::GetWindowDrawList()->AddRectFilled(at, end, shown(line.colors[i]));
+        if (ImGui::IsMouseHoveringRect(at, end)) ImGui::SetTooltip("%s", line.tips[i].c_str());
     }
-    wrapped(links.note, quiet());
-    if (links.fixed > 0) row("links between fixed particles", grouped(links.fixed));
+    const auto rows = static_cast<float>((line.colors.size() + inARow - 1) / inARow);
+    ImGui::Dummy({contentWidth(), rows * (side + between)});
 }
 
-// Legend of cells: a bar of colours from one item to the fullest cell, for all grids, and their counts.
-void cellLegend(const std::vector<GridFacts>& grids) {
-    if (grids.empty()) return wrapped("no hash grid: the scene has no contacts that need one", quiet());
-    std::uint32_t most = 0, shared = 0;
-    for (const GridFacts& grid : grids) {
-        most = std::max(most, grid.most);
-        shared += grid.shared;
+void legendOf(const std::vector<LegendLine>& lines) {
+    for (const LegendLine& line : lines) switch (line.kind) {
+        case LegendLine::Kind::text:
+            wrapped(line.name, quiet());
+            break;
+        case LegendLine::Kind::row:
+            row(line.name.c_str(), line.value);
+            break;
+        case LegendLine::Kind::bar:
+            colorBar();
+            break;
+        case LegendLine::Kind::swatch:
+            colorSwatch(line.colors.front(), line.name.c_str());
+            row("", line.value);
+            break;
+        case LegendLine::Kind::squares:
+            squares(line);
+            break;
+        }
+}
+
+// A button for each layer, four in a line; `facts.isInspecting` has the last one.
+void layerButtons(const Facts& facts, Wishes& wishes) {
+    constexpr std::size_t inARow = 4;
+    const float width = buttonWidth(inARow);
+    const std::span table = layerTable();
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const std::size_t look = facts.layers.looks[i];
+        const std::string name(look > 0 ? table[i]->looks[look - 1].button : table[i]->button);
+        button(actionOfLayer(i), wishes, width, look > 0, name.c_str());
+        if (i % inARow + 1 < inARow) ImGui::SameLine();
     }
-    if (most == 0) return wrapped("no step has been taken yet: the grids are empty", quiet());
-    colorBar();
-    row("items in a cell, from 0", grouped(most));
-    for (const GridFacts& grid : grids) {
-        char text[64];
-        std::snprintf(text, sizeof text, "%s, cells of %.3g m", grid.name.c_str(), double{grid.edge});
-        row(text, grouped(grid.cells));
-        row("  items / slots", grouped(grid.held) + " / " + grouped(grid.slots));
-    }
-    if (shared == 0) return;
-    colorSwatch(sharedColor, "cells that share a slot");
-    row("", grouped(shared));
+    button(Action::inspect, wishes, width, facts.isInspecting);
 }
 
 // Buttons and offset of the section plane.
@@ -149,30 +154,11 @@ void section(const Facts& facts, Wishes& wishes) {
 } // namespace
 
 void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
-    const Layers& layers = facts.layers;
-    const float width = buttonWidth(4);
-    button(Action::skinLook, wishes, width, layers.skin != SkinLook::solid,
-           skinNames[static_cast<std::size_t>(layers.skin)]);
-    ImGui::SameLine();
-    button(Action::wires, wishes, width, layers.hasWires);
-    ImGui::SameLine();
-    button(Action::balls, wishes, width, layers.hasBalls);
-    ImGui::SameLine();
-    button(Action::links, wishes, width, layers.hasLinks);
-    button(Action::contacts, wishes, width, layers.hasContacts);
-    ImGui::SameLine();
-    button(Action::cells, wishes, width, layers.hasCells);
-    ImGui::SameLine();
-    button(Action::colorMap, wishes, width, layers.map != ColorMap::none,
-           mapNames[static_cast<std::size_t>(layers.map)]);
-    ImGui::SameLine();
-    button(Action::inspect, wishes, width, facts.isInspecting);
+    layerButtons(facts, wishes);
     section(facts, wishes);
     if (facts.isPreparing) return wrapped("being prepared ...", quiet());
-    if (layers.hasContacts) row("contacts", grouped(facts.contactsFound));
-    if (layers.hasCells) cellLegend(facts.grids);
-    if (layers.hasLinks) linkLegend(facts.links);
-    if (layers.map != ColorMap::none) legend(facts, scene.particles);
+    for (const std::vector<LegendLine>& lines : facts.legends) legendOf(lines);
+    if (facts.layers.map() != ColorMap::none) mapLegend(facts, scene.particles);
 }
 
 } // namespace sinew::viewer::parts

@@ -21,8 +21,6 @@ ImVec4 warning();
 ImVec4 bad();
 ImVec4 accent();
 
-/// A number with separators: "12,345".
-std::string grouped(std::uint64_t number);
 /// Text on removed fragments.
 std::string debrisText(const Facts& facts);
 

@@ -6,7 +6,7 @@
 #include "sinew/simulation.hpp"
 #include "sinew/vk/commands.hpp"
 #include "sinew/vk/kernel_store.hpp"
-#include "viewer/draw/layers.hpp"
+#include "viewer/draw/layer.hpp"
 #include "viewer/values.h"
 
 namespace sinew::sim {
@@ -31,22 +31,16 @@ std::vector<layout::ValueHolders> skinHolders(const sim::Scene& scene);
 MapReading readingOf(const layout::ValueSpread& spread);
 
 /// Must not outlive its Device, which must not move, nor the simulation.
-class ValueMaps {
+class ValueMaps : public LayerPart {
 public:
     /// `settings` are those of the simulation; `slots` readings may be under way at a time. Throws vk::Error.
     ValueMaps(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
               const sim::Simulation& simulation, std::uint32_t slots);
 
-    /// Computes the values of the state for which recordSkin() was recorded. `slot` < slots; the slot's
-    /// previous commands must have finished.
-    void record(VkCommandBuffer commands, ColorMap map, std::uint32_t slot) const noexcept;
-    /// The distribution, once the commands of that slot have finished.
-    MapReading reading(std::uint32_t slot) const noexcept;
-
-    /// skins() and cuts() are empty if there are none.
-    vk::BufferView particles() const noexcept { return values_.view(); }
-    vk::BufferView skins() const noexcept;
-    vk::BufferView cuts() const noexcept;
+    void record(VkCommandBuffer commands, std::size_t look, std::uint32_t slot) const noexcept override;
+    /// The distribution of values.
+    LayerReading reading(std::uint32_t slot) const override;
+    void addTo(LayerBuffers& buffers, std::size_t look) const noexcept override;
 
 private:
     struct Tables;

@@ -1,5 +1,5 @@
 // Uses the solver's own classes: colouring is a pure function of the scene.
-#include "viewer/draw/link_lines.hpp"
+#include "viewer/layers/link_lines.hpp"
 
 #include "common/layout.h"
 #include "sim/compile/compile.hpp"
@@ -7,7 +7,7 @@
 #include "sim/model/coloring.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
 #include "viewer/draw/removed.hpp"
-#include "viewer/draw/value_maps.hpp"
+#include "viewer/layers/value_maps.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>
@@ -69,7 +69,51 @@ std::vector<LinkLines::Range> rangesOf(const LinkClasses& classes, std::uint32_t
     return ranges;
 }
 
+constexpr VkVertexInputBindingDescription binding{0, sizeof(sim::layout::vec4), VK_VERTEX_INPUT_RATE_VERTEX};
+constexpr VkVertexInputAttributeDescription attribute{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0};
+
+PipelineRequest linkPipeline() {
+    return {.name = "links",
+            .vertex = &shaders::wiresVert,
+            .fragment = &shaders::linkFrag,
+            .input = PipelineRequest::Input::own,
+            .vertices = {{&binding, 1}, {&attribute, 1}},
+            .depth = PipelineRequest::Depth::testAndWrite,
+            .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST};
+}
+
+// A square per class, in the order of solving, with the number of its links.
+std::vector<LegendLine> linkLegend(const LinkFacts& links) {
+    using enum LegendLine::Kind;
+    std::vector<LegendLine> legend;
+    if (links.classes.size() > 1) {
+        LegendLine classes{.kind = squares};
+        for (std::size_t i = 0; i < links.classes.size(); ++i) {
+            classes.colors.push_back(classColor(i));
+            classes.tips.push_back("class " + std::to_string(i + 1) + ": " + grouped(links.classes[i]) +
+                                   " links");
+        }
+        legend.push_back(std::move(classes));
+    }
+    legend.push_back({text, links.note});
+    if (links.fixed > 0) legend.push_back({row, "links between fixed particles", grouped(links.fixed)});
+    return legend;
+}
+
+constexpr std::array<Layer::Look, 1> looks{{{"links", "Links"}}};
+
 } // namespace
+
+constinit const Layer layer::links{.key = '4',
+                                   .help = "links, in one color if the solver corrects them together",
+                                   .button = "Links",
+                                   .looks = looks,
+                                   .make = [](const LayerContext& of) -> std::unique_ptr<const LayerPart> {
+                                       return std::make_unique<const LinkLines>(of.device, of.scene,
+                                                                                of.settings, of.simulation);
+                                   },
+                                   .pipeline = linkPipeline,
+                                   .opened = &shaders::linkSectionFrag};
 
 LinkClasses linkClasses(const sim::Scene& scene, sim::Solver solver) {
     const std::vector<float> inverseMasses = sim::inverseMasses(scene);
@@ -121,7 +165,22 @@ LinkFacts LinkLines::facts() const {
     return facts;
 }
 
-void LinkLines::record(VkCommandBuffer handle) const noexcept {
+LayerReading LinkLines::reading(std::uint32_t) const {
+    return {.legend = linkLegend(facts())};
+}
+
+void LinkLines::draw(const LayerDrawing& to) const noexcept {
+    const vk::DeviceFunctions& functions = device_.functions();
+    const vk::BufferView positions = to.simulation.positions(), indices = indices_.view();
+    functions.vkCmdBindVertexBuffers(to.commands, 0, 1, &positions.buffer, &positions.offset);
+    functions.vkCmdBindIndexBuffer(to.commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
+    for (const Range& range : ranges_) {
+        to.push({{range.color[0], range.color[1], range.color[2], 0}, {}, {}});
+        functions.vkCmdDrawIndexed(to.commands, range.indexCount, 1, range.firstIndex, 0, 0);
+    }
+}
+
+void LinkLines::record(VkCommandBuffer handle, std::size_t, std::uint32_t) const noexcept {
     if (count_ == 0) return;
     const layout::ValuesPush push{count_, 0};
     vk::Commands commands(device_, handle);

@@ -5,10 +5,14 @@
 #include "sinew/simulation.hpp"
 #include "sinew/vk/commands.hpp"
 #include "sinew/vk/kernel_store.hpp"
-#include "viewer/draw/layers.hpp"
+#include "viewer/draw/layer.hpp"
 #include "viewer/values.h"
 
 namespace sinew::viewer {
+
+namespace layer {
+extern const Layer links;
+} // namespace layer
 
 /// Partition of the links into classes that the solver corrects together.
 struct LinkClasses {
@@ -20,15 +24,24 @@ struct LinkClasses {
 };
 LinkClasses linkClasses(const sim::Scene& scene, sim::Solver solver);
 
+/// Counts of links by the class in which the solver corrects them.
+struct LinkFacts {
+    std::vector<std::uint32_t> classes; ///< number of links of each class
+    std::size_t fixed = 0;              ///< links between two fixed particles, in no class
+    std::string note;                   ///< how the solver treats links
+};
+
 /// Must not outlive its Device, which must not move, nor the simulation.
-class LinkLines {
+class LinkLines : public LayerPart {
 public:
     /// `settings` are those of the simulation. Throws vk::Error.
     LinkLines(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
               const sim::Simulation& simulation);
 
     /// Removes links that are cut in the state for which recordSkin() was recorded.
-    void record(VkCommandBuffer commands) const noexcept;
+    void record(VkCommandBuffer commands, std::size_t look, std::uint32_t slot) const noexcept override;
+    LayerReading reading(std::uint32_t slot) const override;
+    void draw(const LayerDrawing& to) const noexcept override;
 
     struct Range {
         std::uint32_t firstIndex, indexCount;

@@ -6,12 +6,17 @@
 #include "sinew/vk/commands.hpp"
 #include "sinew/vk/kernel_store.hpp"
 #include "viewer/draw/hand_mesh.hpp"
+#include "viewer/draw/layer.hpp"
 #include "viewer/values.h"
 
 namespace sinew::viewer {
 
+namespace layer {
+extern const Layer contacts;
+} // namespace layer
+
 /// Must not outlive its Device, which must not move, nor the simulation.
-class ContactMarks {
+class ContactMarks : public LayerPart {
 public:
     /// Marks can be drawn, or only counted.
     enum class Room { many, none };
@@ -20,15 +25,13 @@ public:
     ContactMarks(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
                  const sim::Simulation& simulation, std::uint32_t slots, Room room = Room::many);
 
-    void record(VkCommandBuffer commands, std::uint32_t slot) const noexcept;
+    void record(VkCommandBuffer commands, std::size_t look, std::uint32_t slot) const noexcept override;
+    LayerReading reading(std::uint32_t slot) const override;
+    void draw(const LayerDrawing& to) const noexcept override;
     /// Records only the contacts of one particle.
     void recordOf(VkCommandBuffer commands, std::uint32_t slot, std::uint32_t particle) const noexcept;
     /// Number of contacts, drawn or not, once the commands of that slot have finished.
     std::uint32_t found(std::uint32_t slot) const noexcept;
-
-    const HandMesh& mesh() const noexcept { return mesh_; }
-    vk::BufferView marks() const noexcept { return marks_.view(); }
-    vk::BufferView draw() const noexcept { return draw_.view(); }
 
 private:
     vk::BindingSets bindingSets() const;

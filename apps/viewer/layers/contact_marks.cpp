@@ -1,13 +1,13 @@
 // One kernel runs over all particles, one over all edges. The host writes planes and colliders, since it has
 // their poses.
-#include "viewer/draw/contact_marks.hpp"
+#include "viewer/layers/contact_marks.hpp"
 
 #include "common/layout.h"
 #include "sim/compile/compile.hpp"
 #include "viewer/draw/balls.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
 #include "viewer/draw/removed.hpp"
-#include "viewer/draw/value_maps.hpp"
+#include "viewer/layers/value_maps.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>
@@ -52,7 +52,39 @@ layout::MarkWall wallOf(const sim::Collider& collider, const sim::Pose& pose) {
     return wall;
 }
 
+constexpr float markSize = 0.004f; // of the ball of a mark, in radii of the stage
+constexpr std::array bindings{
+    VkVertexInputBindingDescription{0, sizeof(sim::layout::vec4), VK_VERTEX_INPUT_RATE_VERTEX},
+    VkVertexInputBindingDescription{1, sizeof(layout::ContactMark), VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr std::array attributes{VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+                                VkVertexInputAttributeDescription{1, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                                  offsetof(layout::ContactMark, point)},
+                                VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                                  offsetof(layout::ContactMark, normal)}};
+
+// Contact points are hidden between the bodies, so marks are drawn through everything.
+PipelineRequest markPipeline() {
+    return {.name = "contacts",
+            .vertex = &shaders::markVert,
+            .fragment = &shaders::markFrag,
+            .input = PipelineRequest::Input::own,
+            .vertices = {bindings, attributes}};
+}
+
+constexpr std::array<Layer::Look, 1> looks{{{"contacts", "Contacts"}}};
+
 } // namespace
+
+constinit const Layer layer::contacts{.key = '5',
+                                      .help = "contacts with their normals",
+                                      .button = "Contacts",
+                                      .looks = looks,
+                                      .make = [](const LayerContext& of) -> std::unique_ptr<const LayerPart> {
+                                          return std::make_unique<const ContactMarks>(
+                                              of.device, of.scene, of.settings, of.simulation, of.slots);
+                                      },
+                                      .pipeline = markPipeline,
+                                      .opened = &shaders::markSectionFrag};
 
 ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
                            const sim::Simulation& simulation, std::uint32_t slots, Room room)
@@ -127,7 +159,7 @@ void ContactMarks::writeWalls(std::uint32_t slot) const noexcept {
         *wall++ = wallOf(colliders_[c], c < poses.size() ? poses[c] : colliders_[c].pose);
 }
 
-void ContactMarks::record(VkCommandBuffer commands, std::uint32_t slot) const noexcept {
+void ContactMarks::record(VkCommandBuffer commands, std::size_t, std::uint32_t slot) const noexcept {
     record(commands, slot, push_, push_.count);
 }
 
@@ -161,6 +193,15 @@ void ContactMarks::record(VkCommandBuffer handle, std::uint32_t slot, layout::Ma
     commands.endStep();
     commands.hostBarrier();
     commands.endLabel();
+}
+
+LayerReading ContactMarks::reading(std::uint32_t slot) const {
+    return {.legend = {{LegendLine::Kind::row, "contacts", grouped(found(slot))}}};
+}
+
+void ContactMarks::draw(const LayerDrawing& to) const noexcept {
+    to.push({{}, {0, 0, 0, markSize * to.radius}, {}});
+    mesh_.drawIndirect(to.commands, marks_.view(), draw_.view());
 }
 
 std::uint32_t ContactMarks::found(std::uint32_t slot) const noexcept {

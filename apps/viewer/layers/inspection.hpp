@@ -2,11 +2,7 @@
 // nothing.
 #pragma once
 
-#include "viewer/draw/balls.hpp"
-#include "viewer/draw/contact_marks.hpp"
-#include "viewer/draw/hash_cells.hpp"
-#include "viewer/draw/link_lines.hpp"
-#include "viewer/draw/value_maps.hpp"
+#include "viewer/layers/contact_marks.hpp"
 
 #include <memory>
 #include <optional>
@@ -26,12 +22,9 @@ class Inspection {
 public:
     /// The parts that layers need of one simulation.
     struct Parts {
-        std::unique_ptr<const ValueMaps> values;
-        std::unique_ptr<const Balls> balls; // pictures refer to it
-        std::unique_ptr<const LinkLines> links;
-        std::unique_ptr<const ContactMarks> contacts, counter;
-        std::unique_ptr<const HashCells> cells;
-        bool areNone() const { return !values && !balls && !links && !contacts && !counter && !cells; }
+        std::array<std::unique_ptr<const LayerPart>, mostLayers> of; // pictures refer to them
+        std::unique_ptr<const ContactMarks> counter;
+        bool areNone() const;
         /// Runs the kernels of these parts once: drivers that compile at the first use compile here.
         void recordRehearsal(VkCommandBuffer commands, std::uint32_t slot) const noexcept;
     };
@@ -53,24 +46,21 @@ public:
     /// `slot` < slots; the slot's previous commands must have finished.
     void record(VkCommandBuffer commands, const Layers& layers, std::uint32_t slot) const noexcept;
 
-    /// Distribution of a map's values, once the commands of that slot have finished.
-    MapReading reading(std::uint32_t slot) const noexcept { return parts_.values->reading(slot); }
+    /// What a layer that is ready says about the state of that slot, whose commands have finished.
+    LayerReading reading(std::size_t layer, std::uint32_t slot) const {
+        return parts_.of[layer]->reading(slot);
+    }
 
-    /// Number of contacts, once the commands of that slot have finished.
-    std::uint32_t contacts(std::uint32_t slot) const noexcept { return parts_.contacts->found(slot); }
-
-    /// The grids with their cells, once the commands of that slot have finished.
-    std::vector<GridFacts> grids(std::uint32_t slot) const { return parts_.cells->reading(slot); }
-
-    /// Requires a ready layer of links.
-    LinkFacts links() const { return parts_.links->facts(); }
+    /// The part of a layer that is ready, as what it is.
+    template <typename Part> const Part& part(const Layer& layer) const {
+        return static_cast<const Part&>(*parts_.of[indexOf(layer)]);
+    }
 
     /// Null if it does not exist.
     const ContactMarks* counter() const noexcept { return parts_.counter.get(); }
 
-    /// Buffers for a picture with `layers`, which are ready; the last colours of the map and of cells stand
-    /// for `range` and `cellRange`.
-    LayerBuffers buffers(const Layers& layers, float range, float cellRange = 0) const noexcept;
+    /// Buffers for a picture with `layers`, which are ready.
+    LayerBuffers buffers(const Layers& layers, const LayerRanges& ranges = {}) const noexcept;
 
 private:
     const vk::Device& device_;
@@ -78,9 +68,6 @@ private:
     std::uint32_t slots_;
     Parts parts_, before_; // before_: for the simulation before
 };
-
-/// The largest number of items in a cell of any grid, for the last colour of the map.
-float cellRangeOf(std::span<const GridFacts> grids);
 
 /// The range of a map's colours over time: it rises at once, and falls to the last reading after a dozen
 /// lower readings in a row. A reading is already a quantile of 99 %; in an impact the bulk of a body has its

@@ -1,5 +1,5 @@
 // Tables are made on the host, once; kernels run for every picture.
-#include "viewer/draw/value_maps.hpp"
+#include "viewer/layers/value_maps.hpp"
 
 #include "common/layout.h"
 #include "sim/compile/compile.hpp"
@@ -139,7 +139,20 @@ template <typename Sheet> std::vector<Sheet> sheetsOf(const sim::Simulation& sim
     return sheets;
 }
 
+constexpr std::array<Layer::Look, 3> looks{// in the order of ColorMap
+                                           {{"strain", "Strain"}, {"speed", "Speed"}, {"sleep", "Sleep"}}};
+
 } // namespace
+
+constinit const Layer layer::colors{.key = 'M',
+                                    .help = "colors: of bodies, strain, speed, sleep",
+                                    .button = "Colors",
+                                    .looks = looks,
+                                    .make = [](const LayerContext& of) -> std::unique_ptr<const LayerPart> {
+                                        return std::make_unique<const ValueMaps>(
+                                            of.device, of.scene, of.settings, of.simulation, of.slots);
+                                    },
+                                    .hasRange = true};
 
 ValueMaps::ValueMaps(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
                      const sim::Simulation& simulation, std::uint32_t slots)
@@ -202,7 +215,8 @@ void ValueMaps::dispatch(vk::Commands& commands, const vk::Kernel& kernel, std::
     commands.dispatch((items + GROUP_ITEMS - 1) / GROUP_ITEMS);
 }
 
-void ValueMaps::record(VkCommandBuffer handle, ColorMap map, std::uint32_t slot) const noexcept {
+void ValueMaps::record(VkCommandBuffer handle, std::size_t look, std::uint32_t slot) const noexcept {
+    const auto map = static_cast<ColorMap>(look + 1);
     constexpr auto none = std::bit_cast<std::uint32_t>(static_cast<float>(NO_VALUE));
     vk::Commands commands(device_, handle);
     commands.beginLabel("color map");
@@ -229,18 +243,18 @@ void ValueMaps::record(VkCommandBuffer handle, ColorMap map, std::uint32_t slot)
     commands.endLabel();
 }
 
-MapReading ValueMaps::reading(std::uint32_t slot) const noexcept {
+LayerReading ValueMaps::reading(std::uint32_t slot) const {
     layout::ValueSpread spread;
     std::memcpy(&spread, spreads_.mapped() + slot * sizeof spread, sizeof spread);
-    return readingOf(spread);
+    return {.values = readingOf(spread)};
 }
 
-vk::BufferView ValueMaps::skins() const noexcept {
-    return heldVertices_ > 0 ? skinValues_.view() : vk::BufferView{};
-}
-
-vk::BufferView ValueMaps::cuts() const noexcept {
-    return cutVertices_ > 0 ? cutValues_.view() : vk::BufferView{};
+void ValueMaps::addTo(LayerBuffers& buffers, std::size_t look) const noexcept {
+    buffers.particles = values_.view();
+    if (heldVertices_ > 0) buffers.skins = skinValues_.view();
+    if (cutVertices_ > 0) buffers.cuts = cutValues_.view();
+    const bool isSleep = static_cast<ColorMap>(look + 1) == ColorMap::sleep;
+    buffers.range = isSleep ? 1 : buffers.ranges[indexOf(layer::colors)];
 }
 
 } // namespace sinew::viewer

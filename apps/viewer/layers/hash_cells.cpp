@@ -1,11 +1,12 @@
 // One kernel per grid; the marks of a grid follow those of the one before.
-#include "viewer/draw/hash_cells.hpp"
+#include "viewer/layers/hash_cells.hpp"
 
 #include "common/layout.h"
 #include "sim/program/program.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 
 namespace sinew::viewer {
@@ -25,7 +26,58 @@ VkDeviceSize roomOf(const sim::StepProgram& program) {
     return room;
 }
 
+constexpr VkVertexInputBindingDescription binding{0, sizeof(layout::CellMark), VK_VERTEX_INPUT_RATE_INSTANCE};
+constexpr std::array attributes{
+    VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(layout::CellMark, low)},
+    VkVertexInputAttributeDescription{1, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(layout::CellMark, held)}};
+
+PipelineRequest cellPipeline() {
+    return {.name = "cells",
+            .vertex = &shaders::cellVert,
+            .fragment = &shaders::cellFrag,
+            .input = PipelineRequest::Input::own,
+            .vertices = {{&binding, 1}, attributes},
+            .depth = PipelineRequest::Depth::testAndWrite,
+            .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST};
+}
+
+// A bar of colors from one item to the fullest cell, for all grids, and the counts of each.
+std::vector<LegendLine> cellLegend(std::span<const GridFacts> grids) {
+    using enum LegendLine::Kind;
+    constexpr std::array<float, 3> sharedColor{0.79f, 0.0f, 0.21f}; // cell.vert
+    if (grids.empty()) return {{text, "no hash grid: the scene has no contacts that need one"}};
+    std::uint32_t most = 0, shared = 0;
+    for (const GridFacts& grid : grids) {
+        most = std::max(most, grid.most);
+        shared += grid.shared;
+    }
+    if (most == 0) return {{text, "no step has been taken yet: the grids are empty"}};
+    std::vector<LegendLine> legend{{bar}, {row, "items in a cell, from 0", grouped(most)}};
+    for (const GridFacts& grid : grids) {
+        char name[64];
+        std::snprintf(name, sizeof name, "%s, cells of %.3g m", grid.name.c_str(), double{grid.edge});
+        legend.push_back({row, name, grouped(grid.cells)});
+        legend.push_back({row, "  items / slots", grouped(grid.held) + " / " + grouped(grid.slots)});
+    }
+    if (shared > 0) legend.push_back({swatch, "cells that share a slot", grouped(shared), {sharedColor}});
+    return legend;
+}
+
+constexpr std::array<Layer::Look, 1> looks{{{"cells", "Cells"}}};
+
 } // namespace
+
+constinit const Layer layer::cells{.key = '6',
+                                   .help = "cells of the hash grids that are not empty, colored by count",
+                                   .button = "Cells",
+                                   .looks = looks,
+                                   .make = [](const LayerContext& of) -> std::unique_ptr<const LayerPart> {
+                                       return std::make_unique<const HashCells>(of.device, of.simulation,
+                                                                                of.slots);
+                                   },
+                                   .pipeline = cellPipeline,
+                                   .opened = &shaders::cellSectionFrag,
+                                   .hasRange = true};
 
 HashCells::HashCells(const vk::Device& device, const sim::Simulation& simulation, std::uint32_t slots)
     : device_(device), marks_(device, {.name = "cells",
@@ -58,7 +110,7 @@ vk::BindingSets HashCells::bindingSets(const sim::Simulation& simulation) const 
     return {device_, requests};
 }
 
-void HashCells::record(VkCommandBuffer handle, std::uint32_t slot) const noexcept {
+void HashCells::record(VkCommandBuffer handle, std::size_t, std::uint32_t slot) const noexcept {
     const vk::BufferView all = draws_.view();
     vk::BufferView read = readings_.view();
     read.size = all.size;
@@ -87,7 +139,16 @@ void HashCells::record(VkCommandBuffer handle, std::uint32_t slot) const noexcep
     commands.endLabel();
 }
 
-std::vector<GridFacts> HashCells::reading(std::uint32_t slot) const {
+LayerReading HashCells::reading(std::uint32_t slot) const {
+    const std::vector<GridFacts> all = grids(slot);
+    LayerReading reading{.legend = cellLegend(all)};
+    for (const GridFacts& grid : all)
+        reading.values.range = std::max(reading.values.range, static_cast<float>(grid.most));
+    if (all.empty()) reading.note = "this scene has no hash grid: no cells are drawn";
+    return reading;
+}
+
+std::vector<GridFacts> HashCells::grids(std::uint32_t slot) const {
     std::vector<GridFacts> facts;
     for (std::size_t g = 0; g < grids_.size(); ++g) {
         layout::CellDraw draw;
@@ -103,13 +164,14 @@ std::vector<GridFacts> HashCells::reading(std::uint32_t slot) const {
     return facts;
 }
 
-void HashCells::draw(VkCommandBuffer commands) const noexcept {
+void HashCells::draw(const LayerDrawing& to) const noexcept {
+    to.push({{to.range}, {}, {}});
     const vk::DeviceFunctions& functions = device_.functions();
     const vk::BufferView marks = marks_.view(), draws = draws_.view();
     for (std::size_t g = 0; g < grids_.size(); ++g) {
         const VkDeviceSize first = marks.offset + grids_[g].push.first * sizeof(layout::CellMark);
-        functions.vkCmdBindVertexBuffers(commands, 0, 1, &marks.buffer, &first);
-        functions.vkCmdDrawIndirect(commands, draws.buffer, draws.offset + g * sizeof(layout::CellDraw), 1,
+        functions.vkCmdBindVertexBuffers(to.commands, 0, 1, &marks.buffer, &first);
+        functions.vkCmdDrawIndirect(to.commands, draws.buffer, draws.offset + g * sizeof(layout::CellDraw), 1,
                                     sizeof(layout::CellDraw));
     }
 }
