@@ -44,12 +44,6 @@ void LayerView::slideSection(float slide) {
         section = moved(*section, slide, show_.opening.light.bounds);
 }
 
-std::optional<Opened> LayerView::opened() const {
-    const std::optional<Section>& section = show_.screen.layers().section;
-    if (!section) return std::nullopt;
-    return Opened{*section, show_.opening.light.isClosed};
-}
-
 bool LayerView::tend() {
     try {
         if (backstage_.goOn()) show_.redraw();

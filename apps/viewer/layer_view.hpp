@@ -2,7 +2,6 @@
 #pragma once
 
 #include "viewer/backstage.hpp"
-#include "viewer/hands/pick.hpp"
 #include "viewer/show_context.hpp"
 
 namespace sinew::viewer {
@@ -18,8 +17,8 @@ public:
     /// Moves the section, if there is one: to an offset of its plane [m], or as Input::slide.
     void moveSectionTo(float offset);
     void slideSection(float slide);
-    /// How the section opens the scene to rays, if there is one.
-    std::optional<Opened> opened() const;
+    /// The section that opens the scene to rays, if there is one.
+    const std::optional<Section>& section() const { return show_.screen.layers().section; }
 
     /// Takes layers that have been made, and rehearses. Without memory no layer is on any more: false then.
     bool tend();

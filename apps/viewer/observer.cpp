@@ -23,7 +23,7 @@ Observer::Observer(const ShowContext& show, const LayerView& layers, const Compa
       inspector_(show.stage, show.opening.loaded.holds, Presenter::framesInFlight) {}
 
 void Observer::lookAt(Target target) {
-    wantsLook_ = Look{target, rayThrough(show_.controller.camera, pointer_)};
+    wantsLook_ = Look{target, pointerRay()};
 }
 
 bool Observer::take(Input& input) {
@@ -69,51 +69,54 @@ void Observer::ask(std::uint32_t slot, std::uint32_t steps, bool asksTools) {
     asked.look = std::exchange(wantsLook_, std::nullopt);
     if (asksTools) asked.question = show_.tools.question();
     asked.isMeasured = isStrainDue(steps);
-    asked.isInspected = inspector_.isDue(rayThrough(show_.controller.camera, pointer_));
+    asked.isInspected = inspector_.isDue(pointerRay());
     asked.isCounted = isCountDue();
+}
+
+Ray Observer::pointerRay() const {
+    return rayThrough(show_.controller.camera, pointer_);
 }
 
 void Observer::record(const Presenter::Frame& frame) {
     const Pending& asked = pending_[frame.slot];
-    if (!asked.isAny()) return;
-    probe_->record(frame.commands);
+    if (asked.needsCopy()) probe_->record(frame.commands);
     if (asked.isCounted) pieceProbe_.record(frame.commands);
-    if (!asked.isInspected) return;
-    probe_->recordVelocities(frame.commands);
-    inspector_.record(frame.commands, frame.slot, rayThrough(show_.controller.camera, pointer_),
-                      layers_.counter());
+    if (asked.isInspected) {
+        probe_->recordVelocities(frame.commands);
+        inspector_.record(frame.commands, frame.slot, pointerRay(), layers_.counter());
+    }
+    if (!asked.hasRay()) return;
+    Picker::Casts casts;
+    if (asked.question) casts[ofTools] = {asked.question->ray, asked.question->among()};
+    if (asked.look) casts[ofLook] = {asked.look->ray, Among::all};
+    if (asked.isInspected) casts[ofInspector] = {pointerRay(), Among::all};
+    show_.prepared.picker.record(frame.commands, frame.slot, casts, layers_.section());
 }
 
-std::optional<Pick> Observer::pickAt(const Ray& ray, Among among) {
-    return pick(show_.stage.scene(), show_.opening.light.balls, ray, probe_->seen(), among, layers_.opened());
-}
-
-void Observer::answer(const Question& question) {
-    const auto found = pickAt(question.ray, question.among());
+void Observer::answer(const Question& question, const std::optional<Pick>& found) {
     show_.tools.answer(question, found, found ? holdRadius(show_.stage.scene(), found->particle) : 0);
 }
 
 // settleCount() takes the rest.
 void Observer::settle(std::uint32_t slot) {
     const Pending asked = std::exchange(pending_[slot], {.isCounted = pending_[slot].isCounted});
-    const bool isSeen = probe_->isComplete(); // otherwise asked again
-    if (isSeen && asked.question && asked.question == show_.tools.question()) answer(*asked.question);
+    const Picker& picker = show_.prepared.picker;
+    if (asked.question && asked.question == show_.tools.question())
+        answer(*asked.question, picker.answer(slot, ofTools));
     if (asked.isMeasured) gauges_.strainMeasured(measureStrain(show_.stage.scene(), *probe_));
-    if (asked.look && isSeen) settleLook(*asked.look);
-    if (asked.look && !isSeen && !wantsLook_) wantsLook_ = asked.look;
+    if (asked.look) settleLook(*asked.look, picker.answer(slot, ofLook));
     Camera& camera = show_.controller.camera;
     if (const Box bounds = asked.isBounded ? probe_->bounds() : Box(); !bounds.isEmpty()) {
         camera = framing(camera, bounds, comparison_.pictureAspect());
         show_.redraw(); // what is on screen was seen from elsewhere
     }
     if (asked.isInspected)
-        inspector_.settle(slot, show_.opening.light.balls, *probe_, layers_.opened(), layers_.counter());
+        inspector_.settle(slot, picker.answer(slot, ofInspector), *probe_, layers_.counter());
 }
 
 // A look that misses all bodies frames the scene and keeps the target of the orbit.
-void Observer::settleLook(const Look& look) {
+void Observer::settleLook(const Look& look, const std::optional<Pick>& found) {
     Camera& camera = show_.controller.camera;
-    const auto found = pickAt(look.ray, Among::all);
     if (look.at == Target::point) {
         if (found) camera = centered(camera, found->point);
     } else {
@@ -134,6 +137,7 @@ bool Observer::settleCount(std::uint32_t slot, bool isUndone) {
 void Observer::restart() {
     const Stage& stage = show_.stage;
     probe_.emplace(show_.device, stage.scene(), stage.settings(), stage.simulation());
+    show_.prepared.picker.restart();
     pieceProbe_.restart();
     wantsCount_ = linksCut_ > 0; // a count that was asked for gets no answer
     inspector_.restart();

@@ -66,13 +66,17 @@ private:
         bool isBounded = false, isMeasured = false, isCounted = false, isInspected = false;
         std::optional<Look> look = {};
         std::optional<Question> question = {}; // of the tools
-        bool isAny() const { return isBounded || isMeasured || isCounted || isInspected || look || question; }
+        bool isAny() const { return isBounded || isMeasured || isCounted || hasRay(); }
+        bool hasRay() const { return isInspected || look || question; }
+        bool needsCopy() const { return isBounded || isMeasured || isInspected || look; }
     };
-    void answer(const Question& question);
-    void settleLook(const Look& look);
+    void answer(const Question& question, const std::optional<Pick>& found);
+    void settleLook(const Look& look, const std::optional<Pick>& found);
     bool isStrainDue(std::uint32_t steps);
     bool isCountDue();
-    std::optional<Pick> pickAt(const Ray& ray, Among among);
+    /// Rays of a picture, by what asks.
+    enum Asker : std::size_t { ofTools, ofLook, ofInspector };
+    Ray pointerRay() const;
 
     const ShowContext& show_;
     const LayerView& layers_;

@@ -37,6 +37,7 @@ void View::dropCanvases() {
 
 PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format)
     : stage(device, opening.loaded.scene, fastest(device, opening), firstMaterial(opening)),
+      picker(device, stage, opening.light, Presenter::framesInFlight),
       facts(sceneFacts(opening, stage, device)),
       moving(device, format, isSoftware(device) ? reducedQuality() : Quality{}, opening.light) {
     stage.setDefaults(opening.loaded.defaults);
@@ -49,6 +50,7 @@ PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkF
     vk::Queue queue(device);
     stage.load(device, *opening.run, queue);
     if (opening.input) stage.widen(roomOf(*opening.input), queue);
+    picker.restart();
 }
 
 void prepare(Opening& opening, const vk::Device& device, const Window& window) {

@@ -5,6 +5,7 @@
 #include "viewer/draw/canvas.hpp"
 #include "viewer/draw/renderer.hpp"
 #include "viewer/draw/stage.hpp"
+#include "viewer/hands/picker.hpp"
 #include "viewer/hands/picture_budget.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/panels/facts.hpp"
@@ -40,6 +41,7 @@ struct PreparedShow {
     PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format);
 
     Stage stage; ///< to be reset before its first step, unless it starts from a state
+    Picker picker;
     SceneFacts facts;
     View moving;
     std::optional<View> still; ///< set if `moving` has less than full quality

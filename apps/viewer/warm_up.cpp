@@ -56,6 +56,7 @@ void warmUp(const vk::Device& device, PreparedShow& show, VkFormat format, const
     const bool canCut = std::ranges::any_of(show.stage.scene().grids, &sim::Grid::isCuttable);
     show.stage.recordStep(commands, nullptr, {}, canCut ? sim::Blade{blade.from, blade.to} : sim::Blade{});
     show.stage.recordSkin(commands);
+    show.picker.record(commands, 0, {Picker::Cast{{Vector3::Zero(), -Vector3::UnitY()}}}, Section{});
     queue.wait(queue.submit(commands));
     for (const float scale : PictureBudget::scales)
         draw(device, queue, show.moving, format, scale, camera, show.stage);

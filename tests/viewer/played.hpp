@@ -4,6 +4,7 @@
 
 #include "support/device.hpp"
 #include "viewer/hands/controller.hpp"
+#include "viewer/hands/picker.hpp"
 #include "viewer/hands/state_probe.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/replay.hpp"
@@ -54,6 +55,7 @@ struct Scene {
     Controller controller{opening.camera, opening.loaded.scene.dt};
     Stage stage;
     Tools tools{test::device(), opening};
+    Picker picker{test::device(), stage, opening.light, 1};
     StateProbe probe{test::device(), stage.scene(), stage.settings(), stage.simulation()};
 
     explicit Scene(const std::string& text = block, const sim::Material& material = {})
@@ -92,8 +94,11 @@ struct Played : Scene {
         tools.handle(input, controller);
         if (input.notches != 0) controller.wheel(input.notches, input.pointer);
         if (asked && asked == tools.question()) { // from the previous turn
-            const auto found =
-                pick(stage.scene(), opening.light.balls, asked->ray, probe.seen(), asked->among());
+            picker.restart();                     // the stage may have another simulation
+            run([&](VkCommandBuffer commands) {
+                picker.record(commands, 0, {Picker::Cast{asked->ray, asked->among()}});
+            });
+            const auto found = picker.answer(0, 0);
             tools.answer(*asked, found, found ? holdRadius(stage.scene(), found->particle) : 0);
         }
         run([&](VkCommandBuffer commands) {

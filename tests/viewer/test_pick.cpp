@@ -1,4 +1,5 @@
 // Tests of picking under the pointer, and of grabs from it.
+#include "picked.hpp"
 #include "viewer/hands/grab_tool.hpp"
 #include "viewer/hands/inspector.hpp"
 
@@ -13,52 +14,21 @@ namespace {
 
 namespace layout = sim::layout;
 
-// A scene as StateProbe reads it at the start.
-struct Seen {
-    sim::Scene scene;
-    BallList balls;
-    std::vector<layout::vec4> positions;
-    std::vector<layout::SkinVertex> vertices;
-
-    void look() {
-        balls = ballsOf(scene);
-        for (const sim::Particle& p : scene.particles)
-            positions.push_back({p.position.x, p.position.y, p.position.z, p.inverseMass});
-        for (const sim::Skin& skin : scene.skins)
-            for (std::size_t v = 0; v < skin.vertexCount(); ++v) vertices.push_back(vertexOf(skin, v));
-    }
-    layout::SkinVertex vertexOf(const sim::Skin& skin, std::size_t v) const {
-        if (skin.cells.empty()) return {positions[skin.particles[v]], {}};
-        const sim::CellEmbedding& cell = skin.cells[v];
-        Vector3 x = Vector3::Zero();
-        for (std::uint32_t k = 0; k < 8; ++k) {
-            const layout::vec4& at = positions[cell.particles[k]];
-            const float share = ((k & 1) != 0 ? cell.weights.x : 1 - cell.weights.x) *
-                                ((k & 2) != 0 ? cell.weights.y : 1 - cell.weights.y) *
-                                ((k & 4) != 0 ? cell.weights.z : 1 - cell.weights.z);
-            x += share * Vector3(at.x, at.y, at.z);
-        }
-        return {{x.x(), x.y(), x.z(), 1}, {}};
-    }
-    std::optional<Pick> at(const Ray& ray) const { return pick(scene, balls, ray, {positions, vertices}); }
-};
-
 // A block 0.4 m wide around the origin, and a second one 2 m behind it.
-Seen blocks() {
-    Seen seen;
+sim::Scene blocks() {
+    sim::Scene scene;
     for (const float z : {-0.2f, -2.2f}) {
         const sim::Lattice lattice{.origin = {-0.2f, -0.2f, z}, .cells = {4, 4, 4}, .spacing = 0.1f};
-        const sim::LatticeCorners corners = sim::addLattice(seen.scene, lattice);
-        sim::addLatticeSkin(seen.scene, lattice, corners, {0.7f, 0.1f, 0.1f});
+        const sim::LatticeCorners corners = sim::addLattice(scene, lattice);
+        sim::addLatticeSkin(scene, lattice, corners, {0.7f, 0.1f, 0.1f});
     }
-    seen.look();
-    return seen;
+    return scene;
 }
 
 const Camera fromFront{.distance = 3, .azimuth = 0, .elevation = 0};
 
 TEST(Pick, FindsTheNearestBodyAndItsParticleWhereTheRayMeetsIt) {
-    const Seen seen = blocks();
+    Picked seen(blocks());
     const auto found = seen.at({{0.11f, 0.02f, 3}, {0, 0, -1}});
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->point.z(), 0.2f, 1e-5f);
@@ -71,22 +41,24 @@ TEST(Pick, FindsTheNearestBodyAndItsParticleWhereTheRayMeetsIt) {
 }
 
 TEST(Pick, FindsNothingBesideAndBehind) {
-    const Seen seen = blocks();
+    Picked seen(blocks());
     EXPECT_FALSE(seen.at({{0.21f, 0, 3}, {0, 0, -1}}));
     EXPECT_FALSE(seen.at({{0, 0, 3}, {0, 0, 1}}));
 }
 
 TEST(Pick, OfWhatIsFixedHoldsNothing) {
-    Seen seen = blocks();
-    for (std::uint32_t i = 0; i < 125; ++i) seen.scene.fixed.push_back({i});
+    sim::Scene scene = blocks();
+    for (std::uint32_t i = 0; i < 125; ++i) scene.fixed.push_back({i});
+    Picked seen(scene);
     EXPECT_FALSE(seen.at({{0.11f, 0.02f, 3}, {0, 0, -1}})) << "nor does it reach through it";
+    EXPECT_TRUE(seen.at({{0.11f, 0.02f, 3}, {0, 0, -1}}, Among::all));
 }
 
 TEST(Pick, MeetsBalls) {
-    Seen seen;
-    seen.scene.particles = {{.position = {0, 0, 0}, .radius = 0.1f}, {.position = {0, 0, 1}, .radius = 0.1f}};
-    seen.scene.bodies = {{.name = "balls", .firstParticle = 0, .particleCount = 2}};
-    seen.look();
+    sim::Scene scene;
+    scene.particles = {{.position = {0, 0, 0}, .radius = 0.1f}, {.position = {0, 0, 1}, .radius = 0.1f}};
+    scene.bodies = {{.name = "balls", .firstParticle = 0, .particleCount = 2}};
+    Picked seen(scene);
     const auto found = seen.at({{0.06f, 0, 3}, {0, 0, -1}});
     ASSERT_TRUE(found);
     EXPECT_EQ(found->particle, 1u);
@@ -96,40 +68,40 @@ TEST(Pick, MeetsBalls) {
 }
 
 TEST(Pick, HoldsAnEighthOfABodyAround) {
-    const Seen seen = blocks();
-    EXPECT_NEAR(holdRadius(seen.scene, 62), 0.15f, 1e-5f) << "1.5 spacings, more than 0.4 sqrt(3) / 8";
+    EXPECT_NEAR(holdRadius(blocks(), 62), 0.15f, 1e-5f) << "1.5 spacings, more than 0.4 sqrt(3) / 8";
 }
 
 TEST(Inspector, SaysWhatAStateSaysOfAParticle) {
-    Seen seen = blocks();
-    seen.scene.bodies[1].name = "behind";
-    const std::uint32_t first = seen.scene.bodies[1].firstParticle;
-    for (layout::vec4& place : seen.positions) place.x *= 1.1f; // stretched
-    std::vector<layout::vec4> velocities(seen.positions.size(), layout::vec4{3, 4, 0, 0});
+    sim::Scene scene = blocks();
+    scene.bodies[1].name = "behind";
+    const std::uint32_t first = scene.bodies[1].firstParticle;
+    std::vector<layout::vec4> positions;
+    for (const sim::Particle& p : scene.particles) // stretched
+        positions.push_back({1.1f * p.position.x, p.position.y, p.position.z, p.inverseMass});
+    std::vector<layout::vec4> velocities(positions.size(), layout::vec4{3, 4, 0, 0});
     const auto all = [](std::size_t) { return true; };
-    const Found found = foundAt(seen.scene, first, seen.positions, velocities, all);
+    const Found found = foundAt(scene, first, positions, velocities, all);
     EXPECT_EQ(found.body, "behind");
     EXPECT_FLOAT_EQ(found.speed.value(), 5);
     ASSERT_TRUE(found.strain);
     EXPECT_NEAR(found.strain->largest, 0.1, 1e-5) << "along x";
     EXPECT_GT(found.strain->rms, 0.01);
     EXPECT_LT(found.strain->rms, found.strain->largest);
-    EXPECT_FALSE(foundAt(seen.scene, first, seen.positions, {}, all).speed);
+    EXPECT_FALSE(foundAt(scene, first, positions, {}, all).speed);
     const auto none = [](std::size_t) { return false; };
-    EXPECT_FALSE(foundAt(seen.scene, first, seen.positions, {}, none).strain) << "all of them are cut";
-    std::size_t held = seen.scene.distances.size();
+    EXPECT_FALSE(foundAt(scene, first, positions, {}, none).strain) << "all of them are cut";
+    std::size_t held = scene.distances.size();
     for (std::size_t d = held; d-- > 0;)
-        if (seen.scene.distances[d].a == first) held = d;
-    const Found one =
-        foundAt(seen.scene, first, seen.positions, {}, [&](std::size_t d) { return d == held; });
+        if (scene.distances[d].a == first) held = d;
+    const Found one = foundAt(scene, first, positions, {}, [&](std::size_t d) { return d == held; });
     EXPECT_EQ(one.links, 1u) << "the others are cut";
     ASSERT_TRUE(one.strain);
     EXPECT_EQ(one.strain->rms, one.strain->largest);
     EXPECT_FALSE(found.isAsleep);
-    seen.positions[first].w = 0;
-    EXPECT_TRUE(foundAt(seen.scene, first, seen.positions, {}, all).isAsleep);
-    seen.scene.particles[first].inverseMass = 0;
-    const Found fixed = foundAt(seen.scene, first, seen.positions, {}, all);
+    positions[first].w = 0;
+    EXPECT_TRUE(foundAt(scene, first, positions, {}, all).isAsleep);
+    scene.particles[first].inverseMass = 0;
+    const Found fixed = foundAt(scene, first, positions, {}, all);
     EXPECT_TRUE(fixed.isFixed);
     EXPECT_FALSE(fixed.isAsleep);
 }

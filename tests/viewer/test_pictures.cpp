@@ -347,9 +347,10 @@ TEST(StateProbe, FindsTheBodyWhereItIsNow) {
     EXPECT_NEAR(probe.bounds().min().y(), fallen, 2e-3f);
     EXPECT_NEAR(probe.bounds().sizes().y(), 0.4f, 1e-3f);
     EXPECT_EQ(probe.positions().size(), scene.particles.size());
-    ASSERT_EQ(probe.seen().vertices.size(), scene.skins[0].vertexCount());
+    const auto vertices = test::queue().download<sim::layout::SkinVertex>(stage.simulation().skinVertices());
+    ASSERT_EQ(vertices.size(), scene.skins[0].vertexCount());
     float lowest = 1;
-    for (const auto& vertex : probe.seen().vertices) lowest = std::min(lowest, vertex.position.y);
+    for (const auto& vertex : vertices) lowest = std::min(lowest, vertex.position.y);
     EXPECT_NEAR(lowest, fallen, 2e-3f);
 }
 

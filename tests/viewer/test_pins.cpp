@@ -172,10 +172,12 @@ TEST(HeldParticle, IsFoundByTheInspectorWithItsHold) {
     const auto under = [&](const Vector2& at) {
         played.run([&](VkCommandBuffer commands) {
             played.stage.recordSkin(commands);
-            inspector.record(commands, 0, rayThrough(played.controller.camera, at), nullptr);
+            const Ray ray = rayThrough(played.controller.camera, at);
+            inspector.record(commands, 0, ray, nullptr);
             played.probe.record(commands);
+            played.picker.record(commands, 0, {Picker::Cast{ray, Among::all}});
         });
-        inspector.settle(0, played.opening.light.balls, played.probe, {}, nullptr);
+        inspector.settle(0, played.picker.answer(0, 0), played.probe, nullptr);
         return inspector.found();
     };
     ASSERT_TRUE(under({0, 0}));

@@ -2,6 +2,7 @@
 // of grabs, under validation.
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
+#include "viewer/hands/picker.hpp"
 #include "viewer/hands/state_probe.hpp"
 #include "viewer/layers/inspection.hpp"
 #include "viewer/layers/link_lines.hpp"
@@ -78,7 +79,12 @@ struct Cut {
         test::queue().wait(test::queue().submit(commands));
     }
     std::uint32_t contacts() const { return inspection.part<ContactMarks>(layer::contacts).found(0); }
-    std::optional<Pick> at(const Ray& ray) { return pick(scene, ballsOf(scene), ray, probe.seen()); }
+    std::optional<Pick> at(const Ray& ray) {
+        const StageLight light{.isClosed = closedSkins(scene), .balls = ballsOf(scene)};
+        const Picker picker(test::device(), stage, light, 1);
+        run([&](VkCommandBuffer commands) { picker.record(commands, 0, {Picker::Cast{ray}}); });
+        return picker.answer(0, 0);
+    }
 
     Layers layers;
     sim::Scene scene;

@@ -1,7 +1,7 @@
 // Tests of the section plane: its position, the visible parts of bodies, and picking on it. Pictures are
 // drawn under validation (support/device.hpp).
+#include "picked.hpp"
 #include "scene_shot.hpp"
-#include "viewer/hands/pick.hpp"
 #include "viewer/layers/inspection.hpp"
 
 #include <gtest/gtest.h>
@@ -207,19 +207,9 @@ TEST(Section, IsNotThereWhereItIsOff) {
 }
 
 TEST(Section, HandsReachWhatItHasLaidOpenAndNothingBefore) {
-    const sim::Scene scene = blocks({0, -0.6f});
-    std::vector<sim::layout::vec4> positions;
-    std::vector<sim::layout::SkinVertex> vertices;
-    for (const sim::Particle& p : scene.particles)
-        positions.push_back({p.position.x, p.position.y, p.position.z, 1});
-    for (const sim::Skin& skin : scene.skins)
-        for (const std::uint32_t particle : skin.particles) vertices.push_back({positions[particle], {}});
-    const std::vector<bool> closed = closedSkins(scene);
+    Picked picked(blocks({0, -0.6f}));
     const Ray ray{{0.03f, 0.02f, 3}, -Vector3::UnitZ()};
-    const auto at = [&](const Section& section) {
-        return pick(scene, ballsOf(scene), ray, {positions, vertices}, Among::moving,
-                    Opened{section, closed});
-    };
+    const auto at = [&](const Section& section) { return picked.at(ray, Among::moving, section); };
     const auto inside = at({Vector3::UnitZ(), 0.02f});
     ASSERT_TRUE(inside);
     EXPECT_NEAR(inside->point.z(), 0.02f, 1e-5f) << "on the plane";

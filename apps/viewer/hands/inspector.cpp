@@ -1,4 +1,4 @@
-// Picks on the host; the device counts the contacts of the particle that was picked last.
+// The device counts the contacts of the particle that was picked last.
 #include "viewer/hands/inspector.hpp"
 
 #include "sim/compile/compile.hpp"
@@ -88,15 +88,13 @@ void Inspector::record(VkCommandBuffer commands, std::uint32_t slot, const Ray& 
     asked_[slot].counted = found_->particle;
 }
 
-void Inspector::settle(std::uint32_t slot, const BallList& balls, StateProbe& probe,
-                       const std::optional<Opened>& opened, const ContactMarks* counter) {
+void Inspector::settle(std::uint32_t slot, const std::optional<Pick>& met, StateProbe& probe,
+                       const ContactMarks* counter) {
     const Asked asked = std::exchange(asked_[slot], {});
     if (!asked.ray || !isOn_) return;
-    const sim::Scene& scene = stage_.scene();
-    const auto met = pick(scene, balls, *asked.ray, probe.seen(), Among::all, opened);
     found_.reset();
     if (!met) return;
-    found_ = foundAt(scene, met->particle, probe.positions(), probe.velocities(), probe.liveLinks());
+    found_ = foundAt(stage_.scene(), met->particle, probe.positions(), probe.velocities(), probe.liveLinks());
     if (const sim::NamedHold* hold = sim::holdOf(holds_, met->particle)) found_->hold = hold->name;
     if (asked.counted == met->particle && counter != nullptr) found_->contacts = counter->found(slot);
 }

@@ -39,8 +39,9 @@ public:
     /// settle() must get the same one.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Ray& ray, const ContactMarks* counter);
     /// Call when that frame has finished.
-    void settle(std::uint32_t slot, const BallList& balls, StateProbe& probe,
-                const std::optional<Opened>& opened, const ContactMarks* counter);
+    /// `met`: what the ray met.
+    void settle(std::uint32_t slot, const std::optional<Pick>& met, StateProbe& probe,
+                const ContactMarks* counter);
 
     /// Empty if the inspector is off or nothing was hit.
     const std::optional<Found>& found() const { return found_; }

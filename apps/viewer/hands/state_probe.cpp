@@ -3,6 +3,7 @@
 
 #include "sim/compile/compile.hpp"
 #include "sinew/vk/commands.hpp"
+#include "viewer/hands/pick.hpp"
 
 namespace sinew::viewer {
 
@@ -22,28 +23,21 @@ StateProbe::StateProbe(const vk::Device& device, const sim::Scene& scene, const 
       particles_(simulation.program().particleCount), positions_{simulation.positions(),
                                                                  readback(device, "probe.positions",
                                                                           simulation.positions())} {
-    const vk::BufferView velocities = simulation.velocities(), vertices = simulation.skinVertices(),
-                         pieces = simulation.pieces(),
+    const vk::BufferView velocities = simulation.velocities(), pieces = simulation.pieces(),
                          links = simulation.view(simulation.program().cutting.links);
     if (velocities.size > 0)
         velocities_.emplace(Copy{velocities, readback(device, "probe.velocities", velocities)});
-    if (vertices.size > 0) vertices_.emplace(Copy{vertices, readback(device, "probe.vertices", vertices)});
     if (pieces.size > 0) pieces_.emplace(Copy{pieces, readback(device, "probe.pieces", pieces)});
     if (links.size > 0) links_.emplace(Copy{links, readback(device, "probe.links", links)});
-    if (simulation.cutSurface().vertices.size > 0) cuts_.emplace(device, scene, simulation);
 }
 
 void StateProbe::record(VkCommandBuffer handle) noexcept {
     isWhole_ = simulation_.drawnSkins().areWhole;
     vk::Commands commands(device_, handle);
+    commands.barrier(); // earlier copies may have written the same memory
     commands.copy(positions_.from, positions_.to.view());
     if (pieces_) commands.copy(pieces_->from, pieces_->to.view());
     if (links_) commands.copy(links_->from, links_->to.view());
-    if (vertices_) {
-        commands.barrier();
-        commands.copy(vertices_->from, vertices_->to.view());
-    }
-    if (cuts_) cuts_->record(commands);
     commands.hostBarrier();
 }
 
@@ -91,15 +85,6 @@ std::function<bool(std::size_t)> StateProbe::liveLinks() {
         const sim::DistanceConstraint& link = scene_.distances[d];
         return !cutLinks_->isCut(d, words) && !isRemoved(pieces(), link.a) && !isRemoved(pieces(), link.b);
     };
-}
-
-SeenState StateProbe::seen() const noexcept {
-    SeenState seen{.positions = positions(), .vertices = {}, .isWhole = isWhole_, .pieces = pieces()};
-    if (cuts_) seen.cuts = cuts_->seen();
-    if (vertices_)
-        seen.vertices = {reinterpret_cast<const sim::layout::SkinVertex*>(vertices_->to.mapped()),
-                         vertices_->to.count()};
-    return seen;
 }
 
 } // namespace sinew::viewer

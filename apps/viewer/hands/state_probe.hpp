@@ -1,12 +1,12 @@
-// Positions of particles and skins, copied from the device without waiting: recorded into a frame, read when
-// that frame has finished.
+// Positions of particles and live links, copied from the device without waiting: recorded into a frame, read
+// when that frame has finished.
 #pragma once
 
 #include "app/cut_links.hpp"
 #include "common/layout.h"
 #include "sinew/simulation.hpp"
 #include "sinew/vk/buffer.hpp"
-#include "viewer/hands/cut_probe.hpp"
+#include "viewer/draw/camera.hpp"
 
 #include <functional>
 #include <optional>
@@ -23,8 +23,7 @@ public:
 
     /// Copies velocities too, if the simulation has any; in the same commands as record().
     void recordVelocities(VkCommandBuffer commands) const noexcept;
-    /// Records the copies. If there are skins and a ray is to be cast, call it after recordSkin() of the
-    /// simulation.
+    /// Records the copies.
     void record(VkCommandBuffer commands) noexcept;
 
     /// The box around all finite positions of the scene [m]; empty if there are none. Here and below, the
@@ -41,10 +40,6 @@ public:
     /// Whether a link of the scene (index into Scene::distances) is live: it is not cut, and neither end is
     /// in a removed fragment. Valid until the next recording.
     std::function<bool(std::size_t)> liveLinks();
-    /// Everything that a ray can meet: particles, drawn vertices, and the surface of cuts.
-    SeenState seen() const noexcept;
-    /// False if more was cut since than was copied; the question must then be asked again.
-    bool isComplete() const noexcept { return !cuts_ || cuts_->isComplete(); }
 
 private:
     struct Copy {
@@ -58,9 +53,8 @@ private:
     std::size_t particles_;
     bool isWhole_ = false; // in the last recording
     Copy positions_;
-    std::optional<Copy> velocities_, vertices_, pieces_, links_;
+    std::optional<Copy> velocities_, pieces_, links_;
     std::optional<app::CutLinks> cutLinks_; // made at the first cut
-    std::optional<CutProbe> cuts_;
 };
 
 } // namespace sinew::viewer

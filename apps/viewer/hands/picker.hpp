@@ -1,0 +1,66 @@
+// Picking on the device: a kernel casts a ray at everything that is drawn of bodies, another one chooses the
+// particle. 32 bytes a ray come back, with the frame that they were recorded into; nothing waits.
+#pragma once
+
+#include "sinew/vk/commands.hpp"
+#include "sinew/vk/kernel_store.hpp"
+#include "viewer/draw/stage_light.hpp"
+#include "viewer/hands/pick.hpp"
+#include "viewer/pick.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+
+namespace sinew::viewer {
+
+class Stage;
+
+/// Must not outlive its Device, which must not move, nor the stage.
+class Picker {
+public:
+    /// Rays of one recording.
+    static constexpr std::size_t rays = 3;
+    struct Cast {
+        Ray ray;
+        Among among = Among::moving;
+    };
+    using Casts = std::array<std::optional<Cast>, rays>;
+
+    /// `light`: balls and closed skins of the stage's scene. At most `slots` recordings may be in flight at a
+    /// time. Throws vk::Error.
+    Picker(const vk::Device& device, const Stage& stage, const StageLight& light, std::uint32_t slots);
+    /// Call after the stage changed its simulation. Throws vk::Error.
+    void restart();
+
+    /// Casts rays at the state for which recordSkin() was recorded. With a section, they pass the hidden side
+    /// and meet the opened inside. `slot` < slots; the slot's previous commands must have finished.
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Casts& casts,
+                const std::optional<Section>& section = {}) const noexcept;
+    /// What a ray of a slot met, once its commands have finished; empty if it met no body, or only particles
+    /// not asked for. The particle is the nearest to the point of those that hold what is met there, on its
+    /// side of a cut. Removed fragments are not met.
+    std::optional<Pick> answer(std::uint32_t slot, std::size_t ray) const noexcept;
+
+private:
+    /// Dispatches of a ray, by index of their binding sets.
+    enum Part : std::uint32_t { ofSkins, ofBalls, ofCuts, ofAll, parts = ofAll };
+    vk::BindingSets bindingSets(const vk::BufferView& indices) const;
+    layout::PickPush pushOf(const Cast& cast, std::uint32_t ray,
+                            const std::optional<Section>& section) const noexcept;
+    std::uint32_t recordCast(vk::Commands& commands, const vk::BindingSets& sets,
+                             layout::PickPush push) const noexcept;
+
+    const vk::Device& device_;
+    const Stage& stage_;
+    std::shared_ptr<const vk::Kernel> skinCaster_, ballCaster_, cutCaster_,
+        resolver_; // from the device's store
+    // Of the scene.
+    vk::Buffer holders_, sheetIndices_, skins_, radii_, inverseMasses_;
+    layout::PickPush push_{};
+    vk::Buffer nothing_; // stands for buffers that a scene lacks
+    vk::Buffer windings_, hits_, found_, answers_;
+    std::optional<vk::BindingSets> sets_, wholeSets_; // the second: while nothing is cut
+};
+
+} // namespace sinew::viewer
