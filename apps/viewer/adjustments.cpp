@@ -1,4 +1,4 @@
-// A material is worked out by the stage; what needs other passes, by the library.
+// A material is worked out by the document; what needs other passes, by the scene loader.
 #include "viewer/adjustments.hpp"
 
 #include "sim/compile/compile.hpp"
@@ -19,21 +19,21 @@ bool areOfOneShape(const Knobs& a, const Knobs& b) {
 
 } // namespace
 
-Adjustments::Adjustments(const ShowContext& show, Library& library, const Devices& devices,
+Adjustments::Adjustments(const PlayerContext& player, SceneLoader& sceneLoader, const Devices& devices,
                          const Comparison& comparison)
-    : show_(show), library_(library), devices_(devices), comparison_(comparison), facts_(show.prepared.facts),
-      knobs_(facts_.fromFile) {}
+    : player_(player), sceneLoader_(sceneLoader), devices_(devices), comparison_(comparison),
+      facts_(player.prepared.facts), knobs_(facts_.fromFile) {}
 
 Knobs Adjustments::shown() const {
     Knobs knobs = knobs_;
-    knobs.bladeDepth = show_.tools.depth();
-    knobs.pace = static_cast<float>(show_.controller.playback.pace());
+    knobs.bladeDepth = player_.tools.depth();
+    knobs.pace = static_cast<float>(player_.controller.playback.pace());
     return knobs;
 }
 
-// The knobs of the stage as it was made, whatever was turned since.
+// The knobs of the document as it was made, whatever was turned since.
 Knobs Adjustments::made() const {
-    const sim::Settings& settings = show_.stage.settings();
+    const sim::Settings& settings = player_.document.settings();
     const std::vector<std::string>& solvers = facts_.solvers;
     Knobs knobs = knobs_;
     knobs.substeps = static_cast<int>(settings.substeps);
@@ -42,14 +42,14 @@ Knobs Adjustments::made() const {
     return knobs;
 }
 
-Again Adjustments::again() const {
-    return {materialOf(knobs_, facts_.fromFile), show_.stage.settings()};
+ReloadRequest Adjustments::reloadRequest() const {
+    return {materialOf(knobs_, facts_.fromFile), player_.document.settings()};
 }
 
 void Adjustments::turn(const Knobs& knobs) {
-    if (knobs.gravity != knobs_.gravity) show_.tools.pull(show_.stage, knobs.gravity);
-    show_.controller.playback.setPace(double{knobs.pace});
-    if (knobs.bladeDepth != show_.tools.depth()) show_.tools.setDepth(knobs.bladeDepth);
+    if (knobs.gravity != knobs_.gravity) player_.tools.pull(player_.document, knobs.gravity);
+    player_.controller.playback.setPace(double{knobs.pace});
+    if (knobs.bladeDepth != player_.tools.depth()) player_.tools.setDepth(knobs.bladeDepth);
     knobs_.gravity = knobs.gravity;
     knobs_.pace = knobs.pace;
     knobs_.substeps = knobs.substeps;
@@ -61,7 +61,7 @@ bool Adjustments::act(Action action) {
     const auto turned = turnedBy(action, shown());
     if (!turned) return false;
     turn(turned->knobs);
-    show_.screen.tell(turned->said);
+    player_.session.tell(turned->said);
     return true;
 }
 
@@ -73,7 +73,7 @@ void Adjustments::turnMaterial(const Knobs& knobs) {
     knobs_.bodies = knobs.bodies;
     knobs_.body = knobs.body;
     const sim::Material material = materialOf(knobs_, facts_.fromFile);
-    if (material != before) show_.stage.turn(material);
+    if (material != before) player_.document.turn(material);
 }
 
 void Adjustments::tend(bool isReplaying) {
@@ -84,17 +84,17 @@ void Adjustments::tend(bool isReplaying) {
 // A material that cannot be had leaves all as it is.
 void Adjustments::takeMaterial() {
     try {
-        const Stage::Turn turn = show_.stage.takeTurn(show_.controller.playback.isPaused());
-        if (turn == Stage::Turn::refused) isRefused_ = true;
+        const Document::Turn turn = player_.document.takeTurn(player_.controller.playback.isPaused());
+        if (turn == Document::Turn::refused) isRefused_ = true;
     } catch (const std::exception& error) {
-        show_.screen.warn(error.what());
+        player_.session.warn(error.what());
     }
 }
 
 // Knobs that are turned while another simulation is being made are asked for when that is there.
 void Adjustments::reopen() {
     const bool isTurned = !areOfOneShape(knobs_, made());
-    if ((!isTurned && !isRefused_) || library_.isOpening()) return;
+    if ((!isTurned && !isRefused_) || sceneLoader_.isOpening()) return;
     isRefused_ = false;
     scenes::Overrides overrides;
     if (isTurned) {
@@ -102,47 +102,47 @@ void Adjustments::reopen() {
         overrides.substeps = static_cast<std::uint32_t>(knobs_.substeps);
     }
     asked_ = knobs_;
-    library_.reopen(overrides, again(), comparison_.pictureAspect());
+    sceneLoader_.reopen(overrides, reloadRequest(), comparison_.pictureAspect());
 }
 
 void Adjustments::changeDevice(std::size_t index) {
     asked_ = made();
-    library_.reopenOn(requestFor(devices_.list(), index), again(), comparison_.pictureAspect());
+    sceneLoader_.reopenOn(requestFor(devices_.list(), index), reloadRequest(), comparison_.pictureAspect());
 }
 
 bool Adjustments::mayOpen() {
-    if (library_.isOpening()) show_.screen.tell("another scene is still being opened");
-    return !library_.isOpening();
+    if (sceneLoader_.isOpening()) player_.session.tell("another scene is still being opened");
+    return !sceneLoader_.isOpening();
 }
 
 void Adjustments::open(const Wishes& wishes) {
-    if (wishes.previews) library_.previews().want(*wishes.previews);
-    if (wishes.scene && mayOpen()) library_.open(*wishes.scene, comparison_.pictureAspect());
+    if (wishes.previews) sceneLoader_.previews().want(*wishes.previews);
+    if (wishes.scene && mayOpen()) sceneLoader_.open(*wishes.scene, comparison_.pictureAspect());
     if (wishes.file) openFile(*wishes.file);
 }
 
 void Adjustments::openNext(int by) {
-    if (mayOpen()) library_.openNext(by, comparison_.pictureAspect());
+    if (mayOpen()) sceneLoader_.openNext(by, comparison_.pictureAspect());
 }
 
 void Adjustments::openFile(const std::string& file) {
-    if (mayOpen()) library_.openFile(file, comparison_.pictureAspect());
+    if (mayOpen()) sceneLoader_.openFile(file, comparison_.pictureAspect());
 }
 
 void Adjustments::playAgain(const InputFile& input) {
-    if (mayOpen()) library_.playAgain(input, comparison_.pictureAspect());
+    if (mayOpen()) sceneLoader_.playAgain(input, comparison_.pictureAspect());
 }
 
 // An opening with less room than there is by now would have to make more in this thread: it is asked for
 // again.
-std::unique_ptr<Opening> Adjustments::takeOpened() {
+std::unique_ptr<OpenedScene> Adjustments::takeOpened() {
     try {
-        std::unique_ptr<Opening> opened = library_.take();
-        const sim::Settings& room = show_.stage.settings();
-        if (!opened || !opened->again || sim::haveRoomsOf(opened->again->settings, room)) return opened;
-        library_.askAgain({opened->again->material, room}, comparison_.pictureAspect());
+        std::unique_ptr<OpenedScene> opened = sceneLoader_.take();
+        const sim::Settings& room = player_.document.settings();
+        if (!opened || !opened->reload || sim::haveRoomsOf(opened->reload->settings, room)) return opened;
+        sceneLoader_.askAgain({opened->reload->material, room}, comparison_.pictureAspect());
     } catch (const std::exception& error) {
-        show_.screen.warn(error.what());
+        player_.session.warn(error.what());
         keepAsItWas();
     }
     return nullptr;
@@ -150,21 +150,21 @@ std::unique_ptr<Opening> Adjustments::takeOpened() {
 
 void Adjustments::keepAsItWas() {
     if (!std::exchange(asked_, std::nullopt)) return;
-    knobs_ = turnedTo(show_.stage.material(), made(), facts_.fromFile);
+    knobs_ = turnedTo(player_.document.material(), made(), facts_.fromFile);
 }
 
 void Adjustments::begin(const app::SavedRun& run) {
     const auto [x, y, z] = run.gravity;
     knobs_ = turnedTo(run.material, knobs_, facts_.fromFile);
     knobs_.gravity = std::hypot(x, y, z);
-    facts_.stiffness = stiffnessText(show_.stage);
+    facts_.stiffness = stiffnessText(player_.document);
 }
 
 void Adjustments::reshaped() {
     const Knobs fromFile = facts_.fromFile;
-    facts_ = sceneFacts(show_.opening, show_.stage, show_.device);
+    facts_ = sceneFacts(player_.opening, player_.document, player_.device);
     facts_.fromFile = fromFile;
-    knobs_ = turnedTo(show_.stage.material(), made(), fromFile);
+    knobs_ = turnedTo(player_.document.material(), made(), fromFile);
 }
 
 void Adjustments::takeOver(const Adjustments& before) {
@@ -172,7 +172,7 @@ void Adjustments::takeOver(const Adjustments& before) {
     knobs_ = before.knobs_;
     if (!before.asked_ || areOfOneShape(knobs_, *before.asked_)) knobs_ = made(); // 0 is a number now
     const sim::Material material = materialOf(knobs_, facts_.fromFile);
-    if (material != show_.stage.material()) show_.stage.turn(material); // turned meanwhile
+    if (material != player_.document.material()) player_.document.turn(material); // turned meanwhile
 }
 
 } // namespace sinew::viewer

@@ -1,19 +1,19 @@
 // Knobs of a scene on show: gravity, pace, material, solver, substeps, device. Keeps them as they were turned
-// until they act, which may need another simulation. Asks the library for all scenes, since one is opened at
-// a time.
+// until they act, which may need another simulation. Asks the scene loader for all scenes, since one is
+// opened at a time.
 #pragma once
 
 #include "viewer/comparison.hpp"
 #include "viewer/devices.hpp"
-#include "viewer/library.hpp"
-#include "viewer/show_context.hpp"
+#include "viewer/player_context.hpp"
+#include "viewer/scene_loader.hpp"
 
 namespace sinew::viewer {
 
 /// Main thread only. All references must outlive it.
 class Adjustments {
 public:
-    Adjustments(const ShowContext& show, Library& library, const Devices& devices,
+    Adjustments(const PlayerContext& player, SceneLoader& sceneLoader, const Devices& devices,
                 const Comparison& comparison);
 
     /// Knobs as the panels show them: with what tools and playback have of them.
@@ -40,31 +40,31 @@ public:
     /// Begins the replay of a state anew.
     void playAgain(const InputFile& input);
     /// The scene that was asked for, once it is there. A failure to open it leaves all as it is.
-    std::unique_ptr<Opening> takeOpened();
+    std::unique_ptr<OpenedScene> takeOpened();
     /// Turns the knobs back: what was asked for cannot be had.
     void keepAsItWas();
 
-    /// Shows what the stage was turned to, which another run has saved.
+    /// Shows what the document was turned to, which another run has saved.
     void begin(const app::SavedRun& run);
-    /// The stage has another shape: its knobs, and the facts about it.
+    /// The document has another shape: its knobs, and the facts about it.
     void reshaped();
     /// Goes on with the knobs of `before`, and asks for those that were turned meanwhile.
     void takeOver(const Adjustments& before);
 
 private:
     Knobs made() const;
-    Again again() const;
+    ReloadRequest reloadRequest() const;
     void turnMaterial(const Knobs& knobs);
     void takeMaterial();
     void reopen();
 
-    const ShowContext& show_;
-    Library& library_;
+    const PlayerContext& player_;
+    SceneLoader& sceneLoader_;
     const Devices& devices_;
     const Comparison& comparison_;
     SceneFacts& facts_;
     Knobs knobs_;                // as they were turned, also while that is being worked out
-    std::optional<Knobs> asked_; // requested from the library
+    std::optional<Knobs> asked_; // requested from the scene loader
     bool isRefused_ = false;     // a material that needs other passes
 };
 

@@ -10,7 +10,7 @@
 namespace sinew::viewer {
 
 Renderer& Capture::renderer() {
-    PreparedShow& prepared = show_.prepared;
+    PreparedPlayer& prepared = player_.prepared;
     return prepared.still ? prepared.still->renderer : prepared.moving.renderer;
 }
 
@@ -18,24 +18,25 @@ void Capture::recordPicture(const Presenter::Frame& frame, const Overlay& overla
     if (!std::exchange(wantsPicture_, false)) return;
     Pending& pending = pending_[frame.slot];
     try {
-        pending.picture = std::make_unique<Shot>(show_.device, renderer(), show_.screen.presenter().extent());
+        pending.picture =
+            std::make_unique<Shot>(player_.device, renderer(), player_.session.presenter().extent());
     } catch (const vk::Error& error) {
         if (error.failure() != vk::Failure::outOfMemory) throw;
-        return show_.screen.warn(std::string("no picture: ") + error.what());
+        return player_.session.warn(std::string("no picture: ") + error.what());
     }
-    pending.pictureStep = show_.stage.steps();
+    pending.pictureStep = player_.document.steps();
     recordShot(*pending.picture, frame.commands, frame.slot + 2 * Presenter::framesInFlight, overlay);
 }
 
 void Capture::recordFilm(const Presenter::Frame& frame, const Overlay& overlay) {
     recordShot(*cameras_[frame.slot], frame.commands, frame.slot + Presenter::framesInFlight, overlay);
-    pending_[frame.slot].filmStep = show_.stage.steps();
+    pending_[frame.slot].filmStep = player_.document.steps();
 }
 
 // With the simulation beside it, as the window shows both.
 void Capture::recordShot(Shot& shot, VkCommandBuffer commands, std::uint32_t slot, const Overlay& overlay) {
-    const Camera& camera = show_.controller.camera;
-    const sim::Simulation& simulation = show_.stage.simulation();
+    const Camera& camera = player_.controller.camera;
+    const sim::Simulation& simulation = player_.document.simulation();
     const sim::Simulation* beside = comparison_.simulation();
     if (!beside) return shot.record(commands, slot, camera, simulation, overlay);
     const Overlay other = overlayBeside(overlay);
@@ -48,12 +49,12 @@ void Capture::settle(std::uint32_t slot, bool isUndone) {
     if (pending.filmStep && !isUndone) addToFilm(slot, *pending.filmStep);
     if (!pending.picture) return;
     reportFiles(PictureWriter::Wait::yes); // the one before must be there: its name is taken only then
-    writer_.add(freeName(nameAt(show_.opening.loaded.scene.name, pending.pictureStep), ".png"),
-                pending.picture->read(), pictureText(show_.opening, show_.device, pending.pictureStep));
+    writer_.add(freeName(nameAt(player_.opening.loaded.scene.name, pending.pictureStep), ".png"),
+                pending.picture->read(), pictureText(player_.opening, player_.device, pending.pictureStep));
 }
 
 void Capture::keepAll() {
-    if (film_) show_.screen.presenter().waitIdle();
+    if (film_) player_.session.presenter().waitIdle();
     for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot)
         if (const auto step = std::exchange(pending_[slot].filmStep, std::nullopt)) addToFilm(slot, *step);
 }
@@ -63,15 +64,15 @@ void Capture::leaveOut() noexcept {
 }
 
 void Capture::beginFilm() {
-    const VkExtent2D extent = show_.screen.presenter().extent();
-    show_.screen.presenter().waitIdle(); // frames may still use the cameras of a film that failed
+    const VkExtent2D extent = player_.session.presenter().extent();
+    player_.session.presenter().waitIdle(); // frames may still use the cameras of a film that failed
     try {
-        film_.emplace(nameAt(show_.opening.loaded.scene.name, show_.stage.steps()), extent.width,
-                      extent.height, 1 / double{show_.stage.scene().dt});
-        for (auto& camera : cameras_) camera = std::make_unique<Shot>(show_.device, renderer(), extent);
+        film_.emplace(nameAt(player_.opening.loaded.scene.name, player_.document.steps()), extent.width,
+                      extent.height, 1 / double{player_.document.scene().dt});
+        for (auto& camera : cameras_) camera = std::make_unique<Shot>(player_.device, renderer(), extent);
         printLine("recording " + film_->target().string());
-        show_.screen.tell("recording " + film_->target().string() + ", a picture a step; " +
-                          std::string(keyOf(Action::record)) + " stops");
+        player_.session.tell("recording " + film_->target().string() + ", a picture a step; " +
+                             std::string(keyOf(Action::record)) + " stops");
     } catch (const std::runtime_error& error) { // app::Failure; vk::Error: no memory for the pictures
         fail(error);
     }
@@ -83,7 +84,7 @@ void Capture::endFilm() {
         film_->finish();
         const std::string text = std::to_string(film_->count()) + " pictures in " + film_->target().string();
         printLine(text);
-        show_.screen.tell(text);
+        player_.session.tell(text);
         film_.reset();
     } catch (const std::runtime_error& error) { // app::Failure, mesh::ExportError
         fail(error);
@@ -97,7 +98,7 @@ void Capture::freeCameras() noexcept {
 void Capture::addToFilm(std::uint32_t slot, std::uint64_t step) {
     if (!film_) return;
     try {
-        film_->add(cameras_[slot]->read(), pictureText(show_.opening, show_.device, step));
+        film_->add(cameras_[slot]->read(), pictureText(player_.opening, player_.device, step));
     } catch (const vk::Error&) {
         throw;
     } catch (const std::runtime_error& error) { // app::Failure, mesh::ExportError
@@ -108,17 +109,17 @@ void Capture::addToFilm(std::uint32_t slot, std::uint64_t step) {
 
 void Capture::fail(const std::exception& error) {
     film_.reset();
-    show_.screen.warn(error.what());
+    player_.session.warn(error.what());
 }
 
 void Capture::reportFiles(PictureWriter::Wait wait) {
     try {
         while (const auto file = writer_.take(wait)) {
             printLine("picture: " + file->string());
-            show_.screen.tell("picture: " + file->string());
+            player_.session.tell("picture: " + file->string());
         }
     } catch (const mesh::ExportError& error) { // no reason to close the window
-        show_.screen.warn(error.what());
+        player_.session.warn(error.what());
     }
 }
 

@@ -5,7 +5,7 @@
 #include "viewer/draw/shot.hpp"
 #include "viewer/pictures/picture_writer.hpp"
 #include "viewer/pictures/recording.hpp"
-#include "viewer/show_context.hpp"
+#include "viewer/player_context.hpp"
 
 namespace sinew::viewer {
 
@@ -14,7 +14,8 @@ namespace sinew::viewer {
 /// only.
 class Capture {
 public:
-    Capture(const ShowContext& show, const Comparison& comparison) : show_(show), comparison_(comparison) {}
+    Capture(const PlayerContext& player, const Comparison& comparison)
+        : player_(player), comparison_(comparison) {}
 
     void wantPicture() noexcept { wantsPicture_ = true; }
     bool wantsPicture() const noexcept { return wantsPicture_; }
@@ -54,7 +55,7 @@ private:
     void addToFilm(std::uint32_t slot, std::uint64_t step);
     void fail(const std::exception& error);
 
-    const ShowContext& show_;
+    const PlayerContext& player_;
     const Comparison& comparison_;
     bool wantsPicture_ = false;
     std::optional<Recording> film_;

@@ -1,4 +1,4 @@
-// A thread makes it. Rehearsals in Backstage put it into the state of the first.
+// A thread makes it. Rehearsals in LayerLoader put it into the state of the first.
 #include "viewer/comparison.hpp"
 
 #include "sinew/vk/check.hpp"
@@ -19,8 +19,8 @@ std::string firstLine(const std::string& text) {
 } // namespace
 
 void Comparison::toggle() {
-    std::optional<BesideShape>& wanted = show_.screen.beside();
-    const bool isGaussSeidel = show_.stage.settings().solver == sim::Solver::gaussSeidel;
+    std::optional<BesideShape>& wanted = player_.session.beside();
+    const bool isGaussSeidel = player_.document.settings().solver == sim::Solver::gaussSeidel;
     if (!wanted)
         wanted = BesideShape{isGaussSeidel ? sim::Solver::split : sim::Solver::gaussSeidel};
     else
@@ -28,77 +28,78 @@ void Comparison::toggle() {
 }
 
 void Comparison::tend(bool isDiverged) {
-    const std::optional<BesideShape>& wanted = show_.screen.beside();
+    const std::optional<BesideShape>& wanted = player_.session.beside();
     if (making_.valid()) {
         if (making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) take();
     } else if (wanted && (wanted != asked_ || !isFit())) {
-        make(*wanted, beside_ ? beside_->stage().settings() : show_.stage.settings());
+        make(*wanted, beside_ ? beside_->document().settings() : player_.document.settings());
     } else if (!wanted && asked_) {
         drop();
-    } else if (beside_ && isBehind_ && !show_.stage.lacksContactRoom() && !isDiverged) {
-        show_.settleAll();
-        backstage_.rehearse(
-            [this](VkCommandBuffer commands) { beside_->recordTakeOver(commands, show_.stage); });
+    } else if (beside_ && isBehind_ && !player_.document.lacksContactRoom() && !isDiverged) {
+        player_.settleAll();
+        layerLoader_.rehearse(
+            [this](VkCommandBuffer commands) { beside_->recordTakeOver(commands, player_.document); });
         isBehind_ = false;
-        show_.redraw();
+        player_.redraw();
     }
 }
 
 // The material of the first, and room enough to go on from its state.
 bool Comparison::isFit() const {
     if (!beside_) return true;
-    const Stage& beside = beside_->stage();
-    return beside.material() == show_.stage.material() && (!isBehind_ || beside.hasRoomOf(show_.stage));
+    const Document& beside = beside_->document();
+    return beside.material() == player_.document.material() &&
+           (!isBehind_ || beside.hasRoomOf(player_.document));
 }
 
 // Starts to make the second simulation with the first one's capacities, and at least those of `room`.
 void Comparison::make(const BesideShape& shape, const sim::Settings& room) {
     asked_ = shape;
-    const sim::Settings settings = sim::withRoomsOf(show_.stage.settings(), room);
-    making_ = std::async(std::launch::async, [this, shape, settings, material = show_.stage.material()] {
-        return std::make_unique<Beside>(show_.device, show_.opening.loaded, settings, material, shape,
-                                        Presenter::framesInFlight);
+    const sim::Settings settings = sim::withRoomsOf(player_.document.settings(), room);
+    making_ = std::async(std::launch::async, [this, shape, settings, material = player_.document.material()] {
+        return std::make_unique<SecondSimulation>(player_.device, player_.opening.loaded, settings, material,
+                                                  shape, Presenter::framesInFlight);
     });
 }
 
 // It goes on from the state of the first; a step before that is its rehearsal. If the first has come to more
 // room meanwhile, another one is made at once; if it has another material, by tend().
 void Comparison::take() {
-    std::unique_ptr<Beside> made;
+    std::unique_ptr<SecondSimulation> made;
     try {
         made = making_.get();
     } catch (const std::invalid_argument& error) {
-        show_.screen.warn("not beside: " + firstLine(error.what()));
+        player_.session.warn("not beside: " + firstLine(error.what()));
     } catch (const vk::Error& error) {
         if (error.failure() != vk::Failure::outOfMemory) throw;
-        show_.screen.warn(std::string("not beside: ") + error.what());
+        player_.session.warn(std::string("not beside: ") + error.what());
     }
-    if (!made || !show_.screen.beside()) {
-        show_.screen.beside().reset();
+    if (!made || !player_.session.beside()) {
+        player_.session.beside().reset();
         return drop();
     }
-    if (!made->stage().hasRoomOf(show_.stage)) return make(*asked_, made->stage().settings());
+    if (!made->document().hasRoomOf(player_.document)) return make(*asked_, made->document().settings());
     const std::optional<BesideShape> asked = asked_;
     drop();
     asked_ = asked; // another one may be wanted by now: that is made then
     beside_ = std::move(made);
-    for (const std::string& warning : beside_->warnings()) show_.screen.warn("beside: " + warning);
-    for (const std::string& note : beside_->notes()) show_.screen.note("beside: " + note);
-    backstage_.rehearse([this](VkCommandBuffer commands) {
+    for (const std::string& warning : beside_->warnings()) player_.session.warn("beside: " + warning);
+    for (const std::string& note : beside_->notes()) player_.session.note("beside: " + note);
+    layerLoader_.rehearse([this](VkCommandBuffer commands) {
         beside_->recordReset(commands);
-        beside_->recordStep(commands, show_.stage, {}, 0, false);
-        beside_->recordTakeOver(commands, show_.stage);
+        beside_->recordStep(commands, player_.document, {}, 0, false);
+        beside_->recordTakeOver(commands, player_.document);
     });
     isBehind_ = false;
-    show_.redraw();
+    player_.redraw();
 }
 
 void Comparison::drop() {
     isBehind_ = true; // results of it are not wanted any more
-    show_.settleAll();
+    player_.settleAll();
     beside_.reset();
     asked_.reset();
-    show_.redraw();
+    player_.redraw();
 }
 
 void Comparison::recordReset(VkCommandBuffer commands) noexcept {
@@ -107,7 +108,8 @@ void Comparison::recordReset(VkCommandBuffer commands) noexcept {
 }
 
 void Comparison::recordStep(const Presenter::Frame& frame, const StepHands& hands, bool isTimed) noexcept {
-    if (beside_ && !isBehind_) beside_->recordStep(frame.commands, show_.stage, hands, frame.slot, isTimed);
+    if (beside_ && !isBehind_)
+        beside_->recordStep(frame.commands, player_.document, hands, frame.slot, isTimed);
 }
 
 void Comparison::recordPicture(const Presenter::Frame& frame, bool isMeasured) noexcept {
@@ -116,36 +118,36 @@ void Comparison::recordPicture(const Presenter::Frame& frame, bool isMeasured) n
 
 void Comparison::settle(std::uint32_t slot) {
     if (!beside_) return;
-    const std::optional<Beside::Trouble> trouble = beside_->settle(slot);
+    const std::optional<SecondSimulation::Trouble> trouble = beside_->settle(slot);
     if (!trouble || isBehind_) return;
-    show_.screen.presenter().waitIdle();
-    sim::Settings room = beside_->stage().settings();
+    player_.session.presenter().waitIdle();
+    sim::Settings room = beside_->document().settings();
     beside_.reset();
     if (trouble->room > 0) { // as the first does, but from the state of the first
         room.contactRoom = trouble->room;
         if (!making_.valid()) make(*asked_, room);
         return;
     }
-    show_.screen.warn("beside: " + trouble->why);
-    show_.screen.beside().reset();
+    player_.session.warn("beside: " + trouble->why);
+    player_.session.beside().reset();
 }
 
 float Comparison::pictureAspect() const {
-    const VkExtent2D extent = show_.screen.presenter().extent();
+    const VkExtent2D extent = player_.session.presenter().extent();
     if (extent.height == 0) return 1;
     const auto width = beside_ ? 0.5f * static_cast<float>(halvesWidth()) : static_cast<float>(extent.width);
     return width / static_cast<float>(extent.height);
 }
 
-// Beside the panels, if they leave room.
+// SecondSimulation the panels, if they leave room.
 std::uint32_t Comparison::halvesWidth() const {
-    const VkExtent2D extent = show_.screen.presenter().extent();
-    const std::uint32_t side = show_.screen.panels().sideWidth(extent);
+    const VkExtent2D extent = player_.session.presenter().extent();
+    const std::uint32_t side = player_.session.panels().sideWidth(extent);
     return 2 * side < extent.width ? extent.width - side : extent.width;
 }
 
 void Comparison::fold(Input& input) {
-    const VkExtent2D extent = show_.screen.presenter().extent();
+    const VkExtent2D extent = player_.session.presenter().extent();
     const auto foldAt = [&](const Vector2& at) {
         if (!beside_ || extent.height == 0) return 0.0f;
         const auto width = static_cast<float>(halvesWidth()), whole = static_cast<float>(extent.width),
@@ -168,7 +170,7 @@ void Comparison::takeOver(const Comparison& before) {
 }
 
 void Comparison::drawHalves(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
-    Presenter& presenter = show_.screen.presenter();
+    Presenter& presenter = player_.session.presenter();
     const std::uint32_t width = halvesWidth();
     if (view.halves && view.halves->width != width) {
         presenter.waitIdle(); // the other frame may use them; this one is not submitted yet
@@ -177,20 +179,20 @@ void Comparison::drawHalves(const Presenter::Frame& frame, const Overlay& overla
     if (!view.halves)
         view.halves.emplace(view.renderer.makeHalves(presenter.extent(), presenter.views(), width));
     const std::uint32_t other = frame.slot + 3 * Presenter::framesInFlight;
-    const Camera& camera = show_.controller.camera;
+    const Camera& camera = player_.controller.camera;
     for (Canvas& canvas : view.halves->canvases) view.renderer.prepareCanvas(overlay.layers, canvas);
     view.renderer.record(frame.commands, frame.slot, view.halves->canvases[0], 0, camera,
-                         show_.stage.simulation(), overlay);
+                         player_.document.simulation(), overlay);
     view.renderer.record(frame.commands, other, view.halves->canvases[1], 0, camera, beside_->simulation(),
                          overlayBeside(overlay));
     view.renderer.recordHalves(frame.commands, {frame.slot, other}, *view.halves, frame.image);
 }
 
 BesideFacts Comparison::facts() const {
-    BesideFacts facts{.isOn = show_.screen.beside().has_value(), .isMaking = making_.valid()};
-    if (const auto& wanted = show_.screen.beside()) facts.knobs = knobsOf(*wanted);
+    BesideFacts facts{.isOn = player_.session.beside().has_value(), .isMaking = making_.valid()};
+    if (const auto& wanted = player_.session.beside()) facts.knobs = knobsOf(*wanted);
     if (!beside_) return facts;
-    const sim::Settings& first = show_.stage.settings();
+    const sim::Settings& first = player_.document.settings();
     const Facts measured = beside_->facts();
     facts.names = {toText({first.solver, first.substeps}), toText(beside_->shape())};
     facts.phases = measured.phases;

@@ -2,8 +2,8 @@
 // half of the window.
 #pragma once
 
-#include "viewer/backstage.hpp"
-#include "viewer/show_context.hpp"
+#include "viewer/layer_loader.hpp"
+#include "viewer/player_context.hpp"
 
 #include <future>
 #include <memory>
@@ -13,8 +13,9 @@ namespace sinew::viewer {
 /// Main thread only. The destructor waits for the thread.
 class Comparison {
 public:
-    /// `backstage` must outlive it.
-    Comparison(const ShowContext& show, Backstage& backstage) : show_(show), backstage_(backstage) {}
+    /// `layer loader` must outlive it.
+    Comparison(const PlayerContext& player, LayerLoader& layerLoader)
+        : player_(player), layerLoader_(layerLoader) {}
 
     /// Null while there is none to be drawn.
     const sim::Simulation* simulation() const noexcept { return beside_ ? &beside_->simulation() : nullptr; }
@@ -22,8 +23,8 @@ public:
 
     /// Asks for one, or for none.
     void toggle();
-    /// Makes, drops or updates it as Screen::beside() asks. No picture and no rehearsal may be under way in
-    /// Backstage. `isDiverged`: the first cannot go on.
+    /// Makes, drops or updates it as Session::beside() asks. No picture and no rehearsal may be under way in
+    /// LayerLoader. `isDiverged`: the first cannot go on.
     void tend(bool isDiverged);
     /// Notes that the first has left the common course: it takes over its state at the next tend().
     void fallBehind() noexcept { isBehind_ = true; }
@@ -55,11 +56,11 @@ private:
     void drop();
     std::uint32_t halvesWidth() const;
 
-    const ShowContext& show_;
-    Backstage& backstage_;
-    std::unique_ptr<Beside> beside_;
+    const PlayerContext& player_;
+    LayerLoader& layerLoader_;
+    std::unique_ptr<SecondSimulation> beside_;
     std::optional<BesideShape> asked_; // that it is, or is being made as
-    std::future<std::unique_ptr<Beside>> making_;
+    std::future<std::unique_ptr<SecondSimulation>> making_;
     bool isBehind_ = false;
     float fold_ = 0; // from the middle of the window to that of the half with the pointer, as Input::pointer
     bool isButtonDown_ = false;

@@ -2,7 +2,7 @@
 #include "viewer/devices.hpp"
 
 #include "sinew/vk/check.hpp"
-#include "viewer/opening.hpp"
+#include "viewer/opened_scene.hpp"
 
 #include <algorithm>
 #include <chrono>

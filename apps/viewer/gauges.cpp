@@ -71,8 +71,8 @@ void addProgram(SceneFacts& facts, const sim::StepProgram& program) {
 
 } // namespace
 
-std::string stiffnessText(const Stage& stage) {
-    return textOf(stage.stiffness());
+std::string stiffnessText(const Document& document) {
+    return textOf(document.stiffness());
 }
 
 sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile) {
@@ -91,8 +91,8 @@ Knobs turnedTo(const sim::Material& material, Knobs knobs, const Knobs& fromFile
     return knobs;
 }
 
-SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Device& device) {
-    const sim::Scene& scene = stage.scene();
+SceneFacts sceneFacts(const OpenedScene& opening, const Document& document, const vk::Device& device) {
+    const sim::Scene& scene = document.scene();
     const scenes::LoadedScene& loaded = opening.loaded;
     SceneFacts facts{.name = scene.name,
                      .device = device.description().name,
@@ -100,14 +100,14 @@ SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Devi
                      .deviceIndex = device.description().index,
                      .isSoftware = isSoftware(device),
                      .particles = scene.particles.size(),
-                     .constraints = stage.simulation().program().constraintCount,
+                     .constraints = document.simulation().program().constraintCount,
                      .substepsWhy = sim::toText(loaded.substeps, loaded.settings),
-                     .stiffness = stiffnessText(stage),
+                     .stiffness = stiffnessText(document),
                      .canCut = std::ranges::any_of(scene.grids, &sim::Grid::isCuttable),
                      .solvers = sim::solverNames(),
                      .fromFile = knobsOf(loaded)};
     for (const sim::Body& body : scene.bodies) facts.bodies.push_back(body.name);
-    addProgram(facts, stage.simulation().program());
+    addProgram(facts, document.simulation().program());
     return facts;
 }
 
@@ -118,8 +118,8 @@ Strain measureStrain(const sim::Scene& scene, StateProbe& probe) {
     return {strain.rms, strain.largest};
 }
 
-Gauges::Gauges(const Stage& stage, double dt) : dt_(dt) {
-    for (const std::string& phase : stage.simulation().phases()) facts_.phases.push_back({phase, {}});
+Gauges::Gauges(const Document& document, double dt) : dt_(dt) {
+    for (const std::string& phase : document.simulation().phases()) facts_.phases.push_back({phase, {}});
 }
 
 void Gauges::frame(double seconds, std::uint32_t steps) {
@@ -170,13 +170,13 @@ void Gauges::goOn(const Gauges& before) {
     facts_.phases = std::move(phases);
 }
 
-Facts Gauges::facts(const Stage& stage) const {
+Facts Gauges::facts(const Document& document) const {
     Facts facts = facts_;
-    facts.steps = stage.steps();
-    facts.time = static_cast<double>(stage.played()) * dt_;
-    const auto& skipped = stage.simulation().program().skipped;
+    facts.steps = document.steps();
+    facts.time = static_cast<double>(document.played()) * dt_;
+    const auto& skipped = document.simulation().program().skipped;
     if (std::ranges::find(skipped, "contacts") == skipped.end()) {
-        const sim::ContactRoom& room = stage.contactRoom();
+        const sim::ContactRoom& room = document.contactRoom();
         facts.contactRoom = room.room;
         facts.contactsNeeded = room.needed;
         facts.timesGrown = room.grown;

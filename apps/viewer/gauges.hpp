@@ -2,18 +2,18 @@
 #pragma once
 
 #include "common/layout.h"
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/hands/state_probe.hpp"
-#include "viewer/opening.hpp"
+#include "viewer/opened_scene.hpp"
 #include "viewer/panels/facts.hpp"
 
 namespace sinew::viewer {
 
-/// Facts that stay constant while a scene is shown. `settings` are those the stage runs with.
-SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Device& device);
+/// Facts that stay constant while a scene is shown. `settings` are those the document runs with.
+SceneFacts sceneFacts(const OpenedScene& opening, const Document& document, const vk::Device& device);
 
 /// Number of clamped links and the softest stiffness; empty if no link is elastic.
-std::string stiffnessText(const Stage& stage);
+std::string stiffnessText(const Document& document);
 
 /// The material that the knobs ask for; values equal to those of the file leave the file's own.
 sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile);
@@ -27,7 +27,7 @@ Strain measureStrain(const sim::Scene& scene, StateProbe& probe);
 /// Collects the facts that change.
 class Gauges {
 public:
-    Gauges(const Stage& stage, double dt);
+    Gauges(const Document& document, double dt);
 
     /// Adds a picture, `seconds` after the last one, with `steps` before it.
     void frame(double seconds, std::uint32_t steps);
@@ -45,7 +45,7 @@ public:
     void goOn(const Gauges& before);
 
     /// All facts except those of window, tools and player.
-    Facts facts(const Stage& stage) const;
+    Facts facts(const Document& document) const;
 
 private:
     double dt_;

@@ -9,15 +9,15 @@
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/loader.hpp"
 #include "sinew/vk/queue.hpp"
-#include "viewer/beside.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/draw/offscreen.hpp"
-#include "viewer/draw/stage.hpp"
 #include "viewer/headless_times.hpp"
 #include "viewer/layers/inspection.hpp"
-#include "viewer/opening.hpp"
+#include "viewer/opened_scene.hpp"
 #include "viewer/pictures/picture_writer.hpp"
 #include "viewer/pictures/video.hpp"
 #include "viewer/replay.hpp"
+#include "viewer/second_simulation.hpp"
 #include "viewer/tools.hpp"
 
 #include <algorithm>
@@ -103,15 +103,15 @@ private:
 // Steps and draws; a frame is a step of the simulation, frame 0 the state before the first.
 class Recorder {
 public:
-    Recorder(const Options& options, const Opening& opening, const vk::Device& device,
+    Recorder(const Options& options, const OpenedScene& opening, const vk::Device& device,
              std::optional<InputFile> input)
         : opening_(opening), device_(device), camera_(opening.camera),
-          stage_(device, opening.loaded.scene, opening.loaded.settings, firstMaterial(opening)),
+          document_(device, opening.loaded.scene, opening.loaded.settings, firstMaterial(opening)),
           offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
-        stage_.setDefaults(opening.loaded.defaults);
-        stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
-        stage_.setRepeats(!input);
-        if (options.isTimed) times_.emplace(device, stage_);
+        document_.setDefaults(opening.loaded.defaults);
+        document_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
+        document_.setRepeats(!input);
+        if (options.isTimed) times_.emplace(device, document_);
         if (input) {
             replay_.emplace(std::move(*input));
             tools_.emplace(device, opening);
@@ -119,14 +119,14 @@ public:
         if (opening.run) load();
         besideShape_ = parseBeside(options.beside);
         if (!besideShape_) return;
-        beside_ = makeBeside(stage_.settings());
+        beside_ = makeBeside(document_.settings());
         print("beside: ", beside_->warnings(), beside_->notes());
     }
 
     /// Submits a frame; if `isPictured`, waits for its picture.
     std::optional<Picture> advance(std::uint64_t frame, bool isPictured) {
         while (submissions_.size() >= sim::Simulation::framesInFlight) settleOldest();
-        if (beside_ && beside_->stage().material() != stage_.material()) { // changed by the replay
+        if (beside_ && beside_->document().material() != document_.material()) { // changed by the replay
             settle();
             goOnBeside();
         }
@@ -135,13 +135,13 @@ public:
         if (!isPictured) return std::nullopt;
         settle(); // first: a repeated step would be in no picture
         VkCommandBuffer commands = queue_.begin();
-        stage_.recordSkin(commands);
+        document_.recordSkin(commands);
         const Overlay overlay = recordLayers(commands);
         if (times_) times_->beginDrawing(commands);
         if (beside_)
             recordHalves(commands, overlay);
         else
-            offscreen_.record(commands, camera_, stage_.simulation(), overlay);
+            offscreen_.record(commands, camera_, document_.simulation(), overlay);
         if (times_) times_->endDrawing(commands);
         queue_.wait(queue_.submit(commands));
         if (times_) times_->pictureFinished();
@@ -151,14 +151,14 @@ public:
     /// Waits for every frame and checks it. Throws app::Failure (diverged).
     void settle() {
         while (!submissions_.empty()) settleOldest();
-        if (!stage_.makeSurfaceRoom(std::exchange(surfaceMissing_, 0), queue_, bring())) return;
+        if (!document_.makeSurfaceRoom(std::exchange(surfaceMissing_, 0), queue_, bring())) return;
         inspection_.reset();
         if (tools_) tools_->moveOn();
     }
 
     /// Prints complaints of the simulation on stderr. Requires that all steps have finished.
     void printComplaints() {
-        for (const std::string& complaint : stage_.complaints())
+        for (const std::string& complaint : document_.complaints())
             std::fprintf(stderr, "warning: %s\n", complaint.c_str());
     }
 
@@ -169,22 +169,22 @@ public:
         const bool isWhole = playHistory() == Replay::Due::nothing;
         if (replay_ && isWhole && !isCompared_) return compareReplay();
         settle();
-        std::printf("%s\n", hashText(stateHash(device_, stage_, queue_), stage_.steps()).c_str());
+        std::printf("%s\n", hashText(stateHash(device_, document_, queue_), document_.steps()).c_str());
     }
 
     /// Prints the errors of the two solvers of a comparison.
     void printBeside() {
         if (!beside_) return;
-        StateProbe probe(device_, stage_.scene(), stage_.settings(), stage_.simulation());
+        StateProbe probe(device_, document_.scene(), document_.settings(), document_.simulation());
         const VkCommandBuffer commands = queue_.begin();
-        stage_.recordSkin(commands);
+        document_.recordSkin(commands);
         probe.record(commands);
         beside_->recordPicture(commands, 0, true);
         queue_.wait(queue_.submit(commands));
         checkBeside(0);
-        const Strain strain = measureStrain(stage_.scene(), probe);
+        const Strain strain = measureStrain(document_.scene(), probe);
         const Facts other = beside_->facts();
-        const sim::Settings& settings = stage_.settings();
+        const sim::Settings& settings = document_.settings();
         std::printf("%s: strain of links rms %.3f %%, largest %.2f %%\n",
                     toText(BesideShape{settings.solver, settings.substeps}).c_str(), 100 * strain.rms,
                     100 * strain.largest);
@@ -194,14 +194,15 @@ public:
 
     /// After a cut, prints the number of cut links and of pieces.
     void printCuts() {
-        if (stage_.steps() == 0) return;
-        const sim::Status status = stage_.simulation().status(stage_.steps());
+        if (document_.steps() == 0) return;
+        const sim::Status status = document_.simulation().status(document_.steps());
         if (status.linksCutInAll == 0) return;
         const VkCommandBuffer commands = queue_.begin();
-        stage_.recordSkin(commands);
+        document_.recordSkin(commands);
         queue_.wait(queue_.submit(commands));
-        const sim::Scene& scene = stage_.scene();
-        const app::Drawn drawn = app::downloadDrawn(queue_, stage_.simulation(), scene, stage_.settings());
+        const sim::Scene& scene = document_.scene();
+        const app::Drawn drawn =
+            app::downloadDrawn(queue_, document_.simulation(), scene, document_.settings());
         std::printf("cut: %u links, %s\n", status.linksCutInAll,
                     app::toText(app::countPieces(scene, drawn, status.pieces)).c_str());
     }
@@ -215,11 +216,11 @@ public:
 
 private:
     // Makes the second simulation with the first one's present settings and capacities of at least `room`.
-    std::unique_ptr<Beside> makeBeside(const sim::Settings& room) const {
+    std::unique_ptr<SecondSimulation> makeBeside(const sim::Settings& room) const {
         try {
-            return std::make_unique<Beside>(device_, opening_.loaded,
-                                            sim::withRoomsOf(stage_.settings(), room), stage_.material(),
-                                            *besideShape_, sim::Simulation::framesInFlight);
+            return std::make_unique<SecondSimulation>(
+                device_, opening_.loaded, sim::withRoomsOf(document_.settings(), room), document_.material(),
+                *besideShape_, sim::Simulation::framesInFlight);
         } catch (const std::invalid_argument& error) {
             const std::string why = error.what();
             throw app::Failure(app::badInput, "cannot play " + toText(*besideShape_) +
@@ -231,13 +232,13 @@ private:
     // contacts; all steps of both must have finished.
     void goOnBeside(std::uint32_t contactRoom = 0) {
         if (!beside_) return;
-        const Stage& now = beside_->stage();
+        const Document& now = beside_->document();
         sim::Settings room = now.settings();
-        const bool isRoomy = room.contactRoom >= contactRoom && now.hasRoomOf(stage_);
+        const bool isRoomy = room.contactRoom >= contactRoom && now.hasRoomOf(document_);
         room.contactRoom = std::max(room.contactRoom, contactRoom);
-        if (!isRoomy || now.material() != stage_.material()) beside_ = makeBeside(room);
+        if (!isRoomy || now.material() != document_.material()) beside_ = makeBeside(room);
         VkCommandBuffer commands = queue_.begin();
-        beside_->recordTakeOver(commands, stage_);
+        beside_->recordTakeOver(commands, document_);
         queue_.wait(queue_.submit(commands));
     }
 
@@ -245,7 +246,7 @@ private:
         beside_->recordPicture(commands, 0, false);
         const Overlay other = overlayBeside(overlay);
         offscreen_.recordHalves(commands, camera_,
-                                {{{stage_.simulation(), overlay}, {beside_->simulation(), other}}});
+                                {{{document_.simulation(), overlay}, {beside_->simulation(), other}}});
     }
 
     // If contacts need more room, the second simulation is made anew and continues from the first.
@@ -265,7 +266,7 @@ private:
         overlay.layers = layers_;
         offscreen_.prepare(layers_);
         if (!layers_.needsBuffers()) return overlay;
-        if (!inspection_) inspection_.emplace(device_, stage_, 1);
+        if (!inspection_) inspection_.emplace(device_, document_, 1);
         inspection_->prepare(layers_);
         inspection_->record(commands, layers_, 0);
         LayerRanges ranges{};
@@ -298,15 +299,16 @@ private:
     void compareReplay() {
         if (std::exchange(isCompared_, true)) return;
         settle();
-        std::printf("%s\n",
-                    hashText(stateHash(device_, stage_, queue_), stage_.steps(), replay_->file()).c_str());
+        std::printf(
+            "%s\n",
+            hashText(stateHash(device_, document_, queue_), document_.steps(), replay_->file()).c_str());
     }
 
     // Plays the log up to the next step or the end. Finishes all steps before an earlier state is restored.
     Replay::Due playHistory() {
         if (!replay_) return Replay::Due::nothing;
         for (;;) {
-            const Replay::Due due = replay_->next(*tools_, camera_, stage_);
+            const Replay::Due due = replay_->next(*tools_, camera_, document_);
             if (due == Replay::Due::step || due == Replay::Due::nothing) return due;
             settle();
             if (due == Replay::Due::shape)
@@ -318,7 +320,7 @@ private:
 
     void goBack() {
         VkCommandBuffer commands = queue_.begin();
-        tools_->recordHistory(commands, stage_);
+        tools_->recordHistory(commands, document_);
         queue_.wait(queue_.submit(commands));
         goOnBeside();
     }
@@ -326,29 +328,29 @@ private:
     // Continues in another simulation.
     void reshape() {
         try {
-            stage_.reshape(queue_, bring());
+            document_.reshape(queue_, bring());
         } catch (const std::invalid_argument& error) {
             throw app::Failure(app::badInput, std::string("cannot play input: ") + error.what());
         }
-        print("", scenes::newWarnings(opening_.loaded, stage_.settings()),
-              scenes::recoveryLeftOut(opening_.loaded, stage_.settings()));
+        print("", scenes::newWarnings(opening_.loaded, document_.settings()),
+              scenes::recoveryLeftOut(opening_.loaded, document_.settings()));
         tools_->reshaped();
         inspection_.reset();
-        if (times_) times_->restart(stage_);
+        if (times_) times_->restart(document_);
     }
 
     void submit(std::uint64_t frame) {
         VkCommandBuffer commands = queue_.begin();
-        Submission next{.frame = frame, .value = 0, .hands = {}, .gravity = stage_.gravity()};
-        if (tools_ && frame > 0) next.hands = tools_->takeStep(commands, stage_);
+        Submission next{.frame = frame, .value = 0, .hands = {}, .gravity = document_.gravity()};
+        if (tools_ && frame > 0) next.hands = tools_->takeStep(commands, document_);
         if (frame == 0 && beside_) {
             if (opening_.run)
-                beside_->recordTakeOver(commands, stage_);
+                beside_->recordTakeOver(commands, document_);
             else
                 beside_->recordReset(commands);
         }
         if (frame == 0 && !opening_.run)
-            stage_.recordReset(commands);
+            document_.recordReset(commands);
         else if (frame > 0)
             record(commands, next);
         next.value = queue_.submit(commands);
@@ -357,19 +359,19 @@ private:
     }
 
     void load() {
-        stage_.load(device_, *opening_.run, queue_);
+        document_.load(device_, *opening_.run, queue_);
         if (!replay_) return;
-        stage_.widen(roomOf(replay_->file()), queue_);
-        tools_->begin(stage_);
+        document_.widen(roomOf(replay_->file()), queue_);
+        tools_->begin(document_);
     }
 
     void record(VkCommandBuffer commands, const Submission& next) {
         vk::Timestamps* timestamps = times_ ? times_->ofStep(next.frame) : nullptr;
         if (tools_)
-            recordStep(commands, stage_, next.hands, timestamps);
+            recordStep(commands, document_, next.hands, timestamps);
         else
-            stage_.recordStep(commands, timestamps);
-        if (beside_) beside_->recordStep(commands, stage_, next.hands, slotOf(next.frame), false);
+            document_.recordStep(commands, timestamps);
+        if (beside_) beside_->recordStep(commands, document_, next.hands, slotOf(next.frame), false);
     }
 
     static std::uint32_t slotOf(std::uint64_t frame) {
@@ -383,18 +385,18 @@ private:
         for (const Submission& one : undone)
             if (one.hands.sweep) sweeps.push_back(*one.hands.sweep);
         tools_->moveOn();
-        tools_->forgetUndone(stage_, sweeps);
+        tools_->forgetUndone(document_, sweeps);
     }
 
     // Repeats all steps from `first` on, which were undone, with the same input.
     void redoFrom(const Submission& first) {
         std::deque<Submission> undone = std::exchange(submissions_, {});
         undone.push_front(first);
-        if (stage_.lacksLists(first.frame)) { // then there are no tools
+        if (document_.lacksLists(first.frame)) { // then there are no tools
             queue_.waitIdle();
-            stage_.goBackBefore(first.frame);
+            document_.goBackBefore(first.frame);
         } else {
-            if (!stage_.makeRoom(first.frame, queue_, bring()))
+            if (!document_.makeRoom(first.frame, queue_, bring()))
                 throw app::Failure(app::diverged, app::tooCrowded(first.frame));
             inspection_.reset(); // made for the old simulation
             if (tools_) forgetUndone(undone);
@@ -402,8 +404,8 @@ private:
         goOnBeside(); // it has taken those steps
         for (Submission& again : undone) {
             VkCommandBuffer commands = queue_.begin();
-            if (again.hands.sweep && !again.hands.sweep->isCarried) tools_->remember(commands, stage_);
-            stage_.setGravity(again.gravity);
+            if (again.hands.sweep && !again.hands.sweep->isCarried) tools_->remember(commands, document_);
+            document_.setGravity(again.gravity);
             record(commands, again);
             again.value = queue_.submit(commands);
             submissions_.push_back(again);
@@ -430,18 +432,19 @@ private:
         submissions_.pop_front();
         waitFor(oldest.value);
         if (oldest.frame == 0) return;
-        if (stage_.neededRoom(oldest.frame) > 0 || stage_.lacksLists(oldest.frame)) return redoFrom(oldest);
+        if (document_.neededRoom(oldest.frame) > 0 || document_.lacksLists(oldest.frame))
+            return redoFrom(oldest);
         if (times_) times_->stepFinished(oldest.frame);
-        if (const std::optional<Divergence> divergence = stage_.check(oldest.frame))
+        if (const std::optional<Divergence> divergence = document_.check(oldest.frame))
             throw app::Failure(app::diverged, divergence->sentence());
         if (beside_) checkBeside(slotOf(oldest.frame));
-        surfaceMissing_ = stage_.simulation().status(oldest.frame).cutSurfaceMissing;
+        surfaceMissing_ = document_.simulation().status(oldest.frame).cutSurfaceMissing;
     }
 
-    const Opening& opening_;
+    const OpenedScene& opening_;
     const vk::Device& device_;
     Camera camera_;
-    Stage stage_;
+    Document document_;
     Offscreen offscreen_;
     Layers layers_;
     std::optional<Inspection> inspection_;
@@ -450,7 +453,7 @@ private:
     std::array<bool, mostLayers> isNoted_{}; // by layer
     std::optional<Tools> tools_;             // of the replay
     std::optional<BesideShape> besideShape_;
-    std::unique_ptr<Beside> beside_;
+    std::unique_ptr<SecondSimulation> beside_;
     std::optional<HeadlessTimes> times_;
     vk::Queue queue_; // last: its destructor waits for work that uses the members above
     std::deque<Submission> submissions_;
@@ -466,7 +469,7 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
     const float halves = options.beside.empty() ? 1 : 0.5f;
     const float aspect =
         halves * static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
-    Opening opening = open(options, aspect);
+    OpenedScene opening = open(options, aspect);
     if (input) prepareForReplay(opening, *input);
     if (options.hasValidation) vk::enableQueueSubmitValidation();
     const vk::Loader loader;

@@ -6,14 +6,14 @@
 
 namespace sinew::viewer {
 
-HeadlessTimes::HeadlessTimes(const vk::Device& device, const Stage& stage)
+HeadlessTimes::HeadlessTimes(const vk::Device& device, const Document& document)
     : device_(device), drawing_(device, 1) {
-    restart(stage);
+    restart(document);
 }
 
-void HeadlessTimes::restart(const Stage& stage) {
+void HeadlessTimes::restart(const Document& document) {
     steps_.clear();
-    const auto spans = static_cast<std::uint32_t>(stage.simulation().phases().size());
+    const auto spans = static_cast<std::uint32_t>(document.simulation().phases().size());
     for (std::uint32_t slot = 0; slot < sim::Simulation::framesInFlight; ++slot)
         steps_.emplace_back(device_, spans);
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sinew/vk/timestamps.hpp"
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/window/frame_times.hpp"
 
 #include <chrono>
@@ -14,9 +14,9 @@ namespace sinew::viewer {
 /// One thread; must not outlive the device.
 class HeadlessTimes {
 public:
-    HeadlessTimes(const vk::Device& device, const Stage& stage);
-    /// Call after the stage changed its simulation, before its first step is recorded.
-    void restart(const Stage& stage);
+    HeadlessTimes(const vk::Device& device, const Document& document);
+    /// Call after the document changed its simulation, before its first step is recorded.
+    void restart(const Document& document);
 
     /// For the commands of a step; at most framesInFlight steps are in flight.
     vk::Timestamps* ofStep(std::uint64_t frame) { return &steps_[frame % steps_.size()]; }

@@ -5,9 +5,9 @@
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/loader.hpp"
 #include "viewer/devices.hpp"
-#include "viewer/prepared_show.hpp"
+#include "viewer/prepared_player.hpp"
 #include "viewer/replay.hpp"
-#include "viewer/show.hpp"
+#include "viewer/scene_player.hpp"
 
 #include <chrono>
 #include <cstdio>
@@ -20,51 +20,51 @@ namespace sinew::viewer {
 namespace {
 
 // Prints the headline of a scene on the command line.
-void say(const Opening& opening, const vk::Device& device) {
+void say(const OpenedScene& opening, const vk::Device& device) {
     std::printf("%s\n", headline(opening, device).c_str());
     std::fflush(stdout);
 }
 
 // Shows its warnings and notes in the window.
-void tell(const Opening& opening, Screen& screen) {
+void tell(const OpenedScene& opening, Session& session) {
     std::vector<std::string> texts = opening.loaded.warnings;
     texts.insert(texts.end(), opening.loaded.notes.begin(), opening.loaded.notes.end());
-    screen.announce(texts);
+    session.announce(texts);
 }
 
 // The player and its device.
 struct Playing {
     std::unique_ptr<vk::Device>& device;
-    std::unique_ptr<Show>& show;
+    std::unique_ptr<ScenePlayer>& player;
 };
 
 // Replaces the scene on show. The new scene has a device of its own, so that an exception leaves the old one
 // as it is.
-void put(std::unique_ptr<Opening> opening, const Playing& playing, Screen& screen, Library& library,
-         const Devices& devices) {
+void put(std::unique_ptr<OpenedScene> opening, const Playing& playing, Session& session,
+         SceneLoader& sceneLoader, const Devices& devices) {
     std::unique_ptr<vk::Device> device = std::move(opening->device);
-    std::unique_ptr<Opening> next = std::move(opening);
-    const bool goesOn = next->again.has_value();
+    std::unique_ptr<OpenedScene> next = std::move(opening);
+    const bool goesOn = next->reload.has_value();
     say(*next, *device);
-    tell(*next, screen);
-    std::unique_ptr<Place> place = std::move(next->place);
-    auto show = std::make_unique<Show>(screen, library, devices, *device, std::move(next));
-    if (goesOn) show->takeOver(*playing.show);
-    place = screen.moveTo(std::move(place)); // on the old device
-    place.reset();
-    playing.show = std::move(show);
+    tell(*next, session);
+    std::unique_ptr<WindowOutput> output = std::move(next->output);
+    auto player = std::make_unique<ScenePlayer>(session, sceneLoader, devices, *device, std::move(next));
+    if (goesOn) player->takeOver(*playing.player);
+    output = session.moveTo(std::move(output)); // on the old device
+    output.reset();
+    playing.player = std::move(player);
     playing.device = std::move(device);
 }
 
 // Replaces the scene on show; on an error everything stays as it is.
-void change(std::unique_ptr<Opening> opening, const Playing& playing, Screen& screen, Library& library,
-            const Devices& devices) {
+void change(std::unique_ptr<OpenedScene> opening, const Playing& playing, Session& session,
+            SceneLoader& sceneLoader, const Devices& devices) {
     const std::string name = opening->loaded.scene.name;
     try {
-        put(std::move(opening), playing, screen, library, devices);
+        put(std::move(opening), playing, session, sceneLoader, devices);
     } catch (const std::exception& error) {
-        library.putBack();
-        screen.warn("cannot show " + name + ": " + error.what());
+        sceneLoader.putBack();
+        session.warn("cannot show " + name + ": " + error.what());
     }
 }
 
@@ -92,24 +92,24 @@ Options recalled(Options options, const Preferences& preferences) {
 }
 
 // If the last scene cannot be opened, prints a line and opens the built-in one.
-std::unique_ptr<Opening> openFirst(const Options& asked, Options& options) {
+std::unique_ptr<OpenedScene> openFirst(const Options& asked, Options& options) {
     try {
-        return std::make_unique<Opening>(open(options, aspectOf(options.size)));
+        return std::make_unique<OpenedScene>(open(options, aspectOf(options.size)));
     } catch (const std::exception& error) {
         if (options.scene == asked.scene && options.builtIn == asked.builtIn) throw;
         std::fprintf(stderr, "warning: the last scene cannot be opened: %s\n", error.what());
     }
     options.scene = asked.scene;
     options.builtIn = asked.builtIn;
-    return std::make_unique<Opening>(open(options, aspectOf(options.size)));
+    return std::make_unique<OpenedScene>(open(options, aspectOf(options.size)));
 }
 
 // Preferences to remember: options of the command line apply to this run only, unless the user changed them
 // in the window.
-Preferences leftBy(const Screen& screen, const Library& library, const Options& options,
+Preferences leftBy(const Session& session, const SceneLoader& sceneLoader, const Options& options,
                    const Preferences& before) {
-    Preferences left = screen.preferences();
-    left.scene = rememberedScene(library.shown().scene, library.shown().builtIn);
+    Preferences left = session.preferences();
+    left.scene = rememberedScene(sceneLoader.shown().scene, sceneLoader.shown().builtIn);
     if (options.hasSize || left.width == 0) {
         left.width = before.width;
         left.height = before.height;
@@ -188,15 +188,15 @@ constexpr std::chrono::seconds betweenLosses{10};
 
 // Restarts the scene on show after its device was lost: on the same device, opened again, or on another.
 // Throws the error of the last one.
-void beginAnew(const Options& shown, const Playing& playing, Screen& screen, Library& library,
+void beginAnew(const Options& shown, const Playing& playing, Session& session, SceneLoader& sceneLoader,
                const Devices& devices) {
     const auto begin = [&](const std::string& request) {
-        auto next = std::make_unique<Opening>(open(shown, aspectOf(screen.window().pixels())));
+        auto next = std::make_unique<OpenedScene>(open(shown, aspectOf(session.window().pixels())));
         next->device = devices.open(request);
-        next->camera = playing.show->camera();
-        prepare(*next, *next->device, screen.window());
-        put(std::move(next), playing, screen, library, devices);
-        library.moveTo(request);
+        next->camera = playing.player->camera();
+        prepare(*next, *next->device, session.window());
+        put(std::move(next), playing, session, sceneLoader, devices);
+        sceneLoader.moveTo(request);
     };
     std::vector<std::string> requests{shown.device};
     for (std::size_t d = 0; d < devices.all().size(); ++d) requests.push_back(requestFor(devices.all(), d));
@@ -210,27 +210,28 @@ void beginAnew(const Options& shown, const Playing& playing, Screen& screen, Lib
 // Runs until the window is closed; changes to another device if one is lost.
 class MainLoop {
 public:
-    MainLoop(const Playing& playing, Screen& screen, Library& library, const Devices& devices,
+    MainLoop(const Playing& playing, Session& session, SceneLoader& sceneLoader, const Devices& devices,
              Keeping& keeping)
-        : playing_(playing), screen_(screen), library_(library), devices_(devices), keeping_(keeping) {}
+        : playing_(playing), session_(session), sceneLoader_(sceneLoader), devices_(devices),
+          keeping_(keeping) {}
 
     void run() {
         for (bool isOver = false; !isOver;) try {
-                auto next = playing_.show->run();
+                auto next = playing_.player->run();
                 isOver = !next;
-                if (next) change(std::move(next), playing_, screen_, library_, devices_);
+                if (next) change(std::move(next), playing_, session_, sceneLoader_, devices_);
             } catch (const vk::Error& error) {
-                playing_.show->finishFilm();
+                playing_.player->finishFilm();
                 const std::string kept = keeping_();
                 if (!goesOnAfter(error, kept)) throwAgain(kept);
             } catch (const app::Failure& failure) {
                 const app::Writing writing;
-                playing_.show->finishFilm();
+                playing_.player->finishFilm();
                 const std::string kept = keeping_();
                 if (failure.code() == app::interrupted) app::leaveInterrupted(failure.what() + kept);
                 throwAgain(kept);
             } catch (...) {
-                playing_.show->finishFilm();
+                playing_.player->finishFilm();
                 throwAgain(keeping_());
             }
     }
@@ -238,68 +239,68 @@ public:
 private:
     bool goesOnAfter(const vk::Error& error, const std::string& kept) {
         const bool isAgain = lost_ && std::chrono::steady_clock::now() - *lost_ < betweenLosses;
-        const bool isEnding = screen_.window().isClosing() || app::isInterrupted();
+        const bool isEnding = session_.window().isClosing() || app::isInterrupted();
         if (error.failure() != vk::Failure::deviceLost || isAgain || isEnding) return false;
         try {
-            beginAnew(Options(library_.shown()), playing_, screen_, library_, devices_);
+            beginAnew(Options(sceneLoader_.shown()), playing_, session_, sceneLoader_, devices_);
         } catch (const std::exception&) { // the first error is reported
             return false;
         }
         lost_ = std::chrono::steady_clock::now();
         keeping_.renew();
-        screen_.warn(error.what() +
-                     (": the scene restarts on " + playing_.device->description().name + kept));
+        session_.warn(error.what() +
+                      (": the scene restarts on " + playing_.device->description().name + kept));
         return true;
     }
 
     Playing playing_;
-    Screen& screen_;
-    Library& library_;
+    Session& session_;
+    SceneLoader& sceneLoader_;
     const Devices& devices_;
     Keeping& keeping_;
     std::optional<std::chrono::steady_clock::time_point> lost_; // the newest time
 };
 
 // Runs until the window is closed. Objects declared later are destroyed earlier.
-void play(std::unique_ptr<Opening> opening, const Options& options, const Preferences& preferences,
+void play(std::unique_ptr<OpenedScene> opening, const Options& options, const Preferences& preferences,
           std::atomic<std::size_t>& messages) {
     Window window(options.size);
     const Devices devices(window, options, messages);
     std::unique_ptr<vk::Device> device = devices.open(options.device);
-    std::unique_ptr<Opening> first = std::move(opening);
+    std::unique_ptr<OpenedScene> first = std::move(opening);
     say(*first, *device);
     window.setTitle("Sinew - preparing " + first->loaded.scene.name); // takes seconds if drivers compile
     prepare(*first, *device, window);
-    Screen screen(window, std::move(first->place), {options.isTimed, options.start},
-                  asAsked(preferences, options));
+    Session session(window, std::move(first->output), {options.isTimed, options.start},
+                    asAsked(preferences, options));
     if (options.isFullScreen) window.toggleFullScreen();
-    screen.layers() = options.layers;
-    screen.beside() = parseBeside(options.beside);
-    tell(*first, screen);
+    session.layers() = options.layers;
+    session.beside() = parseBeside(options.beside);
+    tell(*first, session);
     if (isSoftware(*device))
         std::printf("software device: small shadow maps, no multisampling and fewer pixels during "
                     "motion; full quality when paused\n");
     std::printf("H shows help, Ctrl + Q quits\n");
     std::fflush(stdout);
-    Library library(
+    SceneLoader sceneLoader(
         options,
-        [&](Opening& next, const Options& wanted) {
+        [&](OpenedScene& next, const Options& wanted) {
             next.device = devices.open(wanted.device);
             prepare(next, *next.device, window);
         },
         PreviewDevice(options, messages));
-    screen.expectPreviews(library.names().size());
-    auto show = std::make_unique<Show>(screen, library, devices, *device, std::move(first));
+    session.expectPreviews(sceneLoader.names().size());
+    auto player = std::make_unique<ScenePlayer>(session, sceneLoader, devices, *device, std::move(first));
     const auto keepSettings = [&] {
-        const Preferences left = leftBy(screen, library, options, preferences);
+        const Preferences left = leftBy(session, sceneLoader, options, preferences);
         if (left != preferences) savePreferences(preferencesFile(), left);
     };
     Keeping keeping(window, [&] {
         keepSettings();
-        return show->keepInput(preferencesFile().parent_path());
+        return player->keepInput(preferencesFile().parent_path());
     });
-    MainLoop({device, show}, screen, library, devices, keeping).run();
-    if (options.isTimed) screen.timing().printTable();
+    MainLoop({device, player}, session, sceneLoader, devices, keeping).run();
+    if (options.isTimed) session.timing().printTable();
     keepSettings();
     window.hide(); // threads may end slowly
 }

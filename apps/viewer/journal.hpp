@@ -1,21 +1,21 @@
 // The log of a scene on show: saves it and states, and plays a log that was saved.
 #pragma once
 
-#include "viewer/library.hpp"
+#include "viewer/player_context.hpp"
 #include "viewer/replay.hpp"
-#include "viewer/show_context.hpp"
+#include "viewer/scene_loader.hpp"
 
 namespace sinew::viewer {
 
 /// Main thread only. All references must outlive it.
 class Journal {
 public:
-    Journal(const ShowContext& show, const Library& library);
+    Journal(const PlayerContext& player, const SceneLoader& sceneLoader);
 
     /// Writes the log, or the state, to the current folder. Waits. `isDiverged`: there is no state to save.
     void saveInput();
     void saveState(bool isDiverged);
-    /// Implements Show::keepInput.
+    /// Implements ScenePlayer::keepInput.
     std::string keepInput(const std::filesystem::path& otherwise) const;
     /// Notes that the log does not lead to the state any more.
     void breakOff() noexcept { isBroken_ = true; }
@@ -40,7 +40,7 @@ public:
 
     /// Begins from a state that was saved.
     void begin(const app::SavedRun& run);
-    /// Begins anew after a reset of the stage: tools, log and replay. `gravity` as it was turned [m/s^2].
+    /// Begins anew after a reset of the document: tools, log and replay. `gravity` as it was turned [m/s^2].
     void reset(float gravity);
     void takeOver(const Journal& before);
 
@@ -49,11 +49,11 @@ private:
     std::string sceneName() const;
     std::string stem(std::uint64_t step) const;
 
-    const ShowContext& show_;
-    const Library& library_;
+    const PlayerContext& player_;
+    const SceneLoader& sceneLoader_;
     std::optional<Replay> replay_;
     std::optional<InputFile> ended_;  // replay that has just come to its end
-    Shaped begun_;                    // shape of the stage at the reset
+    Shaped begun_;                    // shape of the document at the reset
     std::optional<SavedOrigin> from_; // until the reset
     std::size_t saved_ = 0;           // events of the log that some file has, or a reset has made
     bool isDropped_ = false;          // the replay, by hand

@@ -8,10 +8,10 @@
 namespace sinew::viewer {
 
 bool LayerView::act(Action action) {
-    Layers& layers = show_.screen.layers();
+    Layers& layers = player_.session.layers();
     if (const std::optional<std::size_t> layer = layerOf(action)) {
-        if (layerTable()[*layer] == &layer::wires && !drawsEdges(show_.device))
-            show_.screen.warn("this device cannot draw the edges of triangles");
+        if (layerTable()[*layer] == &layer::wires && !drawsEdges(player_.device))
+            player_.session.warn("this device cannot draw the edges of triangles");
         else
             layers.turn(*layer);
         if (layerTable()[*layer] == &layer::colors) mapRange_ = {};
@@ -25,8 +25,8 @@ bool LayerView::act(Action action) {
 
 // A section that is turned while there is none begins across the camera.
 void LayerView::actOnSection(Action action) {
-    std::optional<Section>& section = show_.screen.layers().section;
-    const Camera& camera = show_.controller.camera;
+    std::optional<Section>& section = player_.session.layers().section;
+    const Camera& camera = player_.controller.camera;
     if (action == Action::section)
         section = section ? std::nullopt : std::optional(sectionAcross(camera));
     else if (action == Action::faceSection)
@@ -36,35 +36,35 @@ void LayerView::actOnSection(Action action) {
 }
 
 void LayerView::moveSectionTo(float offset) {
-    if (std::optional<Section>& section = show_.screen.layers().section) section->offset = offset;
+    if (std::optional<Section>& section = player_.session.layers().section) section->offset = offset;
 }
 
 void LayerView::slideSection(float slide) {
-    if (std::optional<Section>& section = show_.screen.layers().section; section && slide != 0)
-        section = moved(*section, slide, show_.opening.light.bounds);
+    if (std::optional<Section>& section = player_.session.layers().section; section && slide != 0)
+        section = moved(*section, slide, player_.opening.light.bounds);
 }
 
 bool LayerView::tend() {
     try {
-        if (backstage_.goOn()) show_.redraw();
+        if (layerLoader_.goOn()) player_.redraw();
     } catch (const vk::Error& error) {
         if (error.failure() != vk::Failure::outOfMemory) throw;
-        show_.screen.layers() = {};
-        show_.screen.warn(error.what());
+        player_.session.layers() = {};
+        player_.session.warn(error.what());
         return false;
     }
     return true;
 }
 
 void LayerView::prepare(bool isCounting) {
-    drawn_ = backstage_.ready({show_.screen.layers(), isCounting});
+    drawn_ = layerLoader_.ready({player_.session.layers(), isCounting});
 }
 
 Overlay LayerView::record(const Presenter::Frame& frame) {
-    Overlay overlay = show_.tools.overlay();
+    Overlay overlay = player_.tools.overlay();
     const Layers& layers = overlay.layers = drawn_.layers;
     if (!layers.needsBuffers()) return overlay;
-    const Inspection& inspection = backstage_.inspection();
+    const Inspection& inspection = layerLoader_.inspection();
     inspection.record(frame.commands, layers, frame.slot);
     pending_[frame.slot] = layers;
     overlay.buffers = inspection.buffers(layers, ranges());
@@ -84,23 +84,23 @@ void LayerView::settle(std::uint32_t slot) {
     for (std::size_t i = 0; i < layerTable().size(); ++i) {
         const auto isStill = [&](const Layers& layers) { return layers.looks[i] == pending.looks[i]; };
         if (pending.looks[i] == 0 || !layerTable()[i]->make) continue;
-        if (!isStill(drawn_.layers) || !isStill(show_.screen.layers())) continue;
-        readings_[i] = backstage_.inspection().reading(i, slot);
+        if (!isStill(drawn_.layers) || !isStill(player_.session.layers())) continue;
+        readings_[i] = layerLoader_.inspection().reading(i, slot);
         if (layerTable()[i] == &layer::colors) mapRange_.read(readings_[i].values);
     }
-    if (ranges() != before) show_.redraw();
+    if (ranges() != before) player_.redraw();
 }
 
 void LayerView::restart() {
-    backstage_.forget();
+    layerLoader_.forget();
     drawn_ = {};
 }
 
 void LayerView::addTo(Facts& facts) const {
-    const Layers& layers = show_.screen.layers();
+    const Layers& layers = player_.session.layers();
     facts.layers = layers;
     if (layers.section) {
-        const Reach reach = reachOf(*layers.section, show_.opening.light.bounds);
+        const Reach reach = reachOf(*layers.section, player_.opening.light.bounds);
         facts.sectionReach = {reach.low, reach.high};
     }
     facts.map = mapRange_.newest();

@@ -15,12 +15,13 @@ constexpr double countEvery = 0.25;  // [s]: a copy of all triangles, while some
 
 } // namespace
 
-Observer::Observer(const ShowContext& show, const LayerView& layers, const Comparison& comparison,
+Observer::Observer(const PlayerContext& player, const LayerView& layers, const Comparison& comparison,
                    Gauges& gauges)
-    : show_(show), layers_(layers), comparison_(comparison), gauges_(gauges),
-      probe_(std::in_place, show.device, show.stage.scene(), show.stage.settings(), show.stage.simulation()),
-      pieceProbe_(show.device, show.stage),
-      inspector_(show.stage, show.opening.loaded.holds, Presenter::framesInFlight) {}
+    : player_(player), layers_(layers), comparison_(comparison), gauges_(gauges),
+      probe_(std::in_place, player.device, player.document.scene(), player.document.settings(),
+             player.document.simulation()),
+      pieceProbe_(player.device, player.document),
+      inspector_(player.document, player.opening.loaded.holds, Presenter::framesInFlight) {}
 
 void Observer::lookAt(Target target) {
     wantsLook_ = Look{target, pointerRay()};
@@ -47,7 +48,7 @@ void Observer::stepFinished(const sim::Status& status) {
 
 bool Observer::isStrainDue(std::uint32_t steps) {
     const auto now = Clock::now();
-    const bool isDue = steps > 0 && show_.screen.panels().isShown(show_.screen.presenter().extent()) &&
+    const bool isDue = steps > 0 && player_.session.panels().isShown(player_.session.presenter().extent()) &&
                        now - lastStrain_ >= std::chrono::duration<double>(strainEvery);
     if (isDue) lastStrain_ = now;
     return isDue;
@@ -67,14 +68,14 @@ void Observer::ask(std::uint32_t slot, std::uint32_t steps, bool asksTools) {
     Pending& asked = pending_[slot];
     asked.isBounded = std::exchange(wantsBounds_, false);
     asked.look = std::exchange(wantsLook_, std::nullopt);
-    if (asksTools) asked.question = show_.tools.question();
+    if (asksTools) asked.question = player_.tools.question();
     asked.isMeasured = isStrainDue(steps);
     asked.isInspected = inspector_.isDue(pointerRay());
     asked.isCounted = isCountDue();
 }
 
 Ray Observer::pointerRay() const {
-    return rayThrough(show_.controller.camera, pointer_);
+    return rayThrough(player_.controller.camera, pointer_);
 }
 
 void Observer::record(const Presenter::Frame& frame) {
@@ -90,25 +91,25 @@ void Observer::record(const Presenter::Frame& frame) {
     if (asked.question) casts[ofTools] = {asked.question->ray, asked.question->among()};
     if (asked.look) casts[ofLook] = {asked.look->ray, Among::all};
     if (asked.isInspected) casts[ofInspector] = {pointerRay(), Among::all};
-    show_.prepared.picker.record(frame.commands, frame.slot, casts, layers_.section());
+    player_.prepared.picker.record(frame.commands, frame.slot, casts, layers_.section());
 }
 
 void Observer::answer(const Question& question, const std::optional<Pick>& found) {
-    show_.tools.answer(question, found, found ? holdRadius(show_.stage.scene(), found->particle) : 0);
+    player_.tools.answer(question, found, found ? holdRadius(player_.document.scene(), found->particle) : 0);
 }
 
 // settleCount() takes the rest.
 void Observer::settle(std::uint32_t slot) {
     const Pending asked = std::exchange(pending_[slot], {.isCounted = pending_[slot].isCounted});
-    const Picker& picker = show_.prepared.picker;
-    if (asked.question && asked.question == show_.tools.question())
+    const Picker& picker = player_.prepared.picker;
+    if (asked.question && asked.question == player_.tools.question())
         answer(*asked.question, picker.answer(slot, ofTools));
-    if (asked.isMeasured) gauges_.strainMeasured(measureStrain(show_.stage.scene(), *probe_));
+    if (asked.isMeasured) gauges_.strainMeasured(measureStrain(player_.document.scene(), *probe_));
     if (asked.look) settleLook(*asked.look, picker.answer(slot, ofLook));
-    Camera& camera = show_.controller.camera;
+    Camera& camera = player_.controller.camera;
     if (const Box bounds = asked.isBounded ? probe_->bounds() : Box(); !bounds.isEmpty()) {
         camera = framing(camera, bounds, comparison_.pictureAspect());
-        show_.redraw(); // what is on screen was seen from elsewhere
+        player_.redraw(); // what is on screen was seen from elsewhere
     }
     if (asked.isInspected)
         inspector_.settle(slot, picker.answer(slot, ofInspector), *probe_, layers_.counter());
@@ -116,15 +117,15 @@ void Observer::settle(std::uint32_t slot) {
 
 // A look that misses all bodies frames the scene and keeps the target of the orbit.
 void Observer::settleLook(const Look& look, const std::optional<Pick>& found) {
-    Camera& camera = show_.controller.camera;
+    Camera& camera = player_.controller.camera;
     if (look.at == Target::point) {
         if (found) camera = centered(camera, found->point);
     } else {
         const Box box =
-            found ? probe_->bounds(bodyOf(show_.stage.scene(), found->particle)) : probe_->bounds();
+            found ? probe_->bounds(bodyOf(player_.document.scene(), found->particle)) : probe_->bounds();
         if (!box.isEmpty()) camera = framing(camera, box, comparison_.pictureAspect());
     }
-    show_.redraw();
+    player_.redraw();
 }
 
 bool Observer::settleCount(std::uint32_t slot, bool isUndone) {
@@ -135,9 +136,9 @@ bool Observer::settleCount(std::uint32_t slot, bool isUndone) {
 }
 
 void Observer::restart() {
-    const Stage& stage = show_.stage;
-    probe_.emplace(show_.device, stage.scene(), stage.settings(), stage.simulation());
-    show_.prepared.picker.restart();
+    const Document& document = player_.document;
+    probe_.emplace(player_.device, document.scene(), document.settings(), document.simulation());
+    player_.prepared.picker.restart();
     pieceProbe_.restart();
     wantsCount_ = linksCut_ > 0; // a count that was asked for gets no answer
     inspector_.restart();

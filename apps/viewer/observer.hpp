@@ -9,7 +9,7 @@
 #include "viewer/hands/piece_probe.hpp"
 #include "viewer/hands/state_probe.hpp"
 #include "viewer/layer_view.hpp"
-#include "viewer/show_context.hpp"
+#include "viewer/player_context.hpp"
 
 #include <chrono>
 
@@ -21,7 +21,8 @@ public:
     /// Goal of the camera, once it is known what lies under the pointer.
     enum class Target { body, point };
 
-    Observer(const ShowContext& show, const LayerView& layers, const Comparison& comparison, Gauges& gauges);
+    Observer(const PlayerContext& player, const LayerView& layers, const Comparison& comparison,
+             Gauges& gauges);
 
     /// Frames all bodies.
     void frameAll() noexcept { wantsBounds_ = true; }
@@ -50,7 +51,7 @@ public:
     /// The same of the number of pieces; `isUndone`: its steps were undone. True if the number was counted.
     bool settleCount(std::uint32_t slot, bool isUndone);
 
-    /// Forgets all copies: the stage has another simulation.
+    /// Forgets all copies: the document has another simulation.
     void restart();
     /// Goes on with the pointer, the inspector and the counts of `before`.
     void takeOver(const Observer& before);
@@ -78,11 +79,11 @@ private:
     enum Asker : std::size_t { ofTools, ofLook, ofInspector };
     Ray pointerRay() const;
 
-    const ShowContext& show_;
+    const PlayerContext& player_;
     const LayerView& layers_;
     const Comparison& comparison_;
     Gauges& gauges_;
-    std::optional<StateProbe> probe_; // for the stage's simulation
+    std::optional<StateProbe> probe_; // for the document's simulation
     PieceProbe pieceProbe_;
     Inspector inspector_;
     Vector2 pointer_ = Vector2::Zero(); // see Input::pointer

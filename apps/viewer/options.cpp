@@ -4,8 +4,8 @@
 #include "app/guard.hpp"
 #include "sim/compile/compile.hpp"
 #include "sinew/ranges.hpp"
-#include "viewer/beside.hpp"
 #include "viewer/hands/bindings.hpp"
+#include "viewer/second_simulation.hpp"
 #include "viewer/window/preferences.hpp"
 
 #include <CLI/CLI.hpp>

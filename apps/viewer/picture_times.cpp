@@ -10,14 +10,14 @@
 namespace sinew::viewer {
 
 // Pipelines of the first scene were made before there was a window.
-PictureTimes::PictureTimes(const ShowContext& show)
-    : show_(show), pipelines_(show.device.kernels().pipelinesMade()) {
+PictureTimes::PictureTimes(const PlayerContext& player)
+    : player_(player), pipelines_(player.device.kernels().pipelinesMade()) {
     for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot)
-        slots_.push_back({stepTimes(), vk::Timestamps(show.device, 2)});
+        slots_.push_back({stepTimes(), vk::Timestamps(player.device, 2)});
 }
 
 vk::Timestamps PictureTimes::stepTimes() const {
-    return {show_.device, static_cast<std::uint32_t>(show_.stage.simulation().phases().size())};
+    return {player_.device, static_cast<std::uint32_t>(player_.document.simulation().phases().size())};
 }
 
 void PictureTimes::restart() {
@@ -26,34 +26,34 @@ void PictureTimes::restart() {
 
 void PictureTimes::begin(const Presenter::Frame& frame, Part part) {
     Slot& slot = slots_[frame.slot];
-    if (part == Part::drawing) slot.hasDrawing = show_.screen.timing().isOn();
+    if (part == Part::drawing) slot.hasDrawing = player_.session.timing().isOn();
     if (!slot.hasDrawing) return;
-    vk::Commands commands(show_.device, frame.commands);
+    vk::Commands commands(player_.device, frame.commands);
     if (part == Part::drawing) slot.drawing.reset(commands);
     slot.drawing.begin(commands, static_cast<std::uint32_t>(part));
 }
 
 void PictureTimes::end(const Presenter::Frame& frame, Part part) {
     Slot& slot = slots_[frame.slot];
-    vk::Commands commands(show_.device, frame.commands);
+    vk::Commands commands(player_.device, frame.commands);
     if (slot.hasDrawing) slot.drawing.end(commands, static_cast<std::uint32_t>(part));
 }
 
 // Pictures that wait for one in which something was cut count as such, too.
 void PictureTimes::submitted(const Presenter::Frame& frame, bool isCutting) {
     if (isCutting) cutFrames_ = Presenter::framesInFlight + 1;
-    show_.screen.timing().pictureSubmitted(frame.slot, cutFrames_ > 0);
+    player_.session.timing().pictureSubmitted(frame.slot, cutFrames_ > 0);
     if (cutFrames_ > 0) --cutFrames_;
     onTheirWay(); // some are there when they have been presented
-    if (!show_.screen.timing().awaitsPicture()) return;
-    show_.screen.presenter().waitIdle();
+    if (!player_.session.timing().awaitsPicture()) return;
+    player_.session.presenter().waitIdle();
     countPipelines();
-    show_.screen.timing().firstPicture();
+    player_.session.timing().firstPicture();
 }
 
 std::vector<double> PictureTimes::settle(std::uint32_t index, bool hasSteps) {
     Slot& slot = slots_[index];
-    Timing& timing = show_.screen.timing();
+    Timing& timing = player_.session.timing();
     timing.pictureFinished(index);
     std::vector<double> phases;
     if (hasSteps) phases = slot.step.milliseconds();
@@ -70,16 +70,16 @@ std::vector<double> PictureTimes::settle(std::uint32_t index, bool hasSteps) {
 std::size_t PictureTimes::onTheirWay() {
     std::size_t count = 0;
     for (std::size_t slot = 0; slot < slots_.size(); ++slot)
-        if (show_.screen.presenter().isFinished(slot))
-            show_.screen.timing().pictureFinished(slot);
+        if (player_.session.presenter().isFinished(slot))
+            player_.session.timing().pictureFinished(slot);
         else
             ++count;
     return count;
 }
 
 void PictureTimes::countPipelines() {
-    const std::size_t made = show_.device.kernels().pipelinesMade();
-    show_.screen.timing().times().addPipelines(made - std::exchange(pipelines_, made));
+    const std::size_t made = player_.device.kernels().pipelinesMade();
+    player_.session.timing().times().addPipelines(made - std::exchange(pipelines_, made));
 }
 
 } // namespace sinew::viewer

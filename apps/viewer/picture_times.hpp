@@ -3,14 +3,14 @@
 #pragma once
 
 #include "sinew/vk/timestamps.hpp"
-#include "viewer/show_context.hpp"
+#include "viewer/player_context.hpp"
 
 namespace sinew::viewer {
 
 /// Main thread only.
 class PictureTimes {
 public:
-    explicit PictureTimes(const ShowContext& show);
+    explicit PictureTimes(const PlayerContext& player);
 
     /// For the first step of a picture.
     vk::Timestamps* ofStep(std::uint32_t slot) noexcept { return &slots_[slot].step; }
@@ -25,11 +25,11 @@ public:
     /// Takes the times of a slot that has finished. Returns those of the phases of its first step [ms], if it
     /// `hasSteps` and the device has a clock.
     std::vector<double> settle(std::uint32_t slot, bool hasSteps);
-    /// Tells Screen::timing() of pictures that have come; returns how many are on their way.
+    /// Tells Session::timing() of pictures that have come; returns how many are on their way.
     std::size_t onTheirWay();
     /// Counts the pipelines that this thread has made since the last call. It is not to make any.
     void countPipelines();
-    /// The stage has another simulation, which may have other phases.
+    /// The document has another simulation, which may have other phases.
     void restart();
 
 private:
@@ -39,7 +39,7 @@ private:
     };
     vk::Timestamps stepTimes() const;
 
-    const ShowContext& show_;
+    const PlayerContext& player_;
     std::vector<Slot> slots_;
     std::uint32_t cutFrames_ = 0; // pictures that may still wait for a cut
     std::size_t pipelines_;       // of this thread, that were counted

@@ -2,9 +2,9 @@
 #include "viewer/previews.hpp"
 
 #include "sinew/vk/queue.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/draw/offscreen.hpp"
-#include "viewer/draw/stage.hpp"
-#include "viewer/opening.hpp"
+#include "viewer/opened_scene.hpp"
 #include "viewer/panels/picture_sheet.hpp"
 
 #include <sys/resource.h>
@@ -29,18 +29,18 @@ void giveWay() {
 std::optional<Picture> drawPreview(const vk::Device& device, const Options& options,
                                    const std::stop_token& stop) {
     constexpr VkExtent2D extent = PictureSheet::extent;
-    const Opening opening =
+    const OpenedScene opening =
         look(options, static_cast<float>(extent.width) / static_cast<float>(extent.height));
     if (stop.stop_requested()) return std::nullopt;
-    Stage stage(device, opening.loaded.scene, opening.loaded.settings);
+    Document document(device, opening.loaded.scene, opening.loaded.settings);
     if (stop.stop_requested()) return std::nullopt;
     Offscreen offscreen(device, extent, opening.light);
     if (stop.stop_requested()) return std::nullopt;
     vk::Queue queue(device);
     const VkCommandBuffer commands = queue.begin();
-    stage.recordReset(commands);
-    stage.recordSkin(commands);
-    offscreen.record(commands, opening.camera, stage.simulation());
+    document.recordReset(commands);
+    document.recordSkin(commands);
+    offscreen.record(commands, opening.camera, document.simulation());
     queue.wait(queue.submit(commands));
     return offscreen.read();
 }

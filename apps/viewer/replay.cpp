@@ -3,9 +3,9 @@
 
 #include "app/guard.hpp"
 #include "sim/core/hash.hpp"
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/hands/state_probe.hpp"
-#include "viewer/opening.hpp"
+#include "viewer/opened_scene.hpp"
 #include "viewer/tools.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 struct Player {
     Tools& tools;
     Camera& camera;
-    Stage& stage;
+    Document& document;
 
     void operator()(const Camera& event) const {
         camera = event;
@@ -29,14 +29,14 @@ struct Player {
     void operator()(const Pointed& event) const { tools.move(camera, event.at); }
     void operator()(const Pressed& event) const { tools.press(camera, event.isDown, event.at); }
     void operator()(Action event) const { tools.act(event); }
-    void operator()(const Pulled& event) const { tools.pull(stage, event.gravity); }
-    void operator()(const Turned& event) const { tools.turn(stage, event.material); }
-    void operator()(const Shaped& event) const { tools.shape(stage, event); }
+    void operator()(const Pulled& event) const { tools.pull(document, event.gravity); }
+    void operator()(const Turned& event) const { tools.turn(document, event.material); }
+    void operator()(const Shaped& event) const { tools.shape(document, event); }
     void operator()(const Sized& event) const { tools.resize(event.radius); }
     void operator()(const Deepened& event) const { tools.setDepth(event.depth); }
     void operator()(const Forgot& event) const { event.areOfSteps ? tools.forgetSteps() : tools.forget(); }
     void operator()(const Answered& event) const {
-        if (event.pick && event.pick->particle >= stage.scene().particles.size())
+        if (event.pick && event.pick->particle >= document.scene().particles.size())
             throw app::Failure(app::badInput,
                                "cannot play input: particle " + std::to_string(event.pick->particle) +
                                    ": the scene has no such particle: open the scene of the log");
@@ -48,11 +48,11 @@ struct Player {
 
 } // namespace
 
-Replay::Due Replay::next(Tools& tools, Camera& camera, Stage& stage) {
+Replay::Due Replay::next(Tools& tools, Camera& camera, Document& document) {
     for (; at_ < file_.events.size(); ++at_) {
         const InputEvent& event = file_.events[at_];
         // Uses the material set before it.
-        if (stage.wantsShape() && !std::holds_alternative<Shaped>(event)) return Due::shape;
+        if (document.wantsShape() && !std::holds_alternative<Shaped>(event)) return Due::shape;
         if (const auto* stepped = std::get_if<Stepped>(&event)) {
             if (tools.wantsHistory()) return Due::history;
             if (taken_ < stepped->count) {
@@ -61,14 +61,14 @@ Replay::Due Replay::next(Tools& tools, Camera& camera, Stage& stage) {
             }
             taken_ = 0;
         }
-        std::visit(Player{tools, camera, stage}, event);
+        std::visit(Player{tools, camera, document}, event);
     }
-    if (stage.wantsShape()) return Due::shape;
+    if (document.wantsShape()) return Due::shape;
     return tools.wantsHistory() ? Due::history : Due::nothing;
 }
 
-std::uint64_t stateHash(const vk::Device& device, const Stage& stage, vk::Queue& queue) {
-    StateProbe probe(device, stage.scene(), stage.settings(), stage.simulation());
+std::uint64_t stateHash(const vk::Device& device, const Document& document, vk::Queue& queue) {
+    StateProbe probe(device, document.scene(), document.settings(), document.simulation());
     VkCommandBuffer commands = queue.begin();
     probe.record(commands);
     probe.recordVelocities(commands);
@@ -99,7 +99,7 @@ Options withReplay(Options options, const InputFile& file) {
     return options;
 }
 
-void prepareForReplay(Opening& opening, const InputFile& file) {
+void prepareForReplay(OpenedScene& opening, const InputFile& file) {
     if (file.from && (!opening.run || opening.run->fileHash != file.from->hash))
         throw app::Failure(app::badInput, "cannot play input: it begins from a state: " + file.from->file +
                                               ": the opened state is another one: open the file that was "

@@ -7,8 +7,8 @@
 
 namespace sinew::viewer {
 
-struct Opening;
-class Stage;
+struct OpenedScene;
+class Document;
 class Tools;
 
 class Replay {
@@ -17,13 +17,13 @@ public:
 
     enum class Due {
         history, ///< record an undo or a redo first: Tools::recordHistory
-        shape,   ///< finish all commands, then Stage::reshape() and Tools::reshaped()
+        shape,   ///< finish all commands, then Document::reshape() and Tools::reshaped()
         step,    ///< record a step
         nothing  ///< the log has ended
     };
     /// Plays events until commands must be recorded; call it again after that. Throws app::Failure (badInput)
     /// if the log belongs to another scene.
-    Due next(Tools& tools, Camera& camera, Stage& stage);
+    Due next(Tools& tools, Camera& camera, Document& document);
 
     void restart() {
         at_ = 0;
@@ -40,14 +40,14 @@ private:
 
 /// FNV-1a (64 bits) of the bytes of positions, then velocities: the state_hash of a report. Waits for
 /// `queue`, in which everything was submitted. Throws vk::Error.
-std::uint64_t stateHash(const vk::Device& device, const Stage& stage, vk::Queue& queue);
+std::uint64_t stateHash(const vk::Device& device, const Document& document, vk::Queue& queue);
 
 /// Options for the scene of the log, with its settings; options of the command line have priority.
 Options withReplay(Options options, const InputFile& file);
 /// Prepares the opening for the tools and capacities of the log; for a log that begins from a state,
-/// Stage::widen(roomOf()) sets the capacities once the state is loaded. Throws app::Failure (badInput) if the
-/// log begins from another state than the opened one.
-void prepareForReplay(Opening& opening, const InputFile& file);
+/// Document::widen(roomOf()) sets the capacities once the state is loaded. Throws app::Failure (badInput) if
+/// the log begins from another state than the opened one.
+void prepareForReplay(OpenedScene& opening, const InputFile& file);
 sim::Settings roomOf(const InputFile& file);
 
 /// "state hash 0123456789abcdef after 240 steps".

@@ -10,71 +10,73 @@
 namespace sinew::viewer {
 
 void Succession::beginSurfaceRoom() {
-    if (isSurfaceShort_ || show_.stage.isGrowing() || show_.stage.wantsShape()) return;
+    if (isSurfaceShort_ || player_.document.isGrowing() || player_.document.wantsShape()) return;
     const std::uint32_t needed = std::exchange(surfaceMissing_, 0);
-    if (needed > 0 && !show_.stage.beginSurfaceRoom(needed)) warnOfSurface();
+    if (needed > 0 && !player_.document.beginSurfaceRoom(needed)) warnOfSurface();
 }
 
 void Succession::takeRoom() {
-    if (!show_.stage.isGrowing() || parts_.backstage.isMaking()) return; // layers that are being made first
-    const Stage::Growth growth = show_.stage.askGrowth();
-    if (growth == Stage::Growth::none) warnOfSurface();
-    if (growth != Stage::Growth::made) return;
-    show_.settleAll();
-    parts_.backstage.forget();
-    vk::Queue queue(show_.device);
-    show_.stage.bringGrowth(queue, show_.tools.bring());
-    parts_.backstage.rehearse([this](VkCommandBuffer commands) { show_.stage.recordGrowth(commands); },
-                              [this] { end(); });
+    if (!player_.document.isGrowing() || parts_.layerLoader.isMaking())
+        return; // layers that are being made first
+    const Document::Growth growth = player_.document.askGrowth();
+    if (growth == Document::Growth::none) warnOfSurface();
+    if (growth != Document::Growth::made) return;
+    player_.settleAll();
+    parts_.layerLoader.forget();
+    vk::Queue queue(player_.device);
+    player_.document.bringGrowth(queue, player_.tools.bring());
+    parts_.layerLoader.rehearse([this](VkCommandBuffer commands) { player_.document.recordGrowth(commands); },
+                                [this] { end(); });
 }
 
 void Succession::end() {
-    show_.stage.endGrowth();
+    player_.document.endGrowth();
     restartParts();
-    show_.tools.moveOn();
-    if (surfaceMissing_ <= show_.stage.settings().cutSurfaceRoom)
+    player_.tools.moveOn();
+    if (surfaceMissing_ <= player_.document.settings().cutSurfaceRoom)
         surfaceMissing_ = 0; // otherwise more was cut meanwhile
 }
 
 // Once: only the picture lacks something.
 void Succession::warnOfSurface() {
     if (std::exchange(isSurfaceShort_, true)) return;
-    show_.screen.warn("too little memory for the surface of the cuts: a part is not drawn, or drawn uncut");
+    player_.session.warn(
+        "too little memory for the surface of the cuts: a part is not drawn, or drawn uncut");
 }
 
 void Succession::takeShape() {
-    if (show_.stage.wantsShape() && show_.stage.isShapeMade()) reshape();
+    if (player_.document.wantsShape() && player_.document.isShapeMade()) reshape();
 }
 
 void Succession::reshape() {
-    show_.settleAll();
-    if (!show_.stage.wantsShape() || !show_.stage.isShapeMade()) return; // steps were undone
-    parts_.backstage.forget();                                           // layers of the simulation that goes
-    vk::Queue queue(show_.device);
+    player_.settleAll();
+    if (!player_.document.wantsShape() || !player_.document.isShapeMade()) return; // steps were undone
+    parts_.layerLoader.forget(); // layers of the simulation that goes
+    vk::Queue queue(player_.device);
     try {
-        show_.stage.reshape(queue, show_.tools.bring());
+        player_.document.reshape(queue, player_.tools.bring());
     } catch (const std::invalid_argument& error) {
         parts_.journal.breakOff(); // the log has the shape and the material already
         return parts_.journal.endReplay(error.what());
     }
     restartParts();
-    show_.tools.reshaped();
+    player_.tools.reshaped();
     parts_.times.restart();
-    Gauges gauges(show_.stage, show_.opening.loaded.scene.dt);
+    Gauges gauges(player_.document, player_.opening.loaded.scene.dt);
     gauges.goOn(parts_.gauges);
     parts_.gauges = std::move(gauges);
     parts_.adjustments.reshaped();
-    const scenes::LoadedScene& loaded = show_.opening.loaded;
-    for (const std::string& warning : scenes::newWarnings(loaded, show_.stage.settings()))
-        show_.screen.warn(warning);
-    for (const std::string& note : scenes::recoveryLeftOut(loaded, show_.stage.settings()))
-        show_.screen.note(note);
+    const scenes::LoadedScene& loaded = player_.opening.loaded;
+    for (const std::string& warning : scenes::newWarnings(loaded, player_.document.settings()))
+        player_.session.warn(warning);
+    for (const std::string& note : scenes::recoveryLeftOut(loaded, player_.document.settings()))
+        player_.session.note(note);
 }
 
 void Succession::restartParts() {
     parts_.observer.restart();
     parts_.layers.restart();
-    show_.redraw();
+    player_.redraw();
 }
 
 } // namespace sinew::viewer

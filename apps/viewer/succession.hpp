@@ -1,4 +1,4 @@
-// Replaces the simulation of a scene on show by the one that its stage has made: with more room, or with
+// Replaces the simulation of a scene on show by the one that its document has made: with more room, or with
 // another solver, number of substeps or material.
 #pragma once
 
@@ -14,7 +14,7 @@ class Succession {
 public:
     /// Parts of a show that refer to the simulation.
     struct Parts {
-        Backstage& backstage;
+        LayerLoader& layerLoader;
         LayerView& layers;
         Observer& observer;
         PictureTimes& times;
@@ -22,17 +22,17 @@ public:
         Adjustments& adjustments;
         Journal& journal;
     };
-    Succession(const ShowContext& show, const Parts& parts) : show_(show), parts_(parts) {}
+    Succession(const PlayerContext& player, const Parts& parts) : player_(player), parts_(parts) {}
 
     /// Notes Status::cutSurfaceMissing of the newest step that has finished.
     void surfaceMissing(std::uint32_t triangles) noexcept { surfaceMissing_ = triangles; }
     /// Begins to make room for that. Steps go on: only the picture lacks something.
     void beginSurfaceRoom();
-    /// Takes a simulation with more room, if it is made. A rehearsal in Backstage records the take-over.
+    /// Takes a simulation with more room, if it is made. A rehearsal in LayerLoader records the take-over.
     void takeRoom();
     /// Takes the simulation that a replay wants, if it is made.
     void takeShape();
-    /// The stage has another simulation: parts that refer to the one before begin anew.
+    /// The document has another simulation: parts that refer to the one before begin anew.
     void restartParts();
 
 private:
@@ -40,7 +40,7 @@ private:
     void reshape();
     void warnOfSurface();
 
-    const ShowContext& show_;
+    const PlayerContext& player_;
     Parts parts_;
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing
     bool isSurfaceShort_ = false;      // there is no room for it, and that was said

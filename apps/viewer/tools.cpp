@@ -4,7 +4,7 @@
 #include "sim/compile/compile.hpp"
 #include "sinew/vk/check.hpp"
 #include "viewer/hands/controller.hpp"
-#include "viewer/opening.hpp"
+#include "viewer/opened_scene.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -19,7 +19,7 @@ constexpr const char* lost = "warning: earlier cuts can no longer be undone: the
 
 } // namespace
 
-Tools::Tools(const vk::Device& device, const Opening& opening)
+Tools::Tools(const vk::Device& device, const OpenedScene& opening)
     : blade_(opening.light.bounds), poke_(opening.light.radius(), opening.loaded.scene.planes),
       history_(device, History::mostCuts), steps_(device, History::mostSteps), holds_(opening.loaded.holds),
       pinReach_(0.04f * opening.light.radius()),
@@ -135,14 +135,14 @@ void Tools::press(const Camera& camera, bool isDown, const Vector2& at) {
         hand_.release();
 }
 
-void Tools::pull(Stage& stage, float gravity) {
+void Tools::pull(Document& document, float gravity) {
     gravity_ = gravity;
     log_.pull(gravity);
-    stage.setGravity(gravity);
+    document.setGravity(gravity);
 }
 
-void Tools::turn(Stage& stage, const sim::Material& material) {
-    stage.turnNow(material);
+void Tools::turn(Document& document, const sim::Material& material) {
+    document.turnNow(material);
     turned(material);
 }
 
@@ -151,13 +151,13 @@ void Tools::turned(const sim::Material& material) {
     log_.turn(material);
 }
 
-void Tools::shape(Stage& stage, const Shaped& shaped) {
-    stage.wantShape(shaped.solver, shaped.substeps);
+void Tools::shape(Document& document, const Shaped& shaped) {
+    document.wantShape(shaped.solver, shaped.substeps);
     log_.shape(shaped);
 }
 
-void Tools::begin(const Stage& stage) {
-    material_ = stage.material();
+void Tools::begin(const Document& document) {
+    material_ = document.material();
     log_.begin(material_);
 }
 
@@ -181,7 +181,7 @@ app::Bring Tools::bringOf(const Tools& before) {
     };
 }
 
-void Tools::goOn(const Tools& before, const Stage& stage) {
+void Tools::goOn(const Tools& before, const Document& document) {
     hand_ = before.hand_;
     pins_ = before.pins_;
     blade_ = before.blade_;
@@ -196,8 +196,8 @@ void Tools::goOn(const Tools& before, const Stage& stage) {
     wantsRedo_ = before.wantsRedo_;
     stepsBack_ = before.stepsBack_;
     log_ = before.log_;
-    turned(stage.material());
-    log_.shape({stage.settings().solver, stage.settings().substeps});
+    turned(document.material());
+    log_.shape({document.settings().solver, document.settings().substeps});
     const bool isLost = isLost_;
     reshaped();
     if (isLost) log_.forget();
@@ -308,20 +308,20 @@ void Tools::reset() {
     log_.turn(material_);
 }
 
-void Tools::putAway(Stage& stage) {
+void Tools::putAway(Document& document) {
     if (blade_.isOn()) blade_.toggle();
     blade_.drop();
     blade_.setDepth(std::nullopt);
     poke_.putAway();
     gravity_.reset();
-    stage.setGravity(stage.scene().gravity);
-    if (material_ != sim::Material{}) stage.turnNow({});
+    document.setGravity(document.scene().gravity);
+    if (material_ != sim::Material{}) document.turnNow({});
     material_ = {};
-    const sim::Settings &now = stage.settings(), &first = stage.madeWith();
+    const sim::Settings &now = document.settings(), &first = document.madeWith();
     if (now.solver != first.solver || now.substeps != first.substeps)
-        stage.wantShape(first.solver, first.substeps);
+        document.wantShape(first.solver, first.substeps);
     else
-        stage.keepShape();
+        document.keepShape();
 }
 
 void Tools::forget() {

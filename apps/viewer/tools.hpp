@@ -3,10 +3,10 @@
 #pragma once
 
 #include "sinew/holds.hpp"
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
+#include "viewer/document/history.hpp"
 #include "viewer/hands/cut_tool.hpp"
 #include "viewer/hands/grab_tool.hpp"
-#include "viewer/hands/history.hpp"
 #include "viewer/hands/input_log.hpp"
 #include "viewer/hands/pins.hpp"
 #include "viewer/hands/poke_tool.hpp"
@@ -17,7 +17,7 @@
 namespace sinew::viewer {
 
 class Controller;
-struct Opening;
+struct OpenedScene;
 
 /// Input of the tools for one step.
 struct StepHands {
@@ -26,13 +26,13 @@ struct StepHands {
     std::optional<Sweep> sweep;                          ///< of the blade
     std::optional<sim::HostCollider> poke;
 };
-void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
+void recordStep(VkCommandBuffer commands, Document& document, const StepHands& hands,
                 vk::Timestamps* timestamps = nullptr) noexcept;
 
 /// Must not outlive its Device, which must not move.
 class Tools {
 public:
-    Tools(const vk::Device& device, const Opening& opening);
+    Tools(const vk::Device& device, const OpenedScene& opening);
 
     /// Passes presses and moves to the tool. Drags that no tool takes orbit the camera.
     void handle(const Input& input, Controller& controller);
@@ -40,24 +40,24 @@ public:
     void look(const Camera& camera) { log_.look(camera); }
     void press(const Camera& camera, bool isDown, const Vector2& at);
     void move(const Camera& camera, const Vector2& pointer);
-    /// See Stage::setGravity.
-    void pull(Stage& stage, float gravity);
-    /// See Stage::turnNow; turned() logs a material that Stage::recordTurn() has recorded.
-    void turn(Stage& stage, const sim::Material& material);
+    /// See Document::setGravity.
+    void pull(Document& document, float gravity);
+    /// See Document::turnNow; turned() logs a material that Document::recordTurn() has recorded.
+    void turn(Document& document, const sim::Material& material);
     void turned(const sim::Material& material);
-    /// See Stage::wantShape. Call reshaped() after Stage::reshape(): states of single steps belong to the old
-    /// simulation.
-    void shape(Stage& stage, const Shaped& shaped);
+    /// See Document::wantShape. Call reshaped() after Document::reshape(): states of single steps belong to
+    /// the old simulation.
+    void shape(Document& document, const Shaped& shaped);
     void reshaped();
-    /// Callback for a stage that changes its simulation: moves the states to undo; bringOf() those of
-    /// `before`, for a stage that takes over another one. Drops them all without memory, or if there are cuts
-    /// and the solver has no form for cutting.
+    /// Callback for a document that changes its simulation: moves the states to undo; bringOf() those of
+    /// `before`, for a document that takes over another one. Drops them all without memory, or if there are
+    /// cuts and the solver has no form for cutting.
     app::Bring bring() { return bringOf(*this); }
     app::Bring bringOf(const Tools& before);
-    /// Instead of reset(): the stage was brought to its state by other means.
-    void begin(const Stage& stage);
-    /// Takes over the tools of `before` and its log, for a stage that has taken over that of `before`.
-    void goOn(const Tools& before, const Stage& stage);
+    /// Instead of reset(): the document was brought to its state by other means.
+    void begin(const Document& document);
+    /// Takes over the tools of `before` and its log, for a document that has taken over that of `before`.
+    void goOn(const Tools& before, const Document& document);
     /// Sets the radius of the sphere [m].
     void resize(float radius);
     /// Sets the depth of the blade (see CutTool::setDepth).
@@ -89,22 +89,22 @@ public:
     bool isWaiting() const { return question() || wantsPin_ || wantsHistory(); }
     bool wantsHistory() const { return wantsUndo_ || wantsRedo_ || stepsBack_ > 0; }
     /// Records a requested undo or redo; true if there was a state for it.
-    bool recordHistory(VkCommandBuffer commands, Stage& stage);
+    bool recordHistory(VkCommandBuffer commands, Document& document);
     /// Call before a replay starts again: puts all tools away and restores the scene's gravity.
-    void putAway(Stage& stage);
+    void putAway(Document& document);
     /// Returns the input of the next step, which must then be recorded into `commands`; before a cut, records
     /// a copy of the state here.
-    StepHands takeStep(VkCommandBuffer commands, const Stage& stage);
-    /// Call after the stage changed its simulation, with bring().
+    StepHands takeStep(VkCommandBuffer commands, const Document& document);
+    /// Call after the document changed its simulation, with bring().
     void moveOn();
-    /// Call after the stage changed its simulation and `steps` were undone. Cuts `undone` again, in order.
-    void restart(const Stage& stage, std::span<const Sweep> undone, std::uint64_t steps);
+    /// Call after the document changed its simulation and `steps` were undone. Cuts `undone` again, in order.
+    void restart(const Document& document, std::span<const Sweep> undone, std::uint64_t steps);
     /// Takes back `steps`, which the same simulation repeats. Cuts `undone` again, in order.
-    void takeBack(const Stage& stage, std::span<const Sweep> undone, std::uint64_t steps);
+    void takeBack(const Document& document, std::span<const Sweep> undone, std::uint64_t steps);
     /// Drops the saved states of cuts that were undone; takeStep(), or the caller of remember() if it repeats
     /// the steps, saves new ones.
-    void forgetUndone(const Stage& stage, std::span<const Sweep> undone);
-    void remember(VkCommandBuffer commands, const Stage& stage);
+    void forgetUndone(const Document& document, std::span<const Sweep> undone);
+    void remember(VkCommandBuffer commands, const Document& document);
 
     /// The log since the reset.
     const InputLog& log() const { return log_; }
@@ -141,8 +141,8 @@ private:
     History history_, steps_;   // of cuts; of all steps
     std::size_t keptSteps_ = 0; // limit for steps_, which holds more: some may be taken back
     std::string note_;
-    void rememberStep(VkCommandBuffer commands, const Stage& stage);
-    bool goBack(VkCommandBuffer commands, Stage& stage);
+    void rememberStep(VkCommandBuffer commands, const Document& document);
+    bool goBack(VkCommandBuffer commands, Document& document);
 
     std::vector<sim::NamedHold> holds_; // of the scene
     std::vector<bool> isFixed_;         // for every particle

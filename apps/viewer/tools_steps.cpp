@@ -8,18 +8,18 @@
 
 namespace sinew::viewer {
 
-void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
+void recordStep(VkCommandBuffer commands, Document& document, const StepHands& hands,
                 vk::Timestamps* timestamps) noexcept {
     sim::Blade blade;
     if (hands.sweep)
         blade = {.from = hands.sweep->from, .to = hands.sweep->to, .isCarried = hands.sweep->isCarried};
     const std::span<const sim::HostCollider> hostColliders =
         hands.poke ? std::span(&*hands.poke, 1) : std::span<const sim::HostCollider>();
-    stage.recordStep(commands, timestamps, hands.grabs, blade, hostColliders);
+    document.recordStep(commands, timestamps, hands.grabs, blade, hostColliders);
 }
 
 // Undoes steps and releases all grabs, like undo of cuts; drops cuts of a later time.
-bool Tools::goBack(VkCommandBuffer commands, Stage& stage) {
+bool Tools::goBack(VkCommandBuffer commands, Document& document) {
     const std::uint32_t wanted = std::exchange(stepsBack_, 0);
     steps_.limit(keptSteps_); // as many as without repeated steps
     if (steps_.undos() == 0) {
@@ -28,27 +28,27 @@ bool Tools::goBack(VkCommandBuffer commands, Stage& stage) {
     }
     log_.goBack();
     clear();
-    for (std::uint32_t step = 0; step < wanted && steps_.recordBack(commands, stage); ++step) {
+    for (std::uint32_t step = 0; step < wanted && steps_.recordBack(commands, document); ++step) {
     }
-    history_.forgetFrom(stage.played());
+    history_.forgetFrom(document.played());
     return true;
 }
 
-bool Tools::recordHistory(VkCommandBuffer commands, Stage& stage) {
-    if (stepsBack_ > 0) return goBack(commands, stage);
+bool Tools::recordHistory(VkCommandBuffer commands, Document& document) {
+    if (stepsBack_ > 0) return goBack(commands, document);
     const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
     if (!isUndo && !isRedo) return false;
     if ((isUndo ? history_.undos() : history_.redos()) == 0) return false; // grabs and pins stay
     log_.goBack();
     clear();
     steps_.recycle(); // they belong to another past
-    return isUndo ? history_.recordUndo(commands, stage) : history_.recordRedo(commands, stage);
+    return isUndo ? history_.recordUndo(commands, document) : history_.recordRedo(commands, document);
 }
 
 // Saves a state before a cut; without memory the cut happens all the same.
-void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
+void Tools::remember(VkCommandBuffer commands, const Document& document) {
     try {
-        history_.recordBefore(commands, stage);
+        history_.recordBefore(commands, document);
     } catch (const vk::Error& error) {
         if (!std::exchange(isForgetful_, true))
             say(std::string("warning: this cut cannot be undone: ") + error.what());
@@ -56,22 +56,22 @@ void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
 }
 
 // Saves a state before a step, unless states are so large that few fit.
-void Tools::rememberStep(VkCommandBuffer commands, const Stage& stage) {
+void Tools::rememberStep(VkCommandBuffer commands, const Document& document) {
     constexpr std::size_t worthIt = 8;
-    if (isForgetfulOfSteps_ || steps_.room(stage) < worthIt) return;
-    keptSteps_ = steps_.room(stage);
+    if (isForgetfulOfSteps_ || steps_.room(document) < worthIt) return;
+    keptSteps_ = steps_.room(document);
     try {
-        steps_.recordBefore(commands, stage, stage.repeats() ? mostTakenBack : 0);
+        steps_.recordBefore(commands, document, document.repeats() ? mostTakenBack : 0);
     } catch (const vk::Error&) { // no memory: the present ones stay
         isForgetfulOfSteps_ = true;
     }
 }
 
-StepHands Tools::takeStep(VkCommandBuffer commands, const Stage& stage) {
+StepHands Tools::takeStep(VkCommandBuffer commands, const Document& document) {
     log_.step();
     blade_.stepTaken();
-    rememberStep(commands, stage);
-    if (blade_.beginsStroke()) remember(commands, stage);
+    rememberStep(commands, document);
+    if (blade_.beginsStroke()) remember(commands, document);
     StepHands hands;
     hands.sweep = blade_.next();
     hands.poke = poke_.poke();
@@ -85,23 +85,23 @@ void Tools::moveOn() {
     reshaped();
 }
 
-void Tools::restart(const Stage& stage, std::span<const Sweep> undone, std::uint64_t steps) {
+void Tools::restart(const Document& document, std::span<const Sweep> undone, std::uint64_t steps) {
     log_.takeBack(steps);
     moveOn();
-    forgetUndone(stage, undone);
+    forgetUndone(document, undone);
     blade_.putBack(undone);
 }
 
-void Tools::takeBack(const Stage& stage, std::span<const Sweep> undone, std::uint64_t steps) {
+void Tools::takeBack(const Document& document, std::span<const Sweep> undone, std::uint64_t steps) {
     log_.takeBack(steps);
-    steps_.forgetFrom(stage.played());
-    forgetUndone(stage, undone);
+    steps_.forgetFrom(document.played());
+    forgetUndone(document, undone);
     blade_.putBack(undone);
 }
 
-void Tools::forgetUndone(const Stage& stage, std::span<const Sweep> undone) {
+void Tools::forgetUndone(const Document& document, std::span<const Sweep> undone) {
     const auto begins = std::ranges::count(undone, false, &Sweep::isCarried);
-    history_.forgetFrom(stage.played(), static_cast<std::size_t>(begins));
+    history_.forgetFrom(document.played(), static_cast<std::size_t>(begins));
 }
 
 } // namespace sinew::viewer

@@ -32,7 +32,7 @@ Box boxOf(const sim::Scene& scene) {
 }
 
 void draw(const vk::Device& device, vk::Queue& queue, View& view, VkFormat format, float scale,
-          const Camera& camera, const Stage& stage) {
+          const Camera& camera, const Document& document) {
     const Image image(device, {.name = "unseen picture",
                                .extent = {64, 64},
                                .format = format,
@@ -40,29 +40,30 @@ void draw(const vk::Device& device, vk::Queue& queue, View& view, VkFormat forma
     Canvas canvas = view.renderer.makeCanvas(image.extent(), std::array{image.view()}, scale);
     const std::array<Vector3, 2> stroke{camera.target, camera.target + Vector3::UnitY()};
     Overlay overlay{.stroke = stroke};
-    if (!stage.scene().particles.empty()) overlay.hand = Hand{.target = camera.target};
+    if (!document.scene().particles.empty()) overlay.hand = Hand{.target = camera.target};
     const VkCommandBuffer commands = queue.begin();
-    view.renderer.record(commands, 0, canvas, 0, camera, stage.simulation(), overlay);
+    view.renderer.record(commands, 0, canvas, 0, camera, document.simulation(), overlay);
     queue.wait(queue.submit(commands));
 }
 
 } // namespace
 
-void warmUp(const vk::Device& device, PreparedShow& show, VkFormat format, const Camera& camera) {
+void warmUp(const vk::Device& device, PreparedPlayer& player, VkFormat format, const Camera& camera) {
     vk::Queue queue(device);
-    const Through blade(boxOf(show.stage.scene()));
+    const Through blade(boxOf(player.document.scene()));
     VkCommandBuffer commands = queue.begin();
-    show.stage.recordReset(commands);
-    const bool canCut = std::ranges::any_of(show.stage.scene().grids, &sim::Grid::isCuttable);
-    show.stage.recordStep(commands, nullptr, {}, canCut ? sim::Blade{blade.from, blade.to} : sim::Blade{});
-    show.stage.recordSkin(commands);
-    show.picker.record(commands, 0, {Picker::Cast{{Vector3::Zero(), -Vector3::UnitY()}}}, Section{});
+    player.document.recordReset(commands);
+    const bool canCut = std::ranges::any_of(player.document.scene().grids, &sim::Grid::isCuttable);
+    player.document.recordStep(commands, nullptr, {},
+                               canCut ? sim::Blade{blade.from, blade.to} : sim::Blade{});
+    player.document.recordSkin(commands);
+    player.picker.record(commands, 0, {Picker::Cast{{Vector3::Zero(), -Vector3::UnitY()}}}, Section{});
     queue.wait(queue.submit(commands));
     for (const float scale : PictureBudget::scales)
-        draw(device, queue, show.moving, format, scale, camera, show.stage);
-    if (show.still) draw(device, queue, *show.still, format, 1, camera, show.stage);
+        draw(device, queue, player.moving, format, scale, camera, player.document);
+    if (player.still) draw(device, queue, *player.still, format, 1, camera, player.document);
     commands = queue.begin();
-    show.stage.recordReset(commands);
+    player.document.recordReset(commands);
     queue.wait(queue.submit(commands));
 }
 

@@ -2,12 +2,12 @@
 // it a first cut took 13 s. (Other drivers compile when pipelines are made.)
 #pragma once
 
-#include "viewer/prepared_show.hpp"
+#include "viewer/prepared_player.hpp"
 
 namespace sinew::viewer {
 
 /// Plays and draws possible input to a scene, above all a cut, off-screen, and resets the scene. `format` is
 /// that of the window's pictures. Waits. Throws vk::Error.
-void warmUp(const vk::Device& device, PreparedShow& show, VkFormat format, const Camera& camera);
+void warmUp(const vk::Device& device, PreparedPlayer& player, VkFormat format, const Camera& camera);
 
 } // namespace sinew::viewer

@@ -12,7 +12,7 @@
 
 namespace sinew::viewer {
 
-/// The section of a picture; `isClosed`: see StageLight::isClosed.
+/// The section of a picture; `isClosed`: see SceneLight::isClosed.
 struct Opened {
     Section section;
     const std::vector<bool>& isClosed;

@@ -3,7 +3,7 @@
 
 #include "host_pick.hpp"
 #include "support/device.hpp"
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/hands/picker.hpp"
 
 #include <gtest/gtest.h>
@@ -16,10 +16,10 @@ struct Picked {
 
     explicit Picked(const sim::Scene& of, const sim::Settings& settings = {.substeps = 8})
         : scene(of), light{.isClosed = closedSkins(scene), .balls = ballsOf(scene)},
-          stage(test::device(), scene, settings), picker(test::device(), stage, light, slots) {
+          document(test::device(), scene, settings), picker(test::device(), document, light, slots) {
         run([&](VkCommandBuffer commands) {
-            stage.recordReset(commands);
-            stage.recordSkin(commands);
+            document.recordReset(commands);
+            document.recordSkin(commands);
         });
     }
     template <typename Record> void run(const Record& record) {
@@ -31,8 +31,8 @@ struct Picked {
     void step(int steps, const sim::Blade& blade = {}) {
         run([&](VkCommandBuffer commands) {
             for (int i = 0; i < steps; ++i)
-                stage.recordStep(commands, nullptr, {}, i == 0 ? blade : sim::Blade{});
-            stage.recordSkin(commands);
+                document.recordStep(commands, nullptr, {}, i == 0 ? blade : sim::Blade{});
+            document.recordSkin(commands);
         });
     }
     Found at(std::span<const Ray> rays, Among among = Among::moving,
@@ -59,7 +59,7 @@ struct Picked {
     }
     Found onHost(std::span<const Ray> rays, Among among = Among::moving,
                  const std::optional<Section>& section = {}) const {
-        const StateCopy copy(scene, stage.simulation());
+        const StateCopy copy(scene, document.simulation());
         std::optional<Opened> opened;
         if (section) opened.emplace(Opened{*section, light.isClosed});
         Found all;
@@ -89,8 +89,8 @@ struct Picked {
     }
 
     sim::Scene scene;
-    StageLight light;
-    Stage stage;
+    SceneLight light;
+    Document document;
     Picker picker;
 };
 

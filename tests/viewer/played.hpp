@@ -6,7 +6,7 @@
 #include "viewer/hands/controller.hpp"
 #include "viewer/hands/picker.hpp"
 #include "viewer/hands/state_probe.hpp"
-#include "viewer/opening.hpp"
+#include "viewer/opened_scene.hpp"
 #include "viewer/replay.hpp"
 #include "viewer/tools.hpp"
 
@@ -33,44 +33,44 @@ eye = [0, 0.5, 2]
 target = [0, 0.4, 0]
 )";
 
-inline Opening openText(const std::string& text, const scenes::Overrides& overrides = {}) {
+inline OpenedScene openText(const std::string& text, const scenes::Overrides& overrides = {}) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("sinew-replay-" + std::to_string(::getpid()) + ".toml");
     std::ofstream(file) << text;
-    Opening opening = open({.scene = file.string(), .overrides = overrides}, 1.6f);
+    OpenedScene opening = open({.scene = file.string(), .overrides = overrides}, 1.6f);
     std::filesystem::remove(file);
     prepareForReplay(opening, {});
     return opening;
 }
 
-inline Opening openFile(const std::filesystem::path& file, const InputFile& input = {}) {
-    Opening opening = open({.scene = file.string()}, 1.6f);
+inline OpenedScene openFile(const std::filesystem::path& file, const InputFile& input = {}) {
+    OpenedScene opening = open({.scene = file.string()}, 1.6f);
     prepareForReplay(opening, input);
     return opening;
 }
 
 // A scene with steps, tools and their queries in the order of the window's loop, without its timing.
 struct Scene {
-    Opening opening;
+    OpenedScene opening;
     Controller controller{opening.camera, opening.loaded.scene.dt};
-    Stage stage;
+    Document document;
     Tools tools{test::device(), opening};
-    Picker picker{test::device(), stage, opening.light, 1};
-    StateProbe probe{test::device(), stage.scene(), stage.settings(), stage.simulation()};
+    Picker picker{test::device(), document, opening.light, 1};
+    StateProbe probe{test::device(), document.scene(), document.settings(), document.simulation()};
 
     explicit Scene(const std::string& text = block, const sim::Material& material = {})
         : Scene(openText(text), material) {}
     explicit Scene(const std::filesystem::path& file, const InputFile& input = {})
         : Scene(openFile(file, input)) {}
-    explicit Scene(Opening opened, const std::optional<sim::Material>& material = {})
-        : opening(std::move(opened)), stage(test::device(), opening.loaded.scene, opening.loaded.settings,
-                                            material.value_or(firstMaterial(opening))) {
-        stage.setDefaults(opening.loaded.defaults);
+    explicit Scene(OpenedScene opened, const std::optional<sim::Material>& material = {})
+        : opening(std::move(opened)), document(test::device(), opening.loaded.scene, opening.loaded.settings,
+                                               material.value_or(firstMaterial(opening))) {
+        document.setDefaults(opening.loaded.defaults);
         if (opening.run) {
-            stage.load(test::device(), *opening.run, test::queue());
-            tools.begin(stage);
+            document.load(test::device(), *opening.run, test::queue());
+            tools.begin(document);
         } else {
-            run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+            run([&](VkCommandBuffer commands) { document.recordReset(commands); });
         }
     }
     template <typename Record> void run(const Record& record) {
@@ -79,11 +79,11 @@ struct Scene {
         test::queue().wait(test::queue().submit(commands));
     }
     void step(VkCommandBuffer commands) {
-        if (const auto material = stage.recordTurn(commands)) tools.turned(*material);
-        const StepHands hands = tools.takeStep(commands, stage);
-        recordStep(commands, stage, hands);
+        if (const auto material = document.recordTurn(commands)) tools.turned(*material);
+        const StepHands hands = tools.takeStep(commands, document);
+        recordStep(commands, document, hands);
     }
-    std::uint64_t hash() { return stateHash(test::device(), stage, test::queue()); }
+    std::uint64_t hash() { return stateHash(test::device(), document, test::queue()); }
 };
 
 // A scene with simulated user input.
@@ -94,17 +94,17 @@ struct Played : Scene {
         tools.handle(input, controller);
         if (input.notches != 0) controller.wheel(input.notches, input.pointer);
         if (asked && asked == tools.question()) { // from the previous turn
-            picker.restart();                     // the stage may have another simulation
+            picker.restart();                     // the document may have another simulation
             run([&](VkCommandBuffer commands) {
                 picker.record(commands, 0, {Picker::Cast{asked->ray, asked->among()}});
             });
             const auto found = picker.answer(0, 0);
-            tools.answer(*asked, found, found ? holdRadius(stage.scene(), found->particle) : 0);
+            tools.answer(*asked, found, found ? holdRadius(document.scene(), found->particle) : 0);
         }
         run([&](VkCommandBuffer commands) {
-            tools.recordHistory(commands, stage);
+            tools.recordHistory(commands, document);
             for (int i = 0; i < steps; ++i) step(commands);
-            stage.recordSkin(commands);
+            document.recordSkin(commands);
             probe.record(commands);
         });
         asked = tools.question();
@@ -117,7 +117,7 @@ struct Played : Scene {
         for (int i = 0; i <= turns; ++i)
             turn({.pointer = from + static_cast<float>(i) / static_cast<float>(turns) * by});
     }
-    bool isPoking() const { return stage.simulation().hostColliders()[0].isThere; }
+    bool isPoking() const { return document.simulation().hostColliders()[0].isThere; }
     InputFile file() { return {.scene = "/block.toml", .events = tools.log().events(), .hash = hash()}; }
 
     std::optional<Question> asked;
@@ -125,16 +125,16 @@ struct Played : Scene {
 
 inline Replay::Due replayAll(Scene& scene, Replay& replay) {
     for (;;) {
-        const Replay::Due due = replay.next(scene.tools, scene.controller.camera, scene.stage);
+        const Replay::Due due = replay.next(scene.tools, scene.controller.camera, scene.document);
         if (due == Replay::Due::nothing) return due;
         if (due == Replay::Due::shape) {
-            scene.stage.reshape(test::queue(), scene.tools.bring());
+            scene.document.reshape(test::queue(), scene.tools.bring());
             scene.tools.reshaped();
             continue;
         }
         scene.run([&](VkCommandBuffer commands) {
             if (due == Replay::Due::history)
-                scene.tools.recordHistory(commands, scene.stage);
+                scene.tools.recordHistory(commands, scene.document);
             else
                 scene.step(commands);
         });

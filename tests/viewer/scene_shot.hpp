@@ -1,8 +1,8 @@
 // A small scene with its picture, and measures of pictures.
 #pragma once
 
+#include "viewer/document/document.hpp"
 #include "viewer/draw/offscreen.hpp"
-#include "viewer/draw/stage.hpp"
 
 #include "sinew/bodies.hpp"
 #include "support/device.hpp"
@@ -29,29 +29,29 @@ inline sim::Scene block(float height, bool hasGround) {
 // A scene whose picture is taken after some steps.
 struct SceneShot {
     SceneShot(const sim::Scene& scene, Camera view, const Quality& quality = quick, float scale = 1)
-        : camera(view), light(lightFor(scene, view)), stage(test::device(), scene, {}),
+        : camera(view), light(lightFor(scene, view)), document(test::device(), scene, {}),
           offscreen(test::device(), extent, light, quality, scale) {}
 
     Picture take(int steps = 0, const Overlay& overlay = {}) {
         VkCommandBuffer commands = test::queue().begin();
-        if (stage.steps() == 0) stage.recordReset(commands);
-        for (int i = 0; i < steps; ++i) stage.recordStep(commands);
-        stage.recordSkin(commands);
-        offscreen.record(commands, camera, stage.simulation(), overlay);
+        if (document.steps() == 0) document.recordReset(commands);
+        for (int i = 0; i < steps; ++i) document.recordStep(commands);
+        document.recordSkin(commands);
+        offscreen.record(commands, camera, document.simulation(), overlay);
         test::queue().wait(test::queue().submit(commands));
         return offscreen.read();
     }
 
     Camera camera;
-    StageLight light;
-    Stage stage;
+    SceneLight light;
+    Document document;
     Offscreen offscreen;
 };
 
 inline Camera viewOf(const sim::Scene& scene) {
     Camera camera;
     camera.elevation = 0.5f;
-    return framing(camera, stageBounds(scene), aspect);
+    return framing(camera, sceneBounds(scene), aspect);
 }
 
 using Color = std::array<int, 3>;

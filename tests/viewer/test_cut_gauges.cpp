@@ -15,24 +15,24 @@ namespace {
 // A scene with its own blade.
 struct Cut : Scene {
     explicit Cut(const std::string& text) : Scene(text) {
-        stage.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
+        document.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
     }
     void play(int steps) {
         run([&](VkCommandBuffer commands) {
             for (int i = 0; i < steps; ++i) step(commands);
-            stage.recordSkin(commands);
+            document.recordSkin(commands);
             probe.record(commands);
             counter.record(commands);
         });
     }
-    sim::Status status() const { return stage.simulation().status(stage.steps()); }
+    sim::Status status() const { return document.simulation().status(document.steps()); }
     app::PieceCount reported() {
-        const sim::Scene& scene = stage.scene();
+        const sim::Scene& scene = document.scene();
         return app::countPieces(
-            scene, app::downloadDrawn(test::queue(), stage.simulation(), scene, stage.settings()),
+            scene, app::downloadDrawn(test::queue(), document.simulation(), scene, document.settings()),
             status().pieces);
     }
-    PieceProbe counter{test::device(), stage};
+    PieceProbe counter{test::device(), document};
 };
 
 std::string bladeAt(const std::string& x, const std::string& end) {
@@ -59,24 +59,24 @@ TEST(CutGauges, ShowTheStrainOfLinksThatHold) {
         Cut cut(parted(body));
         cut.play(25);
         ASSERT_GT(cut.status().linksCutInAll, 0u) << name;
-        const Strain strain = measureStrain(cut.stage.scene(), cut.probe);
+        const Strain strain = measureStrain(cut.document.scene(), cut.probe);
         EXPECT_GT(strain.rms, 0) << name;
         EXPECT_LT(strain.rms, 0.02) << name << "; with links that are cut 0.03 to 0.35";
-        Gauges gauges(cut.stage, 0.01);
+        Gauges gauges(cut.document, 0.01);
         gauges.strainMeasured(strain);
         gauges.stepFinished(cut.status());
-        EXPECT_EQ(gauges.facts(cut.stage).strainRms.count(), 1u) << name << ": a cut clears no curve";
+        EXPECT_EQ(gauges.facts(cut.document).strainRms.count(), 1u) << name << ": a cut clears no curve";
     }
 }
 
 TEST(CutGauges, ShowTheStrainOfAllLinksWhileNothingIsCut) {
     Cut cut(parted(bodies.at("box")));
-    cut.stage.setBlades({});
+    cut.document.setBlades({});
     cut.play(25);
     const auto all = [](std::size_t) { return true; };
     const std::span<const float> places(&cut.probe.positions().front().x, 4 * cut.probe.positions().size());
-    EXPECT_EQ(measureStrain(cut.stage.scene(), cut.probe).rms,
-              app::strainOf(cut.stage.scene(), places, all).rms);
+    EXPECT_EQ(measureStrain(cut.document.scene(), cut.probe).rms,
+              app::strainOf(cut.document.scene(), places, all).rms);
 }
 
 TEST(CutGauges, SayTheStrainOfLinksThatHoldUnderThePointer) {
@@ -84,9 +84,10 @@ TEST(CutGauges, SayTheStrainOfLinksThatHoldUnderThePointer) {
     cut.play(25);
     std::size_t whole = 0, parts = 0;
     const auto all = [](std::size_t) { return true; };
-    for (std::uint32_t i = 0; i < cut.stage.scene().particles.size(); ++i) {
-        const Found found = foundAt(cut.stage.scene(), i, cut.probe.positions(), {}, cut.probe.liveLinks());
-        const Found uncut = foundAt(cut.stage.scene(), i, cut.probe.positions(), {}, all);
+    for (std::uint32_t i = 0; i < cut.document.scene().particles.size(); ++i) {
+        const Found found =
+            foundAt(cut.document.scene(), i, cut.probe.positions(), {}, cut.probe.liveLinks());
+        const Found uncut = foundAt(cut.document.scene(), i, cut.probe.positions(), {}, all);
         (found.links == uncut.links ? whole : parts) += 1;
         ASSERT_TRUE(found.strain) << i;
         EXPECT_LT(found.strain->largest, 0.2) << i;
@@ -123,12 +124,12 @@ TEST(CutGauges, CountPiecesOfEveryKindOfBody) {
 TEST(CutGauges, SayThatNothingWasCountedWhereThereIsNoCopy) {
     Cut cut(parted(bodies.at("box")));
     cut.play(4);
-    const PieceProbe withoutCopies(test::device(), cut.stage);
+    const PieceProbe withoutCopies(test::device(), cut.document);
     const app::PieceCount count = withoutCopies.count(cut.status().pieces);
     EXPECT_FALSE(count.isCounted);
     EXPECT_EQ(app::toText(count), "pieces were not counted");
     EXPECT_TRUE(cut.counter.count(cut.status().pieces).isCounted);
-    StatusLine line(cut.stage.scene(), test::device());
+    StatusLine line(cut.document.scene(), test::device());
     line.setPieces(count);
     const auto title = line.title(false, false);
     ASSERT_TRUE(title);
@@ -137,7 +138,7 @@ TEST(CutGauges, SayThatNothingWasCountedWhereThereIsNoCopy) {
 
 TEST(CutGauges, KeepTheCountUntilTheNextOne) {
     Cut cut(parted(bodies.at("box")));
-    Gauges gauges(cut.stage, 0.01);
+    Gauges gauges(cut.document, 0.01);
     sim::Status status{.pieces = 1};
     gauges.stepFinished(status);
     EXPECT_EQ(gauges.pieces(), (app::PieceCount{1, 0}));

@@ -9,20 +9,20 @@ namespace sinew::viewer {
 namespace {
 
 const Camera fromFront{.distance = 3, .azimuth = 0, .elevation = 0};
-const Box stage(Vector3(-0.5f, -0.5f, -0.5f), Vector3(0.5f, 0.5f, 0.5f));
+const Box document(Vector3(-0.5f, -0.5f, -0.5f), Vector3(0.5f, 0.5f, 0.5f));
 
 Vector3 toVector(const sim::Vec3& v) {
     return {v.x, v.y, v.z};
 }
 
 CutTool withBlade() {
-    CutTool tool(stage);
+    CutTool tool(document);
     tool.toggle();
     return tool;
 }
 
 TEST(CutTool, CutsNothingUntilItIsTakenUp) {
-    CutTool tool(stage);
+    CutTool tool(document);
     tool.press(fromFront, {0, 0});
     tool.move(fromFront, {0.2f, 0});
     EXPECT_FALSE(tool.next());

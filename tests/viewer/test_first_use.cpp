@@ -3,8 +3,8 @@
 #include "played.hpp"
 
 #include "sinew/vk/kernel_store.hpp"
-#include "viewer/backstage.hpp"
 #include "viewer/draw/shot.hpp"
+#include "viewer/layer_loader.hpp"
 
 #include <chrono>
 #include <thread>
@@ -40,15 +40,15 @@ std::size_t pipelinesMadeHere() {
 std::uint64_t playUntilCrowded(Played& played) {
     for (int i = 0; i < 120; ++i) {
         played.turn({});
-        if (played.stage.neededRoom(played.stage.steps()) > 0) return played.stage.steps();
+        if (played.document.neededRoom(played.document.steps()) > 0) return played.document.steps();
     }
     return 0;
 }
 
-Stage::Growth await(Stage& stage) {
+Document::Growth await(Document& document) {
     for (;;) {
-        const Stage::Growth growth = stage.askGrowth();
-        if (growth != Stage::Growth::making) return growth;
+        const Document::Growth growth = document.askGrowth();
+        if (growth != Document::Growth::making) return growth;
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
 }
@@ -59,116 +59,116 @@ void step(Played& played, int steps) {
 }
 
 void take(Played& played) {
-    played.stage.bringGrowth(test::queue(), played.tools.bring());
-    played.run([&](VkCommandBuffer commands) { played.stage.recordGrowth(commands); });
-    played.stage.endGrowth();
+    played.document.bringGrowth(test::queue(), played.tools.bring());
+    played.run([&](VkCommandBuffer commands) { played.document.recordGrowth(commands); });
+    played.document.endGrowth();
 }
 
-TEST(StageGrowth, OfContactsIsMadeInAnotherThreadAndComesToTheSameBits) {
+TEST(DocumentGrowth, OfContactsIsMadeInAnotherThreadAndComesToTheSameBits) {
     Played waiting(crowd), going(crowd);
     const std::uint64_t crowded = playUntilCrowded(waiting);
     ASSERT_GT(crowded, 0u);
     ASSERT_EQ(playUntilCrowded(going), crowded);
-    ASSERT_TRUE(waiting.stage.makeRoom(crowded, test::queue()));
+    ASSERT_TRUE(waiting.document.makeRoom(crowded, test::queue()));
     const std::size_t made = pipelinesMadeHere();
-    ASSERT_TRUE(going.stage.beginRoom(crowded));
-    EXPECT_TRUE(going.stage.lacksContactRoom());
-    EXPECT_EQ(going.stage.steps(), crowded - 1);
-    ASSERT_EQ(await(going.stage), Stage::Growth::made);
+    ASSERT_TRUE(going.document.beginRoom(crowded));
+    EXPECT_TRUE(going.document.lacksContactRoom());
+    EXPECT_EQ(going.document.steps(), crowded - 1);
+    ASSERT_EQ(await(going.document), Document::Growth::made);
     take(going);
     EXPECT_EQ(pipelinesMadeHere(), made);
-    EXPECT_FALSE(going.stage.isGrowing());
-    EXPECT_EQ(going.stage.contactRoom().room, waiting.stage.contactRoom().room);
-    EXPECT_EQ(going.stage.contactRoom().grown, 1u);
+    EXPECT_FALSE(going.document.isGrowing());
+    EXPECT_EQ(going.document.contactRoom().room, waiting.document.contactRoom().room);
+    EXPECT_EQ(going.document.contactRoom().grown, 1u);
     for (Played* one : {&waiting, &going}) {
-        one->tools.restart(one->stage, {}, 1);
+        one->tools.restart(one->document, {}, 1);
         step(*one, 3);
-        EXPECT_EQ(one->stage.neededRoom(one->stage.steps()), 0u);
+        EXPECT_EQ(one->document.neededRoom(one->document.steps()), 0u);
     }
     EXPECT_EQ(going.hash(), waiting.hash());
 }
 
-TEST(StageGrowth, OfTheSurfaceGoesOnFromTheStepsTakenMeanwhile) {
+TEST(DocumentGrowth, OfTheSurfaceGoesOnFromTheStepsTakenMeanwhile) {
     Played waiting, going;
     for (Played* one : {&waiting, &going}) one->turn({}, 2);
-    ASSERT_TRUE(waiting.stage.makeSurfaceRoom(200000, test::queue()));
+    ASSERT_TRUE(waiting.document.makeSurfaceRoom(200000, test::queue()));
     const std::size_t made = pipelinesMadeHere();
-    ASSERT_TRUE(going.stage.beginSurfaceRoom(200000));
-    EXPECT_FALSE(going.stage.lacksContactRoom());
+    ASSERT_TRUE(going.document.beginSurfaceRoom(200000));
+    EXPECT_FALSE(going.document.lacksContactRoom());
     going.turn({}, 2); // whether it is ready or not
     step(waiting, 2);
-    ASSERT_EQ(await(going.stage), Stage::Growth::made);
+    ASSERT_EQ(await(going.document), Document::Growth::made);
     take(going);
     EXPECT_EQ(pipelinesMadeHere(), made);
-    EXPECT_EQ(going.stage.settings().cutSurfaceRoom, waiting.stage.settings().cutSurfaceRoom);
-    EXPECT_EQ(going.stage.surfaceRoom().grown, 1u);
-    EXPECT_EQ(going.stage.steps(), 4u);
+    EXPECT_EQ(going.document.settings().cutSurfaceRoom, waiting.document.settings().cutSurfaceRoom);
+    EXPECT_EQ(going.document.surfaceRoom().grown, 1u);
+    EXPECT_EQ(going.document.steps(), 4u);
     for (Played* one : {&waiting, &going}) step(*one, 1);
     EXPECT_EQ(going.hash(), waiting.hash());
 }
 
 // A material change during the growth is not lost: the simulation is changed again.
-TEST(StageGrowth, HasTheMaterialOfTheStepsTakenMeanwhile) {
+TEST(DocumentGrowth, HasTheMaterialOfTheStepsTakenMeanwhile) {
     Played played;
     played.turn({}, 2);
-    ASSERT_TRUE(played.stage.beginSurfaceRoom(200000));
-    played.stage.turnNow({.stiffness = 0.5f});
+    ASSERT_TRUE(played.document.beginSurfaceRoom(200000));
+    played.document.turnNow({.stiffness = 0.5f});
     played.turn({}, 2);
-    ASSERT_EQ(played.stage.material(), sim::Material{.stiffness = 0.5f});
-    ASSERT_EQ(await(played.stage), Stage::Growth::made);
+    ASSERT_EQ(played.document.material(), sim::Material{.stiffness = 0.5f});
+    ASSERT_EQ(await(played.document), Document::Growth::made);
     take(played);
     Played other(block, {.stiffness = 0.5f});
-    other.stage.takeOver(played.stage);
+    other.document.takeOver(played.document);
     for (Played* one : {&played, &other}) step(*one, 1);
     EXPECT_EQ(played.hash(), other.hash());
 }
 
 // Steps that found too little room are taken again by the solver that took them.
-TEST(StageGrowth, OfContactsComesBeforeAnotherShape) {
+TEST(DocumentGrowth, OfContactsComesBeforeAnotherShape) {
     Played played(crowd);
     const std::uint64_t crowded = playUntilCrowded(played);
     ASSERT_GT(crowded, 0u);
-    ASSERT_TRUE(played.stage.beginRoom(crowded));
-    played.stage.wantShape(sim::Solver::split, 9);
-    EXPECT_FALSE(played.stage.isShapeMade());
-    EXPECT_TRUE(played.stage.lacksContactRoom()) << "it goes on being made";
-    ASSERT_EQ(await(played.stage), Stage::Growth::made);
-    EXPECT_FALSE(played.stage.isShapeMade());
+    ASSERT_TRUE(played.document.beginRoom(crowded));
+    played.document.wantShape(sim::Solver::split, 9);
+    EXPECT_FALSE(played.document.isShapeMade());
+    EXPECT_TRUE(played.document.lacksContactRoom()) << "it goes on being made";
+    ASSERT_EQ(await(played.document), Document::Growth::made);
+    EXPECT_FALSE(played.document.isShapeMade());
     take(played);
-    EXPECT_EQ(played.stage.settings().substeps, 6u);
-    played.tools.restart(played.stage, {}, 1);
-    ASSERT_EQ(played.stage.undoneSteps(), 1u);
-    EXPECT_FALSE(played.stage.isShapeMade()) << "the undone step comes first";
+    EXPECT_EQ(played.document.settings().substeps, 6u);
+    played.tools.restart(played.document, {}, 1);
+    ASSERT_EQ(played.document.undoneSteps(), 1u);
+    EXPECT_FALSE(played.document.isShapeMade()) << "the undone step comes first";
     step(played, 1);
-    while (!played.stage.isShapeMade()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    played.stage.reshape(test::queue(), played.tools.bring());
-    EXPECT_EQ(played.stage.settings().substeps, 9u);
+    while (!played.document.isShapeMade()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    played.document.reshape(test::queue(), played.tools.bring());
+    EXPECT_EQ(played.document.settings().substeps, 9u);
 }
 
 // One simulation is made at a time: room for the surface makes way, and is asked for again by what lacks it.
-TEST(StageGrowth, OfTheSurfaceMakesWayForAnotherShape) {
+TEST(DocumentGrowth, OfTheSurfaceMakesWayForAnotherShape) {
     Played played;
     played.turn({}, 2);
-    ASSERT_TRUE(played.stage.beginSurfaceRoom(200000));
-    played.stage.wantShape(sim::Solver::split, 9);
-    while (!played.stage.isShapeMade()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    EXPECT_FALSE(played.stage.isGrowing());
-    played.stage.reshape(test::queue(), played.tools.bring());
-    EXPECT_EQ(played.stage.settings().substeps, 9u);
-    EXPECT_LT(played.stage.settings().cutSurfaceRoom, 200000u);
-    EXPECT_EQ(played.stage.askGrowth(), Stage::Growth::none);
-    ASSERT_TRUE(played.stage.beginSurfaceRoom(200000));
-    ASSERT_EQ(await(played.stage), Stage::Growth::made);
+    ASSERT_TRUE(played.document.beginSurfaceRoom(200000));
+    played.document.wantShape(sim::Solver::split, 9);
+    while (!played.document.isShapeMade()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    EXPECT_FALSE(played.document.isGrowing());
+    played.document.reshape(test::queue(), played.tools.bring());
+    EXPECT_EQ(played.document.settings().substeps, 9u);
+    EXPECT_LT(played.document.settings().cutSurfaceRoom, 200000u);
+    EXPECT_EQ(played.document.askGrowth(), Document::Growth::none);
+    ASSERT_TRUE(played.document.beginSurfaceRoom(200000));
+    ASSERT_EQ(await(played.document), Document::Growth::made);
     take(played);
-    EXPECT_GE(played.stage.settings().cutSurfaceRoom, 200000u);
-    EXPECT_EQ(played.stage.settings().substeps, 9u);
+    EXPECT_GE(played.document.settings().cutSurfaceRoom, 200000u);
+    EXPECT_EQ(played.document.settings().substeps, 9u);
 }
 
 // None after 20 s.
-Stage::Turn awaitTurn(Stage& stage) {
-    Stage::Turn turn = Stage::Turn::none;
-    for (int i = 0; i < 10000 && turn == Stage::Turn::none; ++i) {
-        turn = stage.takeTurn(false);
+Document::Turn awaitTurn(Document& document) {
+    Document::Turn turn = Document::Turn::none;
+    for (int i = 0; i < 10000 && turn == Document::Turn::none; ++i) {
+        turn = document.takeTurn(false);
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return turn;
@@ -178,49 +178,49 @@ Stage::Turn awaitTurn(Stage& stage) {
 TEST(StageTurn, ThatFailsWhileASimulationIsReplacedIsTold) {
     Played played;
     played.turn({}, 2);
-    played.stage.turn({.friction = -1.0f});
-    ASSERT_TRUE(played.stage.makeSurfaceRoom(200000, test::queue()));
-    EXPECT_THROW(awaitTurn(played.stage), std::invalid_argument);
-    EXPECT_EQ(played.stage.takeTurn(false), Stage::Turn::none) << "told once";
-    played.stage.turn({.stiffness = 0.5f});
-    ASSERT_TRUE(played.stage.makeSurfaceRoom(400000, test::queue()));
-    EXPECT_EQ(awaitTurn(played.stage), Stage::Turn::ready) << "prepared again for the other one";
+    played.document.turn({.friction = -1.0f});
+    ASSERT_TRUE(played.document.makeSurfaceRoom(200000, test::queue()));
+    EXPECT_THROW(awaitTurn(played.document), std::invalid_argument);
+    EXPECT_EQ(played.document.takeTurn(false), Document::Turn::none) << "told once";
+    played.document.turn({.stiffness = 0.5f});
+    ASSERT_TRUE(played.document.makeSurfaceRoom(400000, test::queue()));
+    EXPECT_EQ(awaitTurn(played.document), Document::Turn::ready) << "prepared again for the other one";
     step(played, 1);
-    EXPECT_EQ(played.stage.material().stiffness, 0.5f);
+    EXPECT_EQ(played.document.material().stiffness, 0.5f);
 }
 
-TEST(Backstage, MakesAndRehearsesLayersInOtherThreads) {
-    const Opening opening = openText(crowd);
+TEST(LayerLoader, MakesAndRehearsesLayersInOtherThreads) {
+    const OpenedScene opening = openText(crowd);
     constexpr VkFormat format = VK_FORMAT_B8G8R8A8_UNORM;
-    PreparedShow show(test::device(), opening, format);
-    Backstage backstage(test::device(), show, opening.camera, 2);
-    Watched wanted{.layers = shown({"glass", "strain"}), .isCounting = true};
+    PreparedPlayer player(test::device(), opening, format);
+    LayerLoader layerLoader(test::device(), player, opening.camera, 2);
+    WantedLayers wanted{.layers = shown({"glass", "strain"}), .isCounting = true};
     for (const char* layer : {"wires", "particles", "links", "contacts"}) addLayer(layer, wanted.layers);
     wanted.layers.section = Section{};
     const std::size_t made = pipelinesMadeHere();
-    EXPECT_EQ(backstage.ready({}).layers, Layers{});
-    EXPECT_FALSE(backstage.isMaking()) << "nothing is wanted";
-    EXPECT_EQ(backstage.ready(wanted).layers, Layers{}) << "what was there before goes on";
-    EXPECT_TRUE(backstage.isMaking());
+    EXPECT_EQ(layerLoader.ready({}).layers, Layers{});
+    EXPECT_FALSE(layerLoader.isMaking()) << "nothing is wanted";
+    EXPECT_EQ(layerLoader.ready(wanted).layers, Layers{}) << "what was there before goes on";
+    EXPECT_TRUE(layerLoader.isMaking());
     int rehearsals = 0;
-    for (bool isThere = false; !isThere; isThere = backstage.goOn()) {
-        rehearsals += backstage.isBusy() ? 1 : 0;
-        while (backstage.isBusy()) std::this_thread::yield();
+    for (bool isThere = false; !isThere; isThere = layerLoader.goOn()) {
+        rehearsals += layerLoader.isBusy() ? 1 : 0;
+        while (layerLoader.isBusy()) std::this_thread::yield();
     }
     EXPECT_EQ(pipelinesMadeHere(), made);
     EXPECT_EQ(rehearsals > 20, isSoftware(test::device())) << rehearsals;
-    EXPECT_EQ(backstage.ready(wanted).layers, wanted.layers);
-    EXPECT_TRUE(backstage.ready(wanted).isCounting);
-    EXPECT_FALSE(backstage.isMaking());
+    EXPECT_EQ(layerLoader.ready(wanted).layers, wanted.layers);
+    EXPECT_TRUE(layerLoader.ready(wanted).isCounting);
+    EXPECT_FALSE(layerLoader.isMaking());
 
-    Shot shot(test::device(), show.moving.renderer, {64, 48});
+    Shot shot(test::device(), player.moving.renderer, {64, 48});
     const VkCommandBuffer commands = test::queue().begin();
-    show.stage.recordReset(commands);
-    show.stage.recordSkin(commands);
-    backstage.inspection().record(commands, wanted.layers, 0);
+    player.document.recordReset(commands);
+    player.document.recordSkin(commands);
+    layerLoader.inspection().record(commands, wanted.layers, 0);
     Overlay overlay{.layers = wanted.layers};
-    overlay.buffers = backstage.inspection().buffers(wanted.layers, mapRange(1));
-    shot.record(commands, 2, opening.camera, show.stage.simulation(), overlay);
+    overlay.buffers = layerLoader.inspection().buffers(wanted.layers, mapRange(1));
+    shot.record(commands, 2, opening.camera, player.document.simulation(), overlay);
     test::queue().wait(test::queue().submit(commands));
     EXPECT_EQ(pipelinesMadeHere(), made);
     EXPECT_EQ(shot.read().pixels.size(), 64u * 48 * 4);

@@ -29,8 +29,8 @@ bool isKernel(const vk::ShaderCode& code) {
 }
 
 // A light with balls and marks, which need pipelines.
-StageLight light() {
-    StageLight light;
+SceneLight light() {
+    SceneLight light;
     light.bounds = Box(Vector3(-1, -1, -1), Vector3(1, 1, 1));
     light.balls = {.ranges = {{.first = 0, .count = 2, .color = {1, 0, 0}}}, .radii = {0.1f, 0.1f}};
     light.marks = light.balls;

@@ -13,17 +13,17 @@ namespace {
 // A scene with layers, whose color map has its range from the start.
 struct LayerShot : SceneShot {
     LayerShot(const sim::Scene& scene, const Layers& on, const Quality& quality = quick)
-        : SceneShot(scene, viewOf(scene), quality), layers(on), inspection(test::device(), stage, 1) {
+        : SceneShot(scene, viewOf(scene), quality), layers(on), inspection(test::device(), document, 1) {
         offscreen.prepare(layers);
         inspection.prepare(layers);
     }
     Picture take(float range = 0, const sim::Blade& blade = {}) {
         VkCommandBuffer commands = test::queue().begin();
-        if (stage.steps() == 0) stage.recordReset(commands);
-        if (!blade.from.empty()) stage.recordStep(commands, nullptr, {}, blade);
-        stage.recordSkin(commands);
+        if (document.steps() == 0) document.recordReset(commands);
+        if (!blade.from.empty()) document.recordStep(commands, nullptr, {}, blade);
+        document.recordSkin(commands);
         inspection.record(commands, layers, 0);
-        offscreen.record(commands, camera, stage.simulation(),
+        offscreen.record(commands, camera, document.simulation(),
                          {.layers = layers, .buffers = inspection.buffers(layers, mapRange(range))});
         test::queue().wait(test::queue().submit(commands));
         return offscreen.read();
@@ -80,7 +80,7 @@ TEST(Layers, ColorTheSkinOfACutSheetAsWell) {
         to{{{0.06f, -1, -1}, {0.06f, -1, 1}}};
     LayerShot shot(scene, shown({"strain"}));
     const Picture cut = shot.take(0.1f, {.from = from, .to = to});
-    EXPECT_GT(shot.stage.simulation().status(1).linksCut, 0u);
+    EXPECT_GT(shot.document.simulation().status(1).linksCut, 0u);
     for (const float x : {-0.2f, 0.02f, 0.11f, 0.3f}) {
         const Color color = colorAt(cut, shot.camera, {x, 0, 0.05f});
         EXPECT_GT(color[2], color[0] + 20) << "no strain, and not grey, at " << x;
@@ -107,7 +107,7 @@ TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
         LayerShot shot(scene, layers);
         const Picture expected = shot.take(0.1f, {.from = from, .to = to});
         const VkCommandBuffer commands = test::queue().begin();
-        vk::Commands(test::device(), commands).fill(shot.stage.simulation().skinVertices(), poison);
+        vk::Commands(test::device(), commands).fill(shot.document.simulation().skinVertices(), poison);
         test::queue().wait(test::queue().submit(commands));
         EXPECT_EQ(largestDifference(shot.take(0.1f), expected), 0)
             << "skin " << static_cast<int>(layers.skin()) << (layers.has(layer::wires) ? ", wires" : "")
@@ -127,7 +127,7 @@ struct ShadowTwins {
     }
     void cut(const sim::Blade& blade) {
         for (LayerShot* shot : {&all, &facing}) shot->take(0, blade);
-        EXPECT_EQ(all.stage.simulation().status(1).pieces, 2u);
+        EXPECT_EQ(all.document.simulation().status(1).pieces, 2u);
     }
     // Number of pixels that differ after a step.
     int differing() {

@@ -1,6 +1,6 @@
 // Tests of layers: their names and colors, the tables behind color maps, and the results on the device, under
 // validation.
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/layers/hash_cells.hpp"
 #include "viewer/layers/inspection.hpp"
 #include "viewer/layers/value_maps.hpp"
@@ -157,18 +157,18 @@ TEST(LinkTable, HasEveryLinkAtBothEnds) {
     }
 }
 
-// A stage with a layer's buffers after some steps.
+// A document with a layer's buffers after some steps.
 struct Inspected {
     Inspected(const sim::Scene& scene, const Layers& on, const sim::Settings& settings = {.substeps = 8})
-        : layers(on), stage(test::device(), scene, settings), inspection(test::device(), stage, 1) {
+        : layers(on), document(test::device(), scene, settings), inspection(test::device(), document, 1) {
         inspection.prepare(layers);
     }
     void step(int steps, const sim::Blade& blade = {}) {
         VkCommandBuffer commands = test::queue().begin();
-        if (stage.steps() == 0) stage.recordReset(commands);
+        if (document.steps() == 0) document.recordReset(commands);
         for (int i = 0; i < steps; ++i)
-            stage.recordStep(commands, nullptr, {}, i == 0 ? blade : sim::Blade{});
-        stage.recordSkin(commands);
+            document.recordStep(commands, nullptr, {}, i == 0 ? blade : sim::Blade{});
+        document.recordSkin(commands);
         inspection.record(commands, layers, 0);
         test::queue().wait(test::queue().submit(commands));
     }
@@ -177,7 +177,7 @@ struct Inspected {
     MapReading values() const { return inspection.reading(indexOf(layer::colors), 0).values; }
 
     Layers layers;
-    Stage stage;
+    Document document;
     Inspection inspection;
 };
 
@@ -375,8 +375,8 @@ TEST(ContactMarks, AreWhereTwoEdgesCross) {
     Inspected crossed(scene, shown({"contacts"}));
     crossed.step(1);
     EXPECT_EQ(crossed.inspection.part<ContactMarks>(layer::contacts).found(0), 1u);
-    const ContactMarks counter(test::device(), scene, crossed.stage.settings(), crossed.stage.simulation(), 2,
-                               ContactMarks::Room::none);
+    const ContactMarks counter(test::device(), scene, crossed.document.settings(),
+                               crossed.document.simulation(), 2, ContactMarks::Room::none);
     VkCommandBuffer commands = test::queue().begin();
     counter.recordOf(commands, 0, 4);
     counter.recordOf(commands, 1, 5);
@@ -393,7 +393,7 @@ TEST(ContactMarks, CountWhatOneParticleTouches) {
     scene.gravity = {0, 0, 0};
     Inspected heap(scene, {});
     heap.step(2);
-    const ContactMarks counter(test::device(), scene, heap.stage.settings(), heap.stage.simulation(), 3,
+    const ContactMarks counter(test::device(), scene, heap.document.settings(), heap.document.simulation(), 3,
                                ContactMarks::Room::none);
     VkCommandBuffer commands = test::queue().begin();
     for (std::uint32_t particle = 0; particle < 3; ++particle) {

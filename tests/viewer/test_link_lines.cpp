@@ -1,7 +1,7 @@
 // Tests of links drawn in the colors of their classes: the classes that the solver corrects together, and the
 // drawing on the device, under validation.
+#include "viewer/document/document.hpp"
 #include "viewer/draw/offscreen.hpp"
-#include "viewer/draw/stage.hpp"
 #include "viewer/layers/inspection.hpp"
 #include "viewer/layers/link_lines.hpp"
 
@@ -82,20 +82,20 @@ TEST(LinkClasses, HaveColorsThatNeighboursInTurnTellApart) {
     }
 }
 
-// A stage with its links, ready for drawing.
+// A document with its links, ready for drawing.
 struct Lines {
     explicit Lines(const sim::Scene& scene, sim::Solver solver)
-        : stage(test::device(), scene, {.solver = solver, .substeps = 8}),
-          inspection(test::device(), stage, 1) {
+        : document(test::device(), scene, {.solver = solver, .substeps = 8}),
+          inspection(test::device(), document, 1) {
         inspection.prepare(layers);
         const VkCommandBuffer commands = test::queue().begin();
-        stage.recordReset(commands);
+        document.recordReset(commands);
         test::queue().wait(test::queue().submit(commands));
     }
     void step(const sim::Blade& blade = {}) {
         const VkCommandBuffer commands = test::queue().begin();
-        stage.recordStep(commands, nullptr, {}, blade);
-        stage.recordSkin(commands);
+        document.recordStep(commands, nullptr, {}, blade);
+        document.recordSkin(commands);
         inspection.record(commands, layers, 0);
         test::queue().wait(test::queue().submit(commands));
     }
@@ -108,7 +108,7 @@ struct Lines {
     }
 
     Layers layers = shown({"hidden", "links"});
-    Stage stage;
+    Document document;
     Inspection inspection;
 };
 
@@ -120,7 +120,7 @@ TEST(LinkLines, LeaveOutWhatABladeHasCut) {
         to{{{0.17f, -1, -1}, {0.17f, -1, 1}}};
     lines.step({.from = from, .to = to});
     EXPECT_GT(lines.leftOut(), 100u);
-    EXPECT_EQ(lines.leftOut(), lines.stage.simulation().status(lines.stage.steps()).linksCutInAll);
+    EXPECT_EQ(lines.leftOut(), lines.document.simulation().status(lines.document.steps()).linksCutInAll);
 }
 
 // A cut across a sheet that resists folding, where one additional link spans a node.
@@ -174,7 +174,7 @@ TEST(LinkLines, AreDrawnInTheColorsOfTheirClasses) {
     }
     Lines lines(scene, sim::Solver::gaussSeidel);
     Camera camera;
-    camera = framing(camera, stageBounds(scene), 1.6f);
+    camera = framing(camera, sceneBounds(scene), 1.6f);
     Offscreen offscreen(test::device(), {640, 400}, lightFor(scene, camera),
                         {.shadowSize = 512,
                          .floorSize = 256,
@@ -184,8 +184,8 @@ TEST(LinkLines, AreDrawnInTheColorsOfTheirClasses) {
     const auto take = [&](const Overlay& overlay) {
         offscreen.prepare(overlay.layers);
         const VkCommandBuffer commands = test::queue().begin();
-        lines.stage.recordSkin(commands);
-        offscreen.record(commands, camera, lines.stage.simulation(), overlay);
+        lines.document.recordSkin(commands);
+        offscreen.record(commands, camera, lines.document.simulation(), overlay);
         test::queue().wait(test::queue().submit(commands));
         return offscreen.read();
     };

@@ -1,6 +1,6 @@
 // Tests of panels drawn over a picture, under core, synchronisation and queue-submit validation.
+#include "viewer/document/document.hpp"
 #include "viewer/draw/offscreen.hpp"
-#include "viewer/draw/stage.hpp"
 #include "viewer/panels/panels.hpp"
 
 #include "sinew/bodies.hpp"
@@ -28,7 +28,7 @@ sim::Scene ball() {
 // A scene below panels, drawn with or without them.
 struct Table {
     Table()
-        : scene(ball()), camera(framing({}, stageBounds(scene), 1.9f)), stage(test::device(), scene, {}),
+        : scene(ball()), camera(framing({}, sceneBounds(scene), 1.9f)), document(test::device(), scene, {}),
           offscreen(test::device(), extent, lightFor(scene, camera), quick),
           painter(test::device(), VK_FORMAT_R8G8B8A8_SRGB, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, 2) {
         painter.setAtlas(panels.atlas());
@@ -52,9 +52,9 @@ struct Table {
 
     Picture picture(bool withPanels, std::uint32_t slot) {
         VkCommandBuffer commands = test::queue().begin();
-        stage.recordReset(commands);
-        stage.recordSkin(commands);
-        offscreen.recordPicture(commands, camera, stage.simulation());
+        document.recordReset(commands);
+        document.recordSkin(commands);
+        offscreen.recordPicture(commands, camera, document.simulation());
         if (withPanels) painter.record(commands, slot, 0, panels.drawn(), which);
         offscreen.recordCopy(commands);
         test::queue().wait(test::queue().submit(commands));
@@ -63,7 +63,7 @@ struct Table {
 
     sim::Scene scene;
     Camera camera;
-    Stage stage;
+    Document document;
     Offscreen offscreen;
     Panels panels{1};
     PanelPainter painter;

@@ -39,7 +39,7 @@ std::vector<Ray> raysFromInside(const Box& box, std::size_t count) {
 
 Box boundsOf(const Picked& picked) {
     Box box;
-    for (const auto& x : test::queue().download<sim::layout::vec4>(picked.stage.simulation().positions()))
+    for (const auto& x : test::queue().download<sim::layout::vec4>(picked.document.simulation().positions()))
         box.extend(Vector3(x.x, x.y, x.z));
     return box;
 }
@@ -107,10 +107,10 @@ sim::Scene organ(float away, std::uint32_t resolution) {
 TEST(Picker, MeetsAMeshLikeTheHostBeforeAndAfterItIsCut) {
     Picked picked(organ(3, 14));
     picked.step(12);
-    ASSERT_TRUE(picked.stage.simulation().drawnSkins().areWhole);
+    ASSERT_TRUE(picked.document.simulation().drawnSkins().areWhole);
     expectAsOnHost(picked, 100);
     picked.step(1, blade);
-    ASSERT_FALSE(picked.stage.simulation().drawnSkins().areWhole);
+    ASSERT_FALSE(picked.document.simulation().drawnSkins().areWhole);
     expectAsOnHost(picked, 100);
     picked.step(8);
     expectAsOnHost(picked, 100);
@@ -132,7 +132,8 @@ TEST(Picker, MeetsTheInsideThatACutHasLaidOpen) {
     picked.step(1, blade);
     picked.step(8);
     const Vector3 middle = boundsOf(picked).center();
-    const auto positions = test::queue().download<sim::layout::vec4>(picked.stage.simulation().positions());
+    const auto positions =
+        test::queue().download<sim::layout::vec4>(picked.document.simulation().positions());
     std::vector<Ray> rays;
     for (float y = -0.2f; y < 0.21f; y += 0.02f)
         for (float z = -0.2f; z < 0.21f; z += 0.02f)
@@ -193,7 +194,7 @@ TEST(Picker, MeetsACutSheetLikeTheHost) {
     Picked picked(scene);
     picked.step(2, blade);
     picked.step(6);
-    EXPECT_GT(picked.stage.simulation().status(picked.stage.steps()).linksCutInAll, 10u);
+    EXPECT_GT(picked.document.simulation().status(picked.document.steps()).linksCutInAll, 10u);
     expectAsOnHost(picked, 60);
 }
 
@@ -211,7 +212,7 @@ TEST(Picker, LeavesOutRemovedFragmentsLikeTheHost) {
             constexpr std::array<sim::Vec3, 2> from{{{0.15f, -3, -3}, {0.15f, 3, -3}}},
                 to{{{0.15f, -3, 3}, {0.15f, 3, 3}}};
             picked.step(3, {.from = from, .to = to});
-            const sim::Status status = picked.stage.simulation().status(picked.stage.steps());
+            const sim::Status status = picked.document.simulation().status(picked.document.steps());
             EXPECT_EQ(status.debrisParticles, debris == 60 ? 50u : 0u);
             expectAsOnHost(picked, 60);
         }

@@ -264,11 +264,11 @@ TEST(Picture, HasTheShadowOfABodyThatWasLiftedTowardsTheLight) {
     const auto lifted = [&](float height, const Quality& quality) {
         const sim::Scene scene = block(height, true);
         SceneShot shot(opened, camera, quality);
-        Stage stage(test::device(), scene, {});
+        Document document(test::device(), scene, {});
         const VkCommandBuffer commands = test::queue().begin();
-        stage.recordReset(commands);
-        stage.recordSkin(commands);
-        shot.offscreen.record(commands, camera, stage.simulation(), {});
+        document.recordReset(commands);
+        document.recordSkin(commands);
+        shot.offscreen.record(commands, camera, document.simulation(), {});
         test::queue().wait(test::queue().submit(commands));
         return shot.offscreen.read();
     };
@@ -335,19 +335,20 @@ TEST(Picture, OfASceneWithoutSkinsIsAnEmptyStage) {
 
 TEST(StateProbe, FindsTheBodyWhereItIsNow) {
     const sim::Scene scene = block(0.5f, true);
-    Stage stage(test::device(), scene, {});
-    StateProbe probe(test::device(), stage.scene(), stage.settings(), stage.simulation());
+    Document document(test::device(), scene, {});
+    StateProbe probe(test::device(), document.scene(), document.settings(), document.simulation());
     VkCommandBuffer commands = test::queue().begin();
-    stage.recordReset(commands);
-    for (int i = 0; i < 4; ++i) stage.recordStep(commands);
-    stage.recordSkin(commands);
+    document.recordReset(commands);
+    for (int i = 0; i < 4; ++i) document.recordStep(commands);
+    document.recordSkin(commands);
     probe.record(commands);
     test::queue().wait(test::queue().submit(commands));
     const float t = 4.0f / 60, fallen = 0.5f - 0.5f * 9.81f * t * t;
     EXPECT_NEAR(probe.bounds().min().y(), fallen, 2e-3f);
     EXPECT_NEAR(probe.bounds().sizes().y(), 0.4f, 1e-3f);
     EXPECT_EQ(probe.positions().size(), scene.particles.size());
-    const auto vertices = test::queue().download<sim::layout::SkinVertex>(stage.simulation().skinVertices());
+    const auto vertices =
+        test::queue().download<sim::layout::SkinVertex>(document.simulation().skinVertices());
     ASSERT_EQ(vertices.size(), scene.skins[0].vertexCount());
     float lowest = 1;
     for (const auto& vertex : vertices) lowest = std::min(lowest, vertex.position.y);
@@ -368,8 +369,8 @@ TEST(Picture, ShowsTheHandAndItsRope) {
     }
 }
 
-std::uint32_t sleepers(const Stage& stage) {
-    return stage.simulation().status(stage.steps()).sleeping;
+std::uint32_t sleepers(const Document& document) {
+    return document.simulation().status(document.steps()).sleeping;
 }
 
 // A heap is drawn paler while all of it sleeps.
@@ -378,27 +379,27 @@ TEST(Picture, ShowsWhatSleepsPaler) {
     sim::Settings settings{.substeps = 16, .sleeps = true};
     scene.damping = 20;
     const Camera camera = viewOf(scene);
-    StageLight light = lightFor(scene, camera);
+    SceneLight light = lightFor(scene, camera);
     std::array<Color, 2> colors;
     for (const bool isShown : {false, true}) {
         light.showsSleep = isShown;
-        Stage stage(test::device(), scene, settings);
+        Document document(test::device(), scene, settings);
         Offscreen offscreen(test::device(), extent, light, quick);
-        for (int s = 0; s < 300 && (s == 0 || sleepers(stage) == 0); ++s) {
+        for (int s = 0; s < 300 && (s == 0 || sleepers(document) == 0); ++s) {
             VkCommandBuffer commands = test::queue().begin();
-            if (s == 0) stage.recordReset(commands);
-            stage.recordStep(commands);
-            stage.recordSkin(commands);
-            offscreen.record(commands, camera, stage.simulation());
+            if (s == 0) document.recordReset(commands);
+            document.recordStep(commands);
+            document.recordSkin(commands);
+            offscreen.record(commands, camera, document.simulation());
             test::queue().wait(test::queue().submit(commands));
         }
-        EXPECT_EQ(sleepers(stage), scene.particles.size());
+        EXPECT_EQ(sleepers(document), scene.particles.size());
         colors[isShown] = colorAt(offscreen.read(), camera, {0, 0.2f, 0.2f});
     }
     EXPECT_LT(redness(colors[1]), redness(colors[0]) - 30);
 }
 
-TEST(Stage, NamesBodyParticleAndStepThatBroke) {
+TEST(Document, NamesBodyParticleAndStepThatBroke) {
     sim::Scene scene = block(0.5f, false);
     const auto first = static_cast<std::uint32_t>(scene.particles.size());
     sim::addCloth(scene, {.name = "flag", .size = {2, 2}, .spacing = 0.1f});
@@ -406,12 +407,12 @@ TEST(Stage, NamesBodyParticleAndStepThatBroke) {
     scene.grids.clear();
     scene.particles[first + 2].position = scene.particles[first + 2].velocity = {3.3e38f, 0, 0};
     scene.dt = 0.1f; // overflows float in the first step
-    Stage stage(test::device(), scene, {});
+    Document document(test::device(), scene, {});
     VkCommandBuffer commands = test::queue().begin();
-    stage.recordReset(commands);
-    for (int i = 0; i < 2; ++i) stage.recordStep(commands);
+    document.recordReset(commands);
+    for (int i = 0; i < 2; ++i) document.recordStep(commands);
     test::queue().wait(test::queue().submit(commands));
-    const std::optional<Divergence> divergence = stage.check(1);
+    const std::optional<Divergence> divergence = document.check(1);
     ASSERT_TRUE(divergence);
     EXPECT_EQ(divergence->firstParticle, first + 2);
     EXPECT_EQ(divergence->particles, 1u);

@@ -1,7 +1,7 @@
 // Tests of pins: pinned particles stay in place while the rest falls, and removed pins release them.
 #include "played.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/draw/offscreen.hpp"
-#include "viewer/draw/stage.hpp"
 #include "viewer/hands/inspector.hpp"
 #include "viewer/hands/pins.hpp"
 #include "viewer/hands/state_probe.hpp"
@@ -53,20 +53,20 @@ TEST(Pins, AreTakenOutFromTheFront) {
 TEST(Pins, HoldABodyAgainstItsWeight) {
     sim::Scene scene;
     sim::addLattice(scene, {.origin = {0, 1, 0}, .cells = {3, 3, 3}, .spacing = 0.1f, .youngModulus = 2e4f});
-    Stage stage(test::device(), scene, {.substeps = 16, .grabs = sim::ranges::mostGrabs});
+    Document document(test::device(), scene, {.substeps = 16, .grabs = sim::ranges::mostGrabs});
     const auto corner = static_cast<std::uint32_t>(scene.particles.size() - 1);
     const sim::Vec3& x = scene.particles[corner].position;
     const Vector3 at(x.x, x.y, x.z);
     Pins pins;
     pins.add(handAt(corner, at), 0.16f);
-    StateProbe probe(test::device(), stage.scene(), stage.settings(), stage.simulation());
+    StateProbe probe(test::device(), document.scene(), document.settings(), document.simulation());
     std::array<sim::Grab, sim::ranges::mostGrabs> grabs;
     const auto step = [&](int steps) {
         grabs[0] = emptyHand();
         std::ranges::copy(pins.grabs(), grabs.begin() + 1);
         VkCommandBuffer commands = test::queue().begin();
-        if (stage.steps() == 0) stage.recordReset(commands);
-        for (int i = 0; i < steps; ++i) stage.recordStep(commands, nullptr, grabs);
+        if (document.steps() == 0) document.recordReset(commands);
+        for (int i = 0; i < steps; ++i) document.recordStep(commands, nullptr, grabs);
         probe.record(commands);
         test::queue().wait(test::queue().submit(commands));
         const sim::layout::vec4& now = probe.positions()[corner];
@@ -102,7 +102,7 @@ std::vector<std::uint32_t> markedIn(const BallList& marks) {
 }
 
 TEST(HeldMarks, AreThereForEachHeldParticleAndNoOther) {
-    const Opening opening = openText(heldFront);
+    const OpenedScene opening = openText(heldFront);
     ASSERT_EQ(opening.loaded.holds.size(), 1u);
     EXPECT_EQ(opening.loaded.holds[0].particles.size(), 16u);
     EXPECT_EQ(markedIn(opening.light.marks), opening.loaded.holds[0].particles);
@@ -131,8 +131,8 @@ Blue blueIn(Scene& scene, int steps) {
     Offscreen offscreen(test::device(), {320, 200}, scene.opening.light, reducedQuality());
     scene.run([&](VkCommandBuffer commands) {
         for (int i = 0; i < steps; ++i) scene.step(commands);
-        scene.stage.recordSkin(commands);
-        offscreen.record(commands, scene.controller.camera, scene.stage.simulation());
+        scene.document.recordSkin(commands);
+        offscreen.record(commands, scene.controller.camera, scene.document.simulation());
     });
     const Picture picture = offscreen.read();
     Blue blue;
@@ -167,11 +167,11 @@ TEST(HeldParticle, SaysTheNameOfItsHold) {
 
 TEST(HeldParticle, IsFoundByTheInspectorWithItsHold) {
     Played played(heldFront);
-    Inspector inspector(played.stage, played.opening.loaded.holds, 1);
+    Inspector inspector(played.document, played.opening.loaded.holds, 1);
     inspector.toggle();
     const auto under = [&](const Vector2& at) {
         played.run([&](VkCommandBuffer commands) {
-            played.stage.recordSkin(commands);
+            played.document.recordSkin(commands);
             const Ray ray = rayThrough(played.controller.camera, at);
             inspector.record(commands, 0, ray, nullptr);
             played.probe.record(commands);
@@ -201,7 +201,7 @@ TEST(HeldParticle, StaysHeldAfterACutAndItsUndo) {
     const auto largestMove = [&] {
         float largest = 0;
         for (const std::uint32_t i : held) {
-            const sim::Vec3& from = played.stage.scene().particles[i].position;
+            const sim::Vec3& from = played.document.scene().particles[i].position;
             const sim::layout::vec4& now = played.probe.positions()[i];
             largest = std::max(largest, std::hypot(now.x - from.x, now.y - from.y, now.z - from.z));
         }
@@ -212,11 +212,11 @@ TEST(HeldParticle, StaysHeldAfterACutAndItsUndo) {
     played.dragFrom({-0.5f, 0.1f}, {1, 0}, 6);
     played.pressAt({0.5f, 0.1f}, false);
     played.turn({}, 10);
-    ASSERT_EQ(played.stage.simulation().status(played.stage.steps()).pieces, 2u);
+    ASSERT_EQ(played.document.simulation().status(played.document.steps()).pieces, 2u);
     EXPECT_EQ(largestMove(), 0) << "cut";
     played.turn({.actions = {Action::undo}}, 0);
     played.turn({}, 20);
-    EXPECT_EQ(played.stage.simulation().status(played.stage.steps()).pieces, 1u);
+    EXPECT_EQ(played.document.simulation().status(played.document.steps()).pieces, 1u);
     EXPECT_EQ(largestMove(), 0) << "undone";
 }
 

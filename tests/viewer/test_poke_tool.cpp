@@ -1,7 +1,7 @@
 // Tests of the pointer's sphere (poke): its path, without a device, its push on a body below it, and its
 // picture.
+#include "viewer/document/document.hpp"
 #include "viewer/draw/offscreen.hpp"
-#include "viewer/draw/stage.hpp"
 #include "viewer/hands/poke_tool.hpp"
 #include "viewer/hands/state_probe.hpp"
 
@@ -105,21 +105,21 @@ TEST(PokeTool, PushesABlockAndIsSeen) {
         .origin = {-0.2f, -0.2f, -0.2f}, .cells = {4, 4, 4}, .spacing = 0.1f, .youngModulus = 1e5f};
     sim::addLatticeSkin(scene, lattice, sim::addLattice(scene, lattice), {0.10f, 0.15f, 0.70f});
     scene.gravity = {0, 0, 0};
-    Stage stage(test::device(), scene, {.substeps = 16, .hostColliders = 1});
-    StateProbe probe(test::device(), stage.scene(), stage.settings(), stage.simulation());
+    Document document(test::device(), scene, {.substeps = 16, .hostColliders = 1});
+    StateProbe probe(test::device(), document.scene(), document.settings(), document.simulation());
     Offscreen offscreen(test::device(), {160, 100}, lightFor(scene, fromFront), {});
     PokeTool tool = takenUp();
     const auto run = [&](int steps) {
         VkCommandBuffer commands = test::queue().begin();
-        if (stage.steps() == 0) stage.recordReset(commands);
+        if (document.steps() == 0) document.recordReset(commands);
         for (int i = 0; i < steps; ++i) {
             const std::optional<sim::HostCollider> poke = tool.poke();
-            stage.recordStep(commands, nullptr, {}, {},
-                             poke ? std::span(&*poke, 1) : std::span<const sim::HostCollider>());
+            document.recordStep(commands, nullptr, {}, {},
+                                poke ? std::span(&*poke, 1) : std::span<const sim::HostCollider>());
         }
-        stage.recordSkin(commands);
+        document.recordSkin(commands);
         probe.record(commands);
-        offscreen.record(commands, fromFront, stage.simulation(), {});
+        offscreen.record(commands, fromFront, document.simulation(), {});
         test::queue().wait(test::queue().submit(commands));
         return middleOf(offscreen.read());
     };
@@ -135,7 +135,7 @@ TEST(PokeTool, PushesABlockAndIsSeen) {
     EXPECT_GT(probe.bounds().min().x(), -0.15f) << "it went along";
     tool.release();
     run(1);
-    EXPECT_FALSE(stage.simulation().hostColliders()[0].isThere);
+    EXPECT_FALSE(document.simulation().hostColliders()[0].isThere);
 }
 
 } // namespace

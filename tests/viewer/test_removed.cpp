@@ -1,7 +1,7 @@
 // Tests that removed fragments are invisible everywhere: balls, lines, marks, values, picking and the lines
 // of grabs, under validation.
+#include "viewer/document/document.hpp"
 #include "viewer/draw/offscreen.hpp"
-#include "viewer/draw/stage.hpp"
 #include "viewer/hands/picker.hpp"
 #include "viewer/hands/state_probe.hpp"
 #include "viewer/layers/inspection.hpp"
@@ -60,15 +60,15 @@ constexpr Sweep halfCut{{{{{0.17f, 1, -1}, {0.17f, 1, 1}}}, {{{0.17f, -1, -1}, {
 struct Cut {
     explicit Cut(const sim::Scene& scene_, const Layers& on = {}, const Sweep& sweep = cornerCut,
                  int more = 1)
-        : layers(on), scene(scene_), stage(test::device(), scene, {.substeps = 8}),
-          inspection(test::device(), stage, 1),
-          probe(test::device(), scene, stage.settings(), stage.simulation()) {
+        : layers(on), scene(scene_), document(test::device(), scene, {.substeps = 8}),
+          inspection(test::device(), document, 1),
+          probe(test::device(), scene, document.settings(), document.simulation()) {
         inspection.prepare(layers);
-        run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+        run([&](VkCommandBuffer commands) { document.recordReset(commands); });
         run([&](VkCommandBuffer commands) {
-            stage.recordStep(commands, nullptr, {}, sim::Blade{.from = sweep[0], .to = sweep[1]});
-            for (int i = 0; i < more; ++i) stage.recordStep(commands, nullptr, {}, {});
-            stage.recordSkin(commands);
+            document.recordStep(commands, nullptr, {}, sim::Blade{.from = sweep[0], .to = sweep[1]});
+            for (int i = 0; i < more; ++i) document.recordStep(commands, nullptr, {}, {});
+            document.recordSkin(commands);
             inspection.record(commands, layers, 0);
             probe.record(commands);
         });
@@ -80,15 +80,15 @@ struct Cut {
     }
     std::uint32_t contacts() const { return inspection.part<ContactMarks>(layer::contacts).found(0); }
     std::optional<Pick> at(const Ray& ray) {
-        const StageLight light{.isClosed = closedSkins(scene), .balls = ballsOf(scene)};
-        const Picker picker(test::device(), stage, light, 1);
+        const SceneLight light{.isClosed = closedSkins(scene), .balls = ballsOf(scene)};
+        const Picker picker(test::device(), document, light, 1);
         run([&](VkCommandBuffer commands) { picker.record(commands, 0, {Picker::Cast{ray}}); });
         return picker.answer(0, 0);
     }
 
     Layers layers;
     sim::Scene scene;
-    Stage stage;
+    Document document;
     Inspection inspection;
     StateProbe probe;
 };
@@ -98,8 +98,8 @@ bool isOfCorner(std::uint32_t particle) {
 }
 
 TEST(Removed, IsCutOffInTheSceneOfTheseTests) {
-    EXPECT_EQ(Cut(block(0)).stage.simulation().status(2).pieces, 2u);
-    const sim::Status status = Cut(block(5)).stage.simulation().status(2);
+    EXPECT_EQ(Cut(block(0)).document.simulation().status(2).pieces, 2u);
+    const sim::Status status = Cut(block(5)).document.simulation().status(2);
     EXPECT_EQ(status.pieces, 1u);
     EXPECT_EQ(status.debrisParticles, 4u);
 }
@@ -165,7 +165,7 @@ TEST(Removed, IsNotInThePicture) {
 
 struct Photo {
     explicit Photo(Cut& taken) : cut(taken) {
-        camera = framing({}, stageBounds(cut.scene), 1.6f);
+        camera = framing({}, sceneBounds(cut.scene), 1.6f);
         offscreen.emplace(test::device(), VkExtent2D{320, 200}, lightFor(cut.scene, camera),
                           Quality{.shadowSize = 256,
                                   .floorSize = 128,
@@ -178,8 +178,8 @@ struct Photo {
         overlay.buffers = cut.inspection.buffers(cut.layers);
         offscreen->prepare(overlay.layers);
         cut.run([&](VkCommandBuffer commands) {
-            cut.stage.recordSkin(commands);
-            offscreen->record(commands, camera, cut.stage.simulation(), overlay);
+            cut.document.recordSkin(commands);
+            offscreen->record(commands, camera, cut.document.simulation(), overlay);
         });
         return offscreen->read();
     }

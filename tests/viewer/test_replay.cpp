@@ -17,7 +17,7 @@ void play(Played& played) {
     played.turn({.actions = {Action::pin}, .pointer = {0.2f, -0.2f}});
     EXPECT_EQ(played.tools.pins(), 1u);
     played.turn({.drags = {{Action::orbit, {0.05f, 0.02f}}}}, 6);
-    played.tools.pull(played.stage, 3);
+    played.tools.pull(played.document, 3);
     played.turn({.actions = {Action::blade}});
     played.dragFrom({0.1f, -0.45f}, {0.05f, 0.9f}, 5);
     played.pressAt({0.15f, 0.45f}, false);
@@ -31,10 +31,10 @@ void play(Played& played) {
 
 // Changes the material in the thread that prepares it, as a window does.
 void turnMaterial(Played& played, const sim::Material& material) {
-    played.stage.turn(material);
-    Stage::Turn turn = Stage::Turn::none;
-    while (turn == Stage::Turn::none) turn = played.stage.takeTurn(false);
-    EXPECT_EQ(turn, Stage::Turn::ready);
+    played.document.turn(material);
+    Document::Turn turn = Document::Turn::none;
+    while (turn == Document::Turn::none) turn = played.document.takeTurn(false);
+    EXPECT_EQ(turn, Document::Turn::ready);
 }
 
 // Softens the block, cuts it, undoes the cut, and stiffens it; the last request counts.
@@ -42,15 +42,15 @@ void soften(Played& played) {
     played.turn({}, 10);
     turnMaterial(played, {.stiffness = 0.2f, .damping = 1.5f});
     played.turn({}, 1);
-    EXPECT_EQ(played.stage.material().stiffness, 0.2f);
+    EXPECT_EQ(played.document.material().stiffness, 0.2f);
     played.turn({}, 9);
     played.turn({.actions = {Action::blade}});
     played.dragFrom({0.1f, -0.45f}, {0.05f, 0.9f}, 5);
     played.pressAt({0.15f, 0.45f}, false);
-    played.stage.turn({.stiffness = 9});
-    played.stage.turn({.stiffness = 2});
-    for (int i = 0; i < 1000 && played.stage.material().stiffness != 2; ++i) {
-        played.stage.takeTurn(false);
+    played.document.turn({.stiffness = 9});
+    played.document.turn({.stiffness = 2});
+    for (int i = 0; i < 1000 && played.document.material().stiffness != 2; ++i) {
+        played.document.takeTurn(false);
         played.turn({}, 1);
     }
     played.turn({}, 5);
@@ -86,11 +86,11 @@ void expectTheSameBitsOf(void (*hands)(Played&)) {
     EXPECT_EQ(read.events, file.events);
     EXPECT_EQ(read.hash, file.hash);
     EXPECT_EQ(read.scene, file.scene);
-    EXPECT_EQ(read.steps(), played.stage.steps());
+    EXPECT_EQ(read.steps(), played.document.steps());
     Scene again;
     Replay replay(read);
     replayAll(again, replay);
-    EXPECT_EQ(again.stage.steps(), played.stage.steps());
+    EXPECT_EQ(again.document.steps(), played.document.steps());
     EXPECT_EQ(again.controller.camera, played.controller.camera);
     EXPECT_EQ(again.hash(), *file.hash);
     EXPECT_EQ(again.tools.log().events(), file.events) << "a replay can be saved as what it was made of";
@@ -109,15 +109,15 @@ TEST(Replay, OfAMaterialBeginsAtTheReset) {
     turnMaterial(played, {.stiffness = 0.2f, .bodies = {0.5f}});
     played.turn({}, 3);
     played.tools.reset();
-    played.run([&](VkCommandBuffer commands) { played.stage.recordReset(commands); });
+    played.run([&](VkCommandBuffer commands) { played.document.recordReset(commands); });
     played.turn({}, 30);
     Scene again;
     Replay replay(parseInput(toText(played.file()), "test"));
     replayAll(again, replay);
     EXPECT_EQ(again.hash(), played.hash());
-    again.tools.putAway(again.stage); // the replay starts again
+    again.tools.putAway(again.document); // the replay starts again
     again.tools.reset();
-    again.run([&](VkCommandBuffer commands) { again.stage.recordReset(commands); });
+    again.run([&](VkCommandBuffer commands) { again.document.recordReset(commands); });
     Scene untouched;
     for (Scene* scene : {&again, &untouched})
         scene->run([&](VkCommandBuffer commands) {
@@ -137,7 +137,7 @@ TEST(Replay, OfASphereBeginsAtTheReset) {
     played.turn({.actions = {Action::poke}});
     played.turn({.growth = 4});
     played.tools.reset();
-    played.run([&](VkCommandBuffer commands) { played.stage.recordReset(commands); });
+    played.run([&](VkCommandBuffer commands) { played.document.recordReset(commands); });
     played.turn({}, 20);
     const std::uint64_t untouched = played.hash();
     played.dragFrom({-0.35f, -0.1f}, {0.4f, 0}, 8);
@@ -181,26 +181,26 @@ TEST(Replay, OfADepthBeginsAtTheReset) {
     played.tools.setDepth(0.12f);
     played.turn({.actions = {Action::blade}});
     played.tools.reset();
-    played.run([&](VkCommandBuffer commands) { played.stage.recordReset(commands); });
+    played.run([&](VkCommandBuffer commands) { played.document.recordReset(commands); });
     stroke(played);
     Scene again;
     Replay replay(parseInput(toText(played.file()), "test"));
     replayAll(again, replay);
     EXPECT_EQ(again.hash(), played.hash());
     EXPECT_EQ(again.tools.depth(), 0.12f);
-    again.tools.putAway(again.stage);
+    again.tools.putAway(again.document);
     EXPECT_FALSE(again.tools.depth());
 }
 
 // Status of the block after a stroke without gravity.
 sim::Status afterStroke(const std::optional<float>& depth) {
     Played played;
-    played.tools.pull(played.stage, 0);
+    played.tools.pull(played.document, 0);
     played.tools.setDepth(depth);
     played.turn({.actions = {Action::blade}});
     stroke(played);
     EXPECT_FALSE(played.tools.question());
-    return played.stage.simulation().status(played.stage.steps());
+    return played.document.simulation().status(played.document.steps());
 }
 
 TEST(BladeDepth, LeavesWhatLiesDeeperInOnePiece) {
@@ -258,7 +258,7 @@ TEST(Tools, TakeTheBladeBackWhileItsStrokeWaitsForAStep) {
     EXPECT_TRUE(scene.tools.lendBlade(false, true));
     EXPECT_FALSE(scene.tools.isBladeOn());
     for (int i = 0; i < 6; ++i) scene.turn({});
-    EXPECT_GT(scene.stage.simulation().status(scene.stage.steps() - 1).linksCutInAll, 0u);
+    EXPECT_GT(scene.document.simulation().status(scene.document.steps() - 1).linksCutInAll, 0u);
     InputFile file = scene.file();
     Scene again;
     Replay replay(file);
@@ -268,11 +268,11 @@ TEST(Tools, TakeTheBladeBackWhileItsStrokeWaitsForAStep) {
 
 TEST(Replay, BeginsAtTheReset) {
     Played played;
-    played.tools.pull(played.stage, 3);
+    played.tools.pull(played.document, 3);
     played.turn({.actions = {Action::blade}});
     played.dragFrom({0.1f, -0.45f}, {0, 0.9f}, 2);
     played.tools.reset();
-    played.run([&](VkCommandBuffer commands) { played.stage.recordReset(commands); });
+    played.run([&](VkCommandBuffer commands) { played.document.recordReset(commands); });
     EXPECT_EQ(played.tools.history().undos(), 0u) << "of another time";
     played.dragFrom({0.1f, -0.45f}, {0, 0.9f}, 3); // the blade is still active and gravity is still low
     Scene again;
@@ -285,7 +285,7 @@ TEST(Replay, OfAnotherSceneIsRefused) {
     Scene scene;
     Replay replay(parseInput("sinew input 1\npress 0 0\nhand 100000 0 0 0 0 0 0 0.1\nsteps 1\n", "test"));
     try {
-        replay.next(scene.tools, scene.controller.camera, scene.stage);
+        replay.next(scene.tools, scene.controller.camera, scene.document);
         FAIL() << "accepted";
     } catch (const app::Failure& failure) {
         EXPECT_EQ(failure.code(), app::badInput);
@@ -407,7 +407,7 @@ TEST(StepBack, LeadsToTheSameBitsBackAndForwards) {
     EXPECT_EQ(walk.backAndHash(1), hashes[29]);
     EXPECT_EQ(walk.backAndHash(1), hashes[28]);
     EXPECT_EQ(walk.backAndHash(7), hashes[21]);
-    EXPECT_EQ(walk.stage.played(), 21u);
+    EXPECT_EQ(walk.document.played(), 21u);
     for (std::size_t step = 22; step <= 30; ++step) {
         walk.turn({});
         EXPECT_EQ(walk.hash(), hashes[step]) << step;
@@ -426,22 +426,22 @@ TEST(StepBack, BringsBackWhatWasCutAndForgetsTheWayToIt) {
     walk.dragFrom({0, -0.4f}, {0, 0.8f}, 6);
     walk.pressAt({0, 0.4f}, false);
     ASSERT_EQ(walk.tools.history().undos(), 1u);
-    ASSERT_GT(walk.stage.simulation().status(walk.stage.steps()).linksCutInAll, 0u);
-    const auto steps = static_cast<int>(walk.stage.played()) - 5;
+    ASSERT_GT(walk.document.simulation().status(walk.document.steps()).linksCutInAll, 0u);
+    const auto steps = static_cast<int>(walk.document.played()) - 5;
     EXPECT_EQ(walk.backAndHash(steps), before);
     EXPECT_EQ(walk.tools.history().undos(), 0u) << "there is no cut yet";
     walk.tools.act(Action::blade);
     walk.turn({});
-    EXPECT_EQ(walk.stage.simulation().status(walk.stage.steps()).linksCutInAll, 0u);
+    EXPECT_EQ(walk.document.simulation().status(walk.document.steps()).linksCutInAll, 0u);
 }
 
 TEST(StepBack, KeepsTheNewestAsFarAsThereIsRoom) {
     Walk walk;
     for (std::size_t turn = 0; turn < History::mostSteps / 10 + 3; ++turn) walk.turn({}, 10);
     EXPECT_EQ(walk.tools.stepsBack(), History::mostSteps);
-    const std::uint64_t played = walk.stage.played();
+    const std::uint64_t played = walk.document.played();
     walk.backAndHash(100000);
-    EXPECT_EQ(walk.stage.played(), played - History::mostSteps);
+    EXPECT_EQ(walk.document.played(), played - History::mostSteps);
 }
 
 // The history keeps as many states as its capacity, and undone steps take none.
@@ -451,13 +451,13 @@ TEST(StepBack, KeepsAsManyAsThereIsRoomFor) {
     History exact(test::device(), room), spare(test::device(), room);
     for (int turn = 0; turn < 20; ++turn)
         walk.run([&](VkCommandBuffer commands) {
-            exact.recordBefore(commands, walk.stage);
-            spare.recordBefore(commands, walk.stage, more);
+            exact.recordBefore(commands, walk.document);
+            spare.recordBefore(commands, walk.document, more);
             walk.step(commands);
         });
     EXPECT_EQ(exact.undos(), room);
     EXPECT_EQ(spare.undos(), room + more);
-    spare.forgetFrom(walk.stage.played() - more);
+    spare.forgetFrom(walk.document.played() - more);
     EXPECT_EQ(spare.undos(), room);
 }
 
@@ -477,24 +477,24 @@ room = 64
 )";
     constexpr std::uint64_t steps = 32;
     Played plain(falling), calm(falling);
-    calm.stage.setRepeats(true);
-    while (plain.stage.steps() < steps) plain.turn({}, 2);
+    calm.document.setRepeats(true);
+    while (plain.document.steps() < steps) plain.turn({}, 2);
     std::uint64_t takenBack = 0;
-    while (calm.stage.steps() < steps) {
+    while (calm.document.steps() < steps) {
         calm.turn({}, 2);
-        const std::uint64_t newest = calm.stage.steps();
+        const std::uint64_t newest = calm.document.steps();
         for (const std::uint64_t step : {newest - 1, newest}) {
-            if (!calm.stage.lacksLists(step)) continue;
-            calm.stage.goBackBefore(step);
-            calm.tools.takeBack(calm.stage, {}, newest - calm.stage.steps());
-            takenBack += newest - calm.stage.steps();
+            if (!calm.document.lacksLists(step)) continue;
+            calm.document.goBackBefore(step);
+            calm.tools.takeBack(calm.document, {}, newest - calm.document.steps());
+            takenBack += newest - calm.document.steps();
             break;
         }
     }
     ASSERT_GT(takenBack, 0u);
-    const auto extra = static_cast<int>(calm.stage.steps() - steps); // one may still be undone
+    const auto extra = static_cast<int>(calm.document.steps() - steps); // one may still be undone
     plain.turn({}, extra);
-    EXPECT_EQ(calm.stage.played(), plain.stage.played());
+    EXPECT_EQ(calm.document.played(), plain.document.played());
     EXPECT_EQ(calm.hash(), plain.hash());
     EXPECT_EQ(calm.file().steps(), plain.file().steps());
     EXPECT_EQ(calm.tools.stepsBack(), plain.tools.stepsBack());
@@ -502,7 +502,7 @@ room = 64
         for (int i = 0; i < 20; ++i) one->tools.act(Action::stepBack);
         one->turn({}, 0);
     }
-    EXPECT_EQ(calm.stage.played(), plain.stage.played());
+    EXPECT_EQ(calm.document.played(), plain.document.played());
     EXPECT_EQ(calm.hash(), plain.hash());
 }
 

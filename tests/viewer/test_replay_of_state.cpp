@@ -19,26 +19,26 @@ struct ReplayOfState : testing::Test {
         std::filesystem::remove(state);
     }
     void save(Played& played) {
-        app::SavedRun run = played.stage.save(test::device(), test::queue());
+        app::SavedRun run = played.document.save(test::device(), test::queue());
         run.scene = scene.string();
         app::writeRun(state, run);
     }
-    // The log as Show::inputFile makes it, from the text that F8 writes.
+    // The log as ScenePlayer::inputFile makes it, from the text that F8 writes.
     InputFile log(Played& played) {
         InputFile file = played.file();
         file.scene = scene.string();
         file.from = SavedOrigin{state.string(), played.opening.run->fileHash};
-        file.room = played.stage.contactRoom().room;
-        file.surface = played.stage.surfaceRoom().needed;
+        file.room = played.document.contactRoom().room;
+        file.surface = played.document.surfaceRoom().needed;
         return parseInput(toText(file), "test");
     }
     void expectTheSameBitsOf(Played& played) {
         const InputFile file = log(played);
         Scene again(state, file);
-        again.stage.widen(roomOf(file), test::queue());
+        again.document.widen(roomOf(file), test::queue());
         Replay replay(file);
         replayAll(again, replay);
-        EXPECT_EQ(again.stage.steps(), played.stage.steps());
+        EXPECT_EQ(again.document.steps(), played.document.steps());
         EXPECT_EQ(again.hash(), *file.hash);
         hasTheSameLog = again.tools.log().events() == file.events;
     }
@@ -52,8 +52,8 @@ TEST_F(ReplayOfState, LeadsToTheSameBits) {
     write(text);
     Played played(scene);
     played.turn({}, 5);
-    played.tools.turn(played.stage, {.stiffness = 0.5f});
-    played.tools.pull(played.stage, 5);
+    played.tools.turn(played.document, {.stiffness = 0.5f});
+    played.tools.pull(played.document, 5);
     played.turn({.actions = {Action::blade}});
     played.dragFrom({0.1f, -0.45f}, {0.05f, 0.9f}, 5);
     played.pressAt({0.15f, 0.45f}, false);
@@ -61,7 +61,7 @@ TEST_F(ReplayOfState, LeadsToTheSameBits) {
     save(played);
     Played on(state);
     EXPECT_EQ(on.hash(), played.hash());
-    EXPECT_EQ(on.stage.material().stiffness, 0.5f);
+    EXPECT_EQ(on.document.material().stiffness, 0.5f);
     on.turn({}, 3);
     const std::uint64_t untouched = on.hash();
     on.turn({.actions = {Action::blade}});
@@ -69,7 +69,7 @@ TEST_F(ReplayOfState, LeadsToTheSameBits) {
     on.pressAt({0.45f, 0.05f}, false);
     on.turn({.actions = {Action::blade}}, 4);
     on.dragFrom({0, 0.1f}, {0.1f, -0.2f}, 4);
-    on.tools.turn(on.stage, {.stiffness = 2});
+    on.tools.turn(on.document, {.stiffness = 2});
     on.turn({}, 5);
     on.turn({.actions = {Action::undo}}, 3);
     on.turn({.actions = {Action::redo}}, 3);
@@ -82,19 +82,19 @@ TEST_F(ReplayOfState, LeadsToTheSameBits) {
 TEST_F(ReplayOfState, OfOneThatWasResetBeginsWithItsScene) {
     write(text);
     Played played(scene);
-    played.tools.turn(played.stage, {.stiffness = 0.5f});
+    played.tools.turn(played.document, {.stiffness = 0.5f});
     played.turn({}, 5);
     save(played);
     Played on(state);
     on.turn({}, 3);
     on.tools.reset();
-    on.run([&](VkCommandBuffer commands) { on.stage.recordReset(commands); });
+    on.run([&](VkCommandBuffer commands) { on.document.recordReset(commands); });
     on.turn({}, 10);
     Scene again(scene);
     Replay replay(parseInput(toText(on.file()), "test"));
     replayAll(again, replay);
     EXPECT_EQ(again.hash(), on.hash());
-    EXPECT_EQ(again.stage.material().stiffness, 0.5f);
+    EXPECT_EQ(again.document.material().stiffness, 0.5f);
 }
 
 // Balls fall into a heap with capacity for one neighbour; steps that lack capacity are repeated with more.
@@ -105,17 +105,17 @@ TEST_F(ReplayOfState, HasTheRoomThatThereWasInTheEnd) {
     const auto take = [](Played& on, int steps) {
         for (int i = 0; i < steps; ++i) {
             on.run([&](VkCommandBuffer commands) { on.step(commands); });
-            const std::uint64_t step = on.stage.steps();
-            if (on.stage.neededRoom(step) == 0) continue;
-            ASSERT_TRUE(on.stage.makeRoom(step, test::queue(), on.tools.bring()));
-            on.tools.restart(on.stage, {}, 1);
+            const std::uint64_t step = on.document.steps();
+            if (on.document.neededRoom(step) == 0) continue;
+            ASSERT_TRUE(on.document.makeRoom(step, test::queue(), on.tools.bring()));
+            on.tools.restart(on.document, {}, 1);
             --i;
         }
     };
     save(played);
     Played on(state);
     take(on, 40);
-    EXPECT_GT(on.stage.contactRoom().grown, 0u) << "nobody needed more room";
+    EXPECT_GT(on.document.contactRoom().grown, 0u) << "nobody needed more room";
     expectTheSameBitsOf(on);
 }
 

@@ -5,8 +5,8 @@
 #include "sim/core/hash.hpp"
 #include "sim/device/gpu_compile.hpp"
 #include "support/device.hpp"
-#include "viewer/draw/stage.hpp"
-#include "viewer/opening.hpp"
+#include "viewer/document/document.hpp"
+#include "viewer/opened_scene.hpp"
 #include "viewer/replay.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ std::filesystem::path temporary(const std::string& name) {
 }
 
 // Adds grabs and pokes to the settings, as in the window.
-Opening withHands(Opening opening) {
+OpenedScene withHands(OpenedScene opening) {
     app::addRoomForUser(opening.loaded.settings);
     return opening;
 }
@@ -55,12 +55,12 @@ Opening withHands(Opening opening) {
 struct Played {
     explicit Played(const std::filesystem::path& file)
         : opening(withHands(open({.scene = file.string()}, 1.6f))),
-          stage(test::device(), opening.loaded.scene, opening.loaded.settings) {
-        stage.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
+          document(test::device(), opening.loaded.scene, opening.loaded.settings) {
+        document.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
         if (opening.run)
-            stage.load(test::device(), *opening.run, test::queue());
+            document.load(test::device(), *opening.run, test::queue());
         else
-            run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+            run([&](VkCommandBuffer commands) { document.recordReset(commands); });
     }
     template <typename Record> void run(const Record& record) {
         VkCommandBuffer commands = test::queue().begin();
@@ -68,13 +68,13 @@ struct Played {
         test::queue().wait(test::queue().submit(commands));
     }
     void take(int steps) {
-        for (int i = 0; i < steps; ++i) run([&](VkCommandBuffer commands) { stage.recordStep(commands); });
+        for (int i = 0; i < steps; ++i) run([&](VkCommandBuffer commands) { document.recordStep(commands); });
     }
-    std::uint64_t hash() { return stateHash(test::device(), stage, test::queue()); }
-    sim::Status status() { return stage.simulation().status(stage.steps()); }
+    std::uint64_t hash() { return stateHash(test::device(), document, test::queue()); }
+    sim::Status status() { return document.simulation().status(document.steps()); }
 
-    Opening opening;
-    Stage stage;
+    OpenedScene opening;
+    Document document;
 };
 
 struct SavedState : testing::Test {
@@ -84,7 +84,7 @@ struct SavedState : testing::Test {
         std::filesystem::remove(file);
     }
     void save(const Played& played) {
-        app::SavedRun run = played.stage.save(test::device(), test::queue());
+        app::SavedRun run = played.document.save(test::device(), test::queue());
         run.scene = scene.string();
         app::writeRun(file, run);
     }
@@ -108,7 +108,7 @@ TEST_F(SavedState, GoesOnWithTheSameBits) {
         save(played);
         Played again(file);
         EXPECT_EQ(again.hash(), played.hash());
-        EXPECT_EQ(again.stage.played(), played.stage.played());
+        EXPECT_EQ(again.document.played(), played.document.played());
         const std::uint64_t before = played.hash();
         played.take(15);
         again.take(15);
@@ -123,10 +123,10 @@ TEST_F(SavedState, GoesOnWithTheSameBits) {
 // A device of another kind would complete open forms differently, and its simulation would not fit the state.
 TEST_F(SavedState, SaysTheFormsThatTheDeviceHasChosen) {
     Played played(scene);
-    ASSERT_EQ(played.stage.settings().forms.columns, 0u) << "left open";
+    ASSERT_EQ(played.document.settings().forms.columns, 0u) << "left open";
     save(played);
     const sim::Forms forms = app::readRun(file).settings.forms;
-    const sim::Forms chosen = sim::completed(played.stage.settings().forms, sim::kindOf(test::device()));
+    const sim::Forms chosen = sim::completed(played.document.settings().forms, sim::kindOf(test::device()));
     EXPECT_EQ(forms, chosen);
     EXPECT_GT(forms.columns, 0u);
     EXPECT_GT(forms.chunk, 0u);
@@ -135,12 +135,12 @@ TEST_F(SavedState, SaysTheFormsThatTheDeviceHasChosen) {
 TEST_F(SavedState, KeepsWhatTheSceneWasTurnedTo) {
     Played played(scene);
     played.take(5);
-    played.stage.turnNow({.stiffness = 0.4f, .friction = 0.9f});
-    played.stage.setGravity(3.7f);
+    played.document.turnNow({.stiffness = 0.4f, .friction = 0.9f});
+    played.document.setGravity(3.7f);
     played.take(20);
     save(played);
     Played again(file);
-    EXPECT_EQ(again.stage.material(), played.stage.material());
+    EXPECT_EQ(again.document.material(), played.document.material());
     EXPECT_EQ(again.hash(), played.hash());
     played.take(25);
     again.take(25);
@@ -149,7 +149,7 @@ TEST_F(SavedState, KeepsWhatTheSceneWasTurnedTo) {
 
 TEST_F(SavedState, KeepsWhereItWasSeenFrom) {
     const Played played(scene);
-    app::SavedRun run = played.stage.save(test::device(), test::queue());
+    app::SavedRun run = played.document.save(test::device(), test::queue());
     run.scene = scene.string();
     run.view = {.target = {0.1f, -0.2f, 0.3f},
                 .distance = 0.7f,
@@ -158,7 +158,7 @@ TEST_F(SavedState, KeepsWhereItWasSeenFrom) {
                 .fieldOfView = 0.9f};
     app::writeRun(file, run);
     const Camera first = played.opening.camera;
-    const Opening opening = open({.scene = file.string()}, 1.6f);
+    const OpenedScene opening = open({.scene = file.string()}, 1.6f);
     EXPECT_EQ(opening.camera, (Camera{.target = {0.1f, -0.2f, 0.3f},
                                       .distance = 0.7f,
                                       .azimuth = -2,

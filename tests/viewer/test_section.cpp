@@ -38,19 +38,19 @@ sim::Scene sheet() {
 
 struct Shot {
     explicit Shot(const sim::Scene& scene, VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT)
-        : light(lightFor(scene, fromFront)), stage(test::device(), scene, {}),
+        : light(lightFor(scene, fromFront)), document(test::device(), scene, {}),
           offscreen(test::device(), extent, light,
                     {.shadowSize = 256, .floorSize = 64, .shadowTaps = 8, .skyTaps = 8, .samples = samples}),
-          inspection(test::device(), stage, 1) {}
+          inspection(test::device(), document, 1) {}
 
     Picture take(const Camera& camera, const Layers& layers) {
         VkCommandBuffer commands = test::queue().begin();
-        stage.recordReset(commands);
-        stage.recordSkin(commands);
+        document.recordReset(commands);
+        document.recordSkin(commands);
         offscreen.prepare(layers);
         inspection.prepare(layers);
         if (layers.needsBuffers()) inspection.record(commands, layers, 0);
-        offscreen.record(commands, camera, stage.simulation(),
+        offscreen.record(commands, camera, document.simulation(),
                          {.layers = layers, .buffers = inspection.buffers(layers, mapRange(1))});
         test::queue().wait(test::queue().submit(commands));
         Picture picture = offscreen.read();
@@ -60,8 +60,8 @@ struct Shot {
         return picture;
     }
 
-    StageLight light;
-    Stage stage;
+    SceneLight light;
+    Document document;
     Offscreen offscreen;
     Inspection inspection;
     inline static int count = 0;

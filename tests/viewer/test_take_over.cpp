@@ -24,10 +24,10 @@ const std::string falling = changed(changed(block, "cuttable = true\n", ""), "[[
 const std::string jacobi = with("name = \"jacobi\"\nsubsteps = 12", falling);
 const sim::Material damped{.damping = 1.5f}; // `jacobi` has this pass only then
 
-// Takes over like Show::takeOver.
+// Takes over like ScenePlayer::takeOver.
 void takeOver(Played& next, const Played& before) {
-    next.stage.takeOver(before.stage, next.tools.bringOf(before.tools));
-    next.tools.goOn(before.tools, next.stage);
+    next.document.takeOver(before.document, next.tools.bringOf(before.tools));
+    next.tools.goOn(before.tools, next.document);
     next.controller = before.controller;
     next.asked.reset();
 }
@@ -50,10 +50,10 @@ void expectTheSameBitsAgain(Played& played, const std::string& text) {
     Scene again(text);
     Replay replay(read);
     replayAll(again, replay);
-    EXPECT_EQ(again.stage.steps(), played.stage.steps());
-    EXPECT_EQ(again.stage.settings().solver, played.stage.settings().solver);
-    EXPECT_EQ(again.stage.settings().substeps, played.stage.settings().substeps);
-    EXPECT_EQ(again.stage.material(), played.stage.material());
+    EXPECT_EQ(again.document.steps(), played.document.steps());
+    EXPECT_EQ(again.document.settings().solver, played.document.settings().solver);
+    EXPECT_EQ(again.document.settings().substeps, played.document.settings().substeps);
+    EXPECT_EQ(again.document.material(), played.document.material());
     EXPECT_EQ(again.hash(), *file.hash);
     EXPECT_EQ(again.tools.log().events(), file.events);
 }
@@ -61,7 +61,7 @@ void expectTheSameBitsAgain(Played& played, const std::string& text) {
 // Pins the block under a weaker gravity, cuts it through and grabs its upper half.
 void pinCutAndHold(Played& played) {
     played.turn({}, 5);
-    played.tools.pull(played.stage, 3);
+    played.tools.pull(played.document, 3);
     played.dragFrom({0, 0}, {0.1f, -0.1f}, 3);
     played.turn({.actions = {Action::pin}, .pointer = {0.1f, -0.1f}});
     ASSERT_EQ(played.tools.pins(), 1u);
@@ -76,7 +76,7 @@ void pinCutAndHold(Played& played) {
 TEST(StageTakeOver, KeepsPlacesCutsPinsGravityAndTime) {
     Played before;
     pinCutAndHold(before);
-    const sim::Status cut = before.stage.simulation().status(before.stage.steps());
+    const sim::Status cut = before.document.simulation().status(before.document.steps());
     ASSERT_EQ(cut.pieces, 2u);
     ASSERT_TRUE(before.tools.isHolding());
     const std::uint64_t hash = before.hash();
@@ -86,23 +86,23 @@ TEST(StageTakeOver, KeepsPlacesCutsPinsGravityAndTime) {
     EXPECT_TRUE(areInTheSamePlaces(next, before));
     EXPECT_EQ(next.hash(), hash) << "the same solver keeps velocities as well";
     EXPECT_EQ(before.hash(), hash);
-    EXPECT_EQ(next.stage.steps(), before.stage.steps());
-    EXPECT_EQ(next.stage.played(), before.stage.played());
-    EXPECT_EQ(next.stage.gravity().y, -3);
+    EXPECT_EQ(next.document.steps(), before.document.steps());
+    EXPECT_EQ(next.document.played(), before.document.played());
+    EXPECT_EQ(next.document.gravity().y, -3);
     EXPECT_EQ(next.tools.pins(), 1u);
     EXPECT_TRUE(next.tools.isHolding());
     EXPECT_EQ(next.tools.history().times(), before.tools.history().times());
     EXPECT_EQ(next.tools.stepsBack(), 0u) << "of single steps there is no way back";
     EXPECT_TRUE(next.tools.takeNote().empty());
     next.turn({}, 6);
-    const sim::Status status = next.stage.simulation().status(next.stage.steps());
+    const sim::Status status = next.document.simulation().status(next.document.steps());
     EXPECT_EQ(status.nonFinite, 0u);
     EXPECT_EQ(status.pieces, cut.pieces);
     EXPECT_EQ(status.linksCutInAll, cut.linksCutInAll);
     next.turn({.actions = {Action::undo}}, 3);
-    EXPECT_EQ(next.stage.simulation().status(next.stage.steps()).pieces, 1u);
+    EXPECT_EQ(next.document.simulation().status(next.document.steps()).pieces, 1u);
     next.turn({.actions = {Action::redo}}, 3);
-    EXPECT_EQ(next.stage.simulation().status(next.stage.steps()).pieces, cut.pieces);
+    EXPECT_EQ(next.document.simulation().status(next.document.steps()).pieces, cut.pieces);
     expectTheSameBitsAgain(next, block);
 }
 
@@ -118,7 +118,7 @@ void cutAt(Played& played, float height) {
 // the second.
 struct Cuts {
     explicit Cuts(Played& played) {
-        played.tools.pull(played.stage, 3);
+        played.tools.pull(played.document, 3);
         played.turn({}, 4);
         cutAt(played, 0.1f);
         cutAt(played, -0.05f);
@@ -159,7 +159,7 @@ TEST(Undo, GoesOnWithOtherSubstepsAndAnotherMaterial) {
     cutAt(next, 0.1f);
     EXPECT_EQ(next.tools.history().undos(), 1u);
     next.turn({.actions = {Action::undo}}, 2);
-    EXPECT_EQ(next.stage.simulation().status(next.stage.steps()).linksCutInAll, 0u);
+    EXPECT_EQ(next.document.simulation().status(next.document.steps()).linksCutInAll, 0u);
     cuts.expectAllIn(before); // it has kept its own history
     expectTheSameBitsAgain(next, block);
 }
@@ -167,28 +167,28 @@ TEST(Undo, GoesOnWithOtherSubstepsAndAnotherMaterial) {
 TEST(Undo, LeadsWithMoreRoomToTheStepsThatItLedToWithout) {
     Played little, roomy, growing; // the last one grows in another thread
     const Cuts cuts(little), same(roomy), likewise(growing);
-    const std::uint32_t more = 4 * roomy.stage.settings().cutSurfaceRoom + 10000;
-    ASSERT_TRUE(roomy.stage.makeSurfaceRoom(more, test::queue(), roomy.tools.bring()));
-    EXPECT_GT(roomy.stage.simulation().stateSize(), little.stage.simulation().stateSize());
-    ASSERT_TRUE(growing.stage.beginSurfaceRoom(more));
-    while (growing.stage.askGrowth() == Stage::Growth::making)
+    const std::uint32_t more = 4 * roomy.document.settings().cutSurfaceRoom + 10000;
+    ASSERT_TRUE(roomy.document.makeSurfaceRoom(more, test::queue(), roomy.tools.bring()));
+    EXPECT_GT(roomy.document.simulation().stateSize(), little.document.simulation().stateSize());
+    ASSERT_TRUE(growing.document.beginSurfaceRoom(more));
+    while (growing.document.askGrowth() == Document::Growth::making)
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    growing.stage.bringGrowth(test::queue(), growing.tools.bring());
-    growing.run([&](VkCommandBuffer commands) { growing.stage.recordGrowth(commands); });
-    growing.stage.endGrowth();
+    growing.document.bringGrowth(test::queue(), growing.tools.bring());
+    growing.run([&](VkCommandBuffer commands) { growing.document.recordGrowth(commands); });
+    growing.document.endGrowth();
     for (Played* played : {&roomy, &growing}) played->tools.moveOn();
     for (Played* played : {&little, &roomy, &growing})
         for (const Action way : {Action::undo, Action::redo, Action::redo}) {
             played->tools.act(way); // turn() would use the probe of the former simulation
             played->run([&](VkCommandBuffer commands) {
-                EXPECT_TRUE(played->tools.recordHistory(commands, played->stage));
+                EXPECT_TRUE(played->tools.recordHistory(commands, played->document));
                 for (int i = 0; i < 7; ++i) played->step(commands);
             });
         }
     EXPECT_EQ(roomy.hash(), little.hash());
     EXPECT_EQ(growing.hash(), little.hash());
-    EXPECT_EQ(roomy.stage.simulation().status(roomy.stage.steps()).linksCutInAll,
-              little.stage.simulation().status(little.stage.steps()).linksCutInAll);
+    EXPECT_EQ(roomy.document.simulation().status(roomy.document.steps()).linksCutInAll,
+              little.document.simulation().status(little.document.steps()).linksCutInAll);
 }
 
 TEST(Undo, GoesOnOnAnotherDevice) {
@@ -202,9 +202,9 @@ TEST(Undo, GoesOnOnAnotherDevice) {
     Played here;
     const Cuts cuts(here);
     {
-        Stage there(device, here.opening.loaded.scene, here.opening.loaded.settings);
+        Document there(device, here.opening.loaded.scene, here.opening.loaded.settings);
         Tools tools(device, here.opening);
-        there.takeOver(here.stage, tools.bringOf(here.tools));
+        there.takeOver(here.document, tools.bringOf(here.tools));
         tools.goOn(here.tools, there);
         vk::Queue queue(device);
         EXPECT_EQ(stateHash(device, there, queue), cuts.hashes[1]);
@@ -230,11 +230,11 @@ TEST(Undo, OfAStrokeThatIsCutAgainIsThereOnce) {
     Played played;
     const Cuts cuts(played);
     const std::array begun{Sweep{}};
-    played.run([&](VkCommandBuffer commands) { played.tools.remember(commands, played.stage); });
+    played.run([&](VkCommandBuffer commands) { played.tools.remember(commands, played.document); });
     EXPECT_EQ(played.tools.history().undos(), 2u);
-    played.tools.forgetUndone(played.stage, begun);
+    played.tools.forgetUndone(played.document, begun);
     EXPECT_EQ(played.tools.history().undos(), 1u);
-    played.tools.forgetUndone(played.stage, begun);
+    played.tools.forgetUndone(played.document, begun);
     EXPECT_EQ(played.tools.history().undos(), 1u) << "that one was done";
 }
 
@@ -268,22 +268,23 @@ TEST(StageTakeOver, ByAnotherSolverAndBackIsDoneAgainByAReplay) {
 TEST(StageTakeOver, ByAnotherSolverDoesWithoutDefaultContactsAndCuts) {
     const auto byJacobi = [] { return openText(block, {.solver = "jacobi", .substeps = 12}); };
     Played first, second(byJacobi()), third;
-    ASSERT_GT(first.stage.scene().particles[0].radius, 0);
-    ASSERT_EQ(second.stage.scene().particles[0].radius, 0);
+    ASSERT_GT(first.document.scene().particles[0].radius, 0);
+    ASSERT_EQ(second.document.scene().particles[0].radius, 0);
     first.turn({}, 8);
     takeOver(second, first);
     EXPECT_TRUE(areInTheSamePlaces(second, first));
     second.turn({}, 6);
-    EXPECT_EQ(second.stage.simulation().status(second.stage.steps()).nonFinite, 0u);
+    EXPECT_EQ(second.document.simulation().status(second.document.steps()).nonFinite, 0u);
     takeOver(third, second);
     EXPECT_TRUE(areInTheSamePlaces(third, second));
-    third.tools.pull(third.stage, 3);
+    third.tools.pull(third.document, 3);
     cutAt(third, 0.1f);
-    EXPECT_GT(third.stage.simulation().status(third.stage.steps()).linksCutInAll, 0u);
+    EXPECT_GT(third.document.simulation().status(third.document.steps()).linksCutInAll, 0u);
     expectTheSameBitsAgain(third, block);
 
     Played fourth(byJacobi());
-    EXPECT_THROW(fourth.stage.takeOver(third.stage), std::invalid_argument) << "which would heal the cut";
+    EXPECT_THROW(fourth.document.takeOver(third.document), std::invalid_argument)
+        << "which would heal the cut";
     third.turn({.actions = {Action::undo}}, 1);
     takeOver(fourth, third);
     EXPECT_TRUE(areInTheSamePlaces(fourth, third));
@@ -293,12 +294,12 @@ TEST(StageTakeOver, ByAnotherSolverDoesWithoutDefaultContactsAndCuts) {
 TEST(StageTakeOver, HasAMaterialThatNeedsOtherPasses) {
     Played before(jacobi);
     before.turn({}, 6);
-    before.stage.turn(damped);
-    Stage::Turn turn = Stage::Turn::none;
-    while (turn == Stage::Turn::none) turn = before.stage.takeTurn(false);
-    ASSERT_EQ(turn, Stage::Turn::refused);
+    before.document.turn(damped);
+    Document::Turn turn = Document::Turn::none;
+    while (turn == Document::Turn::none) turn = before.document.takeTurn(false);
+    ASSERT_EQ(turn, Document::Turn::refused);
     before.turn({}, 2);
-    EXPECT_EQ(before.stage.material(), sim::Material{});
+    EXPECT_EQ(before.document.material(), sim::Material{});
     Played next(jacobi, damped);
     takeOver(next, before);
     EXPECT_TRUE(areInTheSamePlaces(next, before));
@@ -307,7 +308,7 @@ TEST(StageTakeOver, HasAMaterialThatNeedsOtherPasses) {
     EXPECT_NE(next.hash(), before.hash());
     expectTheSameBitsAgain(next, jacobi);
     next.tools.reset(); // with the changed material
-    next.run([&](VkCommandBuffer commands) { next.stage.recordReset(commands); });
+    next.run([&](VkCommandBuffer commands) { next.document.recordReset(commands); });
     next.turn({}, 20);
     expectTheSameBitsAgain(next, jacobi);
 }
@@ -323,8 +324,8 @@ TEST(StageTakeOver, GoesToAnotherDevice) {
     Played here;
     pinCutAndHold(here);
     {
-        Stage there(device, here.opening.loaded.scene, here.opening.loaded.settings);
-        there.takeOver(here.stage);
+        Document there(device, here.opening.loaded.scene, here.opening.loaded.settings);
+        there.takeOver(here.document);
         vk::Queue queue(device);
         EXPECT_EQ(stateHash(device, there, queue), here.hash());
         const VkCommandBuffer commands = queue.begin();
@@ -332,7 +333,7 @@ TEST(StageTakeOver, GoesToAnotherDevice) {
         queue.wait(queue.submit(commands));
         EXPECT_EQ(there.simulation().status(there.steps()).pieces, 2u);
         here.run([&](VkCommandBuffer here_) {
-            for (int i = 0; i < 2; ++i) here.stage.recordStep(here_);
+            for (int i = 0; i < 2; ++i) here.document.recordStep(here_);
         });
         EXPECT_EQ(stateHash(device, there, queue), here.hash());
     }
@@ -344,75 +345,75 @@ TEST(StageTakeOver, HasAllRoomThatThereIs) {
     sim::Settings settings = roomy.opening.loaded.settings;
     settings.contactRoom = 64;
     settings.cutSurfaceRoom = 50000;
-    Stage stage(test::device(), roomy.opening.loaded.scene, settings);
+    Document document(test::device(), roomy.opening.loaded.scene, settings);
     roomy.run([&](VkCommandBuffer commands) {
-        stage.recordReset(commands);
-        stage.recordStep(commands);
+        document.recordReset(commands);
+        document.recordStep(commands);
     });
-    next.stage.takeOver(stage);
-    EXPECT_EQ(next.stage.settings().contactRoom, 64u);
-    EXPECT_EQ(next.stage.settings().cutSurfaceRoom, 50000u);
-    EXPECT_EQ(next.stage.contactRoom().room, 64u);
-    EXPECT_EQ(next.hash(), stateHash(test::device(), stage, test::queue()));
-    next.run([&](VkCommandBuffer commands) { next.stage.recordStep(commands); });
-    const sim::Status status = next.stage.simulation().status(next.stage.steps());
-    EXPECT_EQ(status.frame, stage.steps() + 1);
+    next.document.takeOver(document);
+    EXPECT_EQ(next.document.settings().contactRoom, 64u);
+    EXPECT_EQ(next.document.settings().cutSurfaceRoom, 50000u);
+    EXPECT_EQ(next.document.contactRoom().room, 64u);
+    EXPECT_EQ(next.hash(), stateHash(test::device(), document, test::queue()));
+    next.run([&](VkCommandBuffer commands) { next.document.recordStep(commands); });
+    const sim::Status status = next.document.simulation().status(next.document.steps());
+    EXPECT_EQ(status.frame, document.steps() + 1);
     EXPECT_EQ(status.nonFinite, 0u);
 }
 
 TEST(StageReshape, ThatCannotBeHadLeavesAllAsItIs) {
     Played played;
-    played.tools.pull(played.stage, 3);
+    played.tools.pull(played.document, 3);
     cutAt(played, 0.1f); // only one solver supports cuts
     const std::uint64_t hash = played.hash();
     const std::uint32_t buffers = test::device().allocator().statistics().buffers;
-    played.stage.wantShape(sim::Solver::jacobi, 4);
-    EXPECT_TRUE(played.stage.wantsShape());
-    EXPECT_THROW(played.stage.reshape(test::queue(), played.tools.bring()), std::invalid_argument);
-    EXPECT_FALSE(played.stage.wantsShape());
-    EXPECT_EQ(played.stage.settings().solver, sim::Solver::split);
+    played.document.wantShape(sim::Solver::jacobi, 4);
+    EXPECT_TRUE(played.document.wantsShape());
+    EXPECT_THROW(played.document.reshape(test::queue(), played.tools.bring()), std::invalid_argument);
+    EXPECT_FALSE(played.document.wantsShape());
+    EXPECT_EQ(played.document.settings().solver, sim::Solver::split);
     EXPECT_EQ(played.hash(), hash);
     EXPECT_EQ(test::device().allocator().statistics().buffers, buffers) << "what was refused is gone";
     EXPECT_EQ(played.tools.history().undos(), 1u) << "states stay with the simulation that they are of";
     played.turn({}, 2);
     EXPECT_NE(played.hash(), hash);
     played.turn({.actions = {Action::undo}}, 1);
-    EXPECT_EQ(played.stage.simulation().status(played.stage.steps()).linksCutInAll, 0u);
+    EXPECT_EQ(played.document.simulation().status(played.document.steps()).linksCutInAll, 0u);
 }
 
 // Another thread makes the new simulation. Meanwhile pictures continue, and another change may be requested.
 TEST(StageReshape, IsMadeBesideWhatPlays) {
-    const auto isMade = [](Stage& stage) {
-        for (int n = 0; n < 3000 && !stage.isShapeMade(); ++n)
+    const auto isMade = [](Document& document) {
+        for (int n = 0; n < 3000 && !document.isShapeMade(); ++n)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        return stage.isShapeMade();
+        return document.isShapeMade();
     };
     Played waiting, polling;
-    EXPECT_FALSE(polling.stage.isShapeMade()) << "nobody has asked for one";
+    EXPECT_FALSE(polling.document.isShapeMade()) << "nobody has asked for one";
     for (Played* played : {&waiting, &polling}) {
         played->turn({}, 5);
-        played->stage.wantShape(sim::Solver::split, 8);
+        played->document.wantShape(sim::Solver::split, 8);
     }
-    waiting.stage.reshape(test::queue());
-    ASSERT_TRUE(isMade(polling.stage));
-    EXPECT_EQ(polling.stage.settings().substeps, 4u) << "it is not taken by itself";
-    polling.stage.reshape(test::queue());
-    EXPECT_EQ(polling.stage.settings().substeps, 8u);
-    EXPECT_FALSE(polling.stage.wantsShape());
+    waiting.document.reshape(test::queue());
+    ASSERT_TRUE(isMade(polling.document));
+    EXPECT_EQ(polling.document.settings().substeps, 4u) << "it is not taken by itself";
+    polling.document.reshape(test::queue());
+    EXPECT_EQ(polling.document.settings().substeps, 8u);
+    EXPECT_FALSE(polling.document.wantsShape());
     EXPECT_EQ(polling.hash(), waiting.hash());
-    polling.stage.wantShape(sim::Solver::split, 12);
-    EXPECT_TRUE(isMade(polling.stage));
-    polling.stage.keepShape();
-    EXPECT_FALSE(polling.stage.wantsShape());
-    polling.stage.reshape(test::queue());
-    EXPECT_EQ(polling.stage.settings().substeps, 8u);
-    polling.stage.wantShape(sim::Solver::split, 12);
-    EXPECT_TRUE(isMade(polling.stage));
-    polling.stage.wantShape(sim::Solver::split, 6);
-    polling.stage.reshape(test::queue());
-    EXPECT_EQ(polling.stage.settings().substeps, 6u) << "the one that was wanted last";
-    polling.run([&](VkCommandBuffer commands) { polling.stage.recordStep(commands); });
-    EXPECT_EQ(polling.stage.simulation().status(polling.stage.steps()).nonFinite, 0u);
+    polling.document.wantShape(sim::Solver::split, 12);
+    EXPECT_TRUE(isMade(polling.document));
+    polling.document.keepShape();
+    EXPECT_FALSE(polling.document.wantsShape());
+    polling.document.reshape(test::queue());
+    EXPECT_EQ(polling.document.settings().substeps, 8u);
+    polling.document.wantShape(sim::Solver::split, 12);
+    EXPECT_TRUE(isMade(polling.document));
+    polling.document.wantShape(sim::Solver::split, 6);
+    polling.document.reshape(test::queue());
+    EXPECT_EQ(polling.document.settings().substeps, 6u) << "the one that was wanted last";
+    polling.run([&](VkCommandBuffer commands) { polling.document.recordStep(commands); });
+    EXPECT_EQ(polling.document.simulation().status(polling.document.steps()).nonFinite, 0u);
 }
 
 // A replay starts with the settings with which its scene was opened.
@@ -424,14 +425,14 @@ TEST(StageReshape, IsTakenBackAtTheBeginningOfAReplay) {
     Scene again(jacobi);
     Replay replay(second.file());
     replayAll(again, replay);
-    again.tools.putAway(again.stage);
+    again.tools.putAway(again.document);
     again.tools.reset();
-    again.run([&](VkCommandBuffer commands) { again.stage.recordReset(commands); });
-    again.stage.reshape(test::queue(), again.tools.bring());
+    again.run([&](VkCommandBuffer commands) { again.document.recordReset(commands); });
+    again.document.reshape(test::queue(), again.tools.bring());
     again.tools.reshaped();
-    EXPECT_EQ(again.stage.settings().solver, sim::Solver::jacobi);
-    EXPECT_EQ(again.stage.settings().substeps, 12u);
-    EXPECT_EQ(again.stage.material(), sim::Material{});
+    EXPECT_EQ(again.document.settings().solver, sim::Solver::jacobi);
+    EXPECT_EQ(again.document.settings().substeps, 12u);
+    EXPECT_EQ(again.document.material(), sim::Material{});
     replay.restart();
     replayAll(again, replay);
     EXPECT_EQ(again.hash(), second.hash());

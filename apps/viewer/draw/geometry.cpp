@@ -105,7 +105,7 @@ std::optional<float> groundHeight(const sim::Scene& scene) {
     return height;
 }
 
-Box stageBounds(const sim::Scene& scene) {
+Box sceneBounds(const sim::Scene& scene) {
     Box box = particleBounds(scene);
     for (const sim::Body& body : scene.bodies) box.extend(swingBounds(scene, body));
     for (const sim::Collider& collider : scene.colliders)

@@ -37,6 +37,6 @@ std::optional<float> groundHeight(const sim::Scene& scene);
 
 /// The box in which bodies are expected: their box at the start, joined with the colliders, with where they
 /// would land on the ground, and with how far they can hang down from fixed particles.
-Box stageBounds(const sim::Scene& scene);
+Box sceneBounds(const sim::Scene& scene);
 
 } // namespace sinew::viewer

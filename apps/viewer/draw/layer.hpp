@@ -29,7 +29,7 @@ struct LayerDrawing {
     VkPipelineLayout layout;
     const sim::Simulation& simulation;
     float range;  ///< value of the last colour; 0 = not known yet
-    float radius; ///< of the stage [m]
+    float radius; ///< of the scene [m]
 
     void push(const layout::SkinPush& values) const noexcept {
         device.functions().vkCmdPushConstants(commands, layout,

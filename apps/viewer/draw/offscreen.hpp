@@ -9,7 +9,7 @@ namespace sinew::viewer {
 /// Renderer::makeCanvas. Must not outlive its Device, which must not move.
 class Offscreen {
 public:
-    Offscreen(const vk::Device& device, VkExtent2D extent, const StageLight& light,
+    Offscreen(const vk::Device& device, VkExtent2D extent, const SceneLight& light,
               const Quality& quality = {}, float scale = 1)
         : renderer_(device, {.color = VK_FORMAT_R8G8B8A8_SRGB}, quality, light), // every device can copy it
           shot_(device, renderer_, extent, scale) {}

@@ -32,7 +32,7 @@ VkAttachmentDescription attachment(VkFormat format, VkSampleCountFlagBits sample
 
 // The use of a picture after drawing: a copy, or a presentation, which waits for a semaphore.
 struct Reader {
-    VkPipelineStageFlags stage;
+    VkPipelineStageFlags document;
     VkAccessFlags access;
 };
 // Union of all uses of pictures: passes that share pipelines need the same dependencies to be compatible.
@@ -50,14 +50,14 @@ struct Drawing {
 std::array<VkSubpassDependency, 2> between(const Reader& reader, const Drawing& drawing) {
     return {VkSubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
                                 .dstSubpass = 0,
-                                .srcStageMask = reader.stage | drawing.stages,
+                                .srcStageMask = reader.document | drawing.stages,
                                 .dstStageMask = drawing.stages,
                                 .srcAccessMask = drawing.writes,
                                 .dstAccessMask = drawing.access},
             VkSubpassDependency{.srcSubpass = 0,
                                 .dstSubpass = VK_SUBPASS_EXTERNAL,
                                 .srcStageMask = drawing.stages,
-                                .dstStageMask = reader.stage,
+                                .dstStageMask = reader.document,
                                 .srcAccessMask = drawing.writes,
                                 .dstAccessMask = reader.access}};
 }
@@ -130,7 +130,7 @@ RenderPass RenderPass::picture(const vk::Device& device, const Picture& picture)
     const std::array dependencies{
         VkSubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
                             .dstSubpass = 0,
-                            .srcStageMask = colorStage | depthStages | anyReader.stage,
+                            .srcStageMask = colorStage | depthStages | anyReader.document,
                             .dstStageMask = colorStage | depthStages,
                             .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
                                              VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
@@ -138,7 +138,7 @@ RenderPass RenderPass::picture(const vk::Device& device, const Picture& picture)
         VkSubpassDependency{.srcSubpass = 0,
                             .dstSubpass = VK_SUBPASS_EXTERNAL,
                             .srcStageMask = colorStage,
-                            .dstStageMask = anyReader.stage,
+                            .dstStageMask = anyReader.document,
                             .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
                             .dstAccessMask = anyReader.access}};
     return RenderPass(device, passInfo(attachments, subpass, dependencies), "picture");

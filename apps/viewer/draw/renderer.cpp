@@ -55,7 +55,7 @@ bool isSoftware(const vk::Device& device) {
 }
 
 Renderer::Renderer(const vk::Device& device, const Target& target, const Quality& quality,
-                   const StageLight& light)
+                   const SceneLight& light)
     : device_(device), light_(light), colliders_(device, light.colliders),
       poke_(device, {{.radius = 1, .color = handColor}}), format_{target.color, canvasDepthFormat(device),
                                                                   quality.samples},

@@ -9,7 +9,7 @@
 #include "viewer/draw/hand_mesh.hpp"
 #include "viewer/draw/picture_sets.hpp"
 #include "viewer/draw/pipeline.hpp"
-#include "viewer/draw/stage_light.hpp"
+#include "viewer/draw/scene_light.hpp"
 
 namespace sinew::viewer {
 
@@ -47,7 +47,7 @@ public:
     };
     /// For a target format without sRGB encoding, the shaders encode. `light` belongs to the scene that will
     /// be drawn.
-    Renderer(const vk::Device& device, const Target& target, const Quality& quality, const StageLight& light);
+    Renderer(const vk::Device& device, const Target& target, const Quality& quality, const SceneLight& light);
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
@@ -215,7 +215,7 @@ private:
               float scale = 1) const noexcept;
 
     const vk::Device& device_;
-    StageLight light_;
+    SceneLight light_;
     ColliderMeshes colliders_, poke_; // the second: a sphere of radius 1
     CanvasFormat format_;
     VkImageLayout finalLayout_;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr float shortest = 0.003f;      // move of the pointer that adds an edge [window heights]
 constexpr std::size_t mostWaiting = 16; // sweeps
-constexpr float drawnAt = 0.3f;         // share of the distance from the eye to the stage
-constexpr float leastDepth = 0.01f, mostDepth = 0.5f, deeper = 1.15f; // of the stage's radius; notch factor
+constexpr float drawnAt = 0.3f;         // share of the distance from the eye to the scene
+constexpr float leastDepth = 0.01f, mostDepth = 0.5f, deeper = 1.15f; // of the scene's radius; notch factor
 constexpr std::uint32_t stepsUnseen = 6; // until the surface under the pointer is queried again
 
 sim::Vec3 toVec3(const Vector3& v) {
@@ -22,8 +22,8 @@ sim::Vec3 toVec3(const Vector3& v) {
 
 } // namespace
 
-CutTool::CutTool(const Box& stage)
-    : center_(stage.center()), radius_(0.75f * std::max(stage.diagonal().norm(), 1e-3f)) {}
+CutTool::CutTool(const Box& scene)
+    : center_(scene.center()), radius_(0.75f * std::max(scene.diagonal().norm(), 1e-3f)) {}
 
 void CutTool::toggle() {
     isOn_ = !isOn_;
@@ -62,7 +62,7 @@ void CutTool::deepen(float notches) {
     setDepth(depth > 1.001f * most ? std::nullopt : std::optional(depth));
 }
 
-// The part of the ray inside the ball around the stage; empty if it misses the ball.
+// The part of the ray inside the ball around the scene; empty if it misses the ball.
 std::optional<CutTool::Place> CutTool::placeAt(const Ray& ray, float nearest) const {
     const float middle = (center_ - ray.origin).dot(ray.direction);
     const float apart = (ray.origin + middle * ray.direction - center_).norm();

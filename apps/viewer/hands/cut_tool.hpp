@@ -23,8 +23,8 @@ struct Sweep {
 
 class CutTool {
 public:
-    /// `stage` is the box of the bodies; the blade spans the ball around it.
-    explicit CutTool(const Box& stage);
+    /// `scene` is the box of the bodies; the blade spans the ball around it.
+    explicit CutTool(const Box& scene);
 
     bool isOn() const { return isOn_; }
     /// Turning it off ends the stroke; swept pieces are still cut in the next steps.

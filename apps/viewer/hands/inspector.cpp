@@ -2,7 +2,7 @@
 #include "viewer/hands/inspector.hpp"
 
 #include "sim/compile/compile.hpp"
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/hands/state_probe.hpp"
 
 #include <algorithm>
@@ -59,8 +59,8 @@ std::string stateText(const Found& found) {
     return text;
 }
 
-Inspector::Inspector(const Stage& stage, std::span<const sim::NamedHold> holds, std::uint32_t slots)
-    : stage_(stage), holds_(holds), asked_(slots) {}
+Inspector::Inspector(const Document& document, std::span<const sim::NamedHold> holds, std::uint32_t slots)
+    : document_(document), holds_(holds), asked_(slots) {}
 
 void Inspector::toggle() {
     isOn_ = !isOn_;
@@ -94,7 +94,8 @@ void Inspector::settle(std::uint32_t slot, const std::optional<Pick>& met, State
     if (!asked.ray || !isOn_) return;
     found_.reset();
     if (!met) return;
-    found_ = foundAt(stage_.scene(), met->particle, probe.positions(), probe.velocities(), probe.liveLinks());
+    found_ =
+        foundAt(document_.scene(), met->particle, probe.positions(), probe.velocities(), probe.liveLinks());
     if (const sim::NamedHold* hold = sim::holdOf(holds_, met->particle)) found_->hold = hold->name;
     if (asked.counted == met->particle && counter != nullptr) found_->contacts = counter->found(slot);
 }

@@ -13,7 +13,7 @@
 
 namespace sinew::viewer {
 
-class Stage;
+class Document;
 class StateProbe;
 
 /// Properties of a particle in a state. `positions` and `velocities` of every particle; velocities may be
@@ -21,15 +21,15 @@ class StateProbe;
 Found foundAt(const sim::Scene& scene, std::uint32_t particle, std::span<const sim::layout::vec4> positions,
               std::span<const sim::layout::vec4> velocities, const std::function<bool(std::size_t)>& holds);
 
-/// Must not outlive the stage, nor the holds of its scene.
+/// Must not outlive the document, nor the holds of its scene.
 class Inspector {
 public:
     /// At most `slots` frames may be in flight at a time.
-    Inspector(const Stage& stage, std::span<const sim::NamedHold> holds, std::uint32_t slots);
+    Inspector(const Document& document, std::span<const sim::NamedHold> holds, std::uint32_t slots);
 
     void toggle();
     bool isOn() const { return isOn_; }
-    /// Call after the stage changed its simulation.
+    /// Call after the document changed its simulation.
     void restart();
 
     /// Whether a copy of the state is needed for `ray`; true at most ten times a second while nothing else
@@ -53,7 +53,7 @@ private:
         std::optional<std::uint32_t> counted; // particle whose contacts are counted
     };
 
-    const Stage& stage_;
+    const Document& document_;
     std::span<const sim::NamedHold> holds_;
     std::vector<Asked> asked_; // one per slot
     std::optional<Ray> last_;

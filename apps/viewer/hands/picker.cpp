@@ -4,9 +4,9 @@
 #include "common/layout.h"
 #include "sim/compile/compile.hpp"
 #include "sim/program/program.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
 #include "viewer/draw/removed.hpp"
-#include "viewer/draw/stage.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>
@@ -102,20 +102,22 @@ Seen seenOf(const Ray& ray, const std::optional<Section>& section) {
 
 } // namespace
 
-Picker::Picker(const vk::Device& device, const Stage& stage, const StageLight& light, std::uint32_t slots)
-    : device_(device), stage_(stage), skinCaster_(device.kernels().get(device, shaders::castRay, {})),
+Picker::Picker(const vk::Device& device, const Document& document, const SceneLight& light,
+               std::uint32_t slots)
+    : device_(device), document_(document), skinCaster_(device.kernels().get(device, shaders::castRay, {})),
       ballCaster_(device.kernels().get(device, shaders::castRayBalls, {})),
       cutCaster_(device.kernels().get(device, shaders::castRayCuts, {})),
       resolver_(device.kernels().get(device, shaders::resolvePick, {})),
-      holders_(tableOf(device, "pick.holders", holdersOf(stage.scene()))),
-      sheetIndices_(tableOf(device, "pick.sheets", sheetIndices(stage.scene()))),
-      skins_(tableOf(device, "pick.skins", skinsOf(stage.scene(), light.isClosed))),
-      radii_(tableOf(device, "pick.radii", radiiOf(stage.scene(), light.balls))),
-      inverseMasses_(tableOf(device, "pick.inverse_masses", sim::inverseMasses(stage.scene()))),
-      push_{.sheetTriangles = static_cast<std::uint32_t>(sheetIndices(stage.scene()).size() / 3),
-            .particles =
-                light.balls.ranges.empty() ? 0 : static_cast<std::uint32_t>(stage.scene().particles.size()),
-            .skins = static_cast<std::uint32_t>(stage.scene().skins.size())},
+      holders_(tableOf(device, "pick.holders", holdersOf(document.scene()))),
+      sheetIndices_(tableOf(device, "pick.sheets", sheetIndices(document.scene()))),
+      skins_(tableOf(device, "pick.skins", skinsOf(document.scene(), light.isClosed))),
+      radii_(tableOf(device, "pick.radii", radiiOf(document.scene(), light.balls))),
+      inverseMasses_(tableOf(device, "pick.inverse_masses", sim::inverseMasses(document.scene()))),
+      push_{.sheetTriangles = static_cast<std::uint32_t>(sheetIndices(document.scene()).size() / 3),
+            .particles = light.balls.ranges.empty()
+                             ? 0
+                             : static_cast<std::uint32_t>(document.scene().particles.size()),
+            .skins = static_cast<std::uint32_t>(document.scene().skins.size())},
       nothing_(tableOf(device, "pick.nothing", std::vector<sim::layout::vec4>(8))),
       windings_(device, {.name = "pick.windings", .count = rays * std::max(push_.skins, 1u), .stride = 4}),
       hits_(device,
@@ -129,7 +131,7 @@ Picker::Picker(const vk::Device& device, const Stage& stage, const StageLight& l
 }
 
 void Picker::restart() {
-    const sim::Simulation& simulation = stage_.simulation();
+    const sim::Simulation& simulation = document_.simulation();
     const vk::BufferView whole = simulation.view(simulation.program().wholeIndices);
     sets_.emplace(bindingSets(simulation.skinIndices()));
     wholeSets_.reset();
@@ -137,7 +139,7 @@ void Picker::restart() {
 }
 
 vk::BindingSets Picker::bindingSets(const vk::BufferView& indices) const {
-    const sim::Simulation& simulation = stage_.simulation();
+    const sim::Simulation& simulation = document_.simulation();
     const sim::CutSurface cuts = simulation.cutSurface();
     const auto there = [this](const vk::BufferView& view, std::uint32_t stride) {
         vk::BufferView any = view.size > 0 ? view : nothing_.view();
@@ -169,7 +171,7 @@ vk::BindingSets Picker::bindingSets(const vk::BufferView& indices) const {
 
 layout::PickPush Picker::pushOf(const Cast& cast, std::uint32_t ray,
                                 const std::optional<Section>& section) const noexcept {
-    const sim::Simulation::DrawnSkins drawn = stage_.simulation().drawnSkins();
+    const sim::Simulation::DrawnSkins drawn = document_.simulation().drawnSkins();
     const Vector3 &from = cast.ray.origin, &way = cast.ray.direction;
     const Seen seen = seenOf(cast.ray, section);
     layout::PickPush push = push_;
@@ -180,7 +182,7 @@ layout::PickPush Picker::pushOf(const Cast& cast, std::uint32_t ray,
     push.isMoving = cast.among == Among::moving;
     push.ray = ray;
     push.firstHit = ray * parts * PICK_CASTERS;
-    push.hasCuts = !drawn.areWhole && stage_.simulation().cutSurface().counts.size > 0;
+    push.hasCuts = !drawn.areWhole && document_.simulation().cutSurface().counts.size > 0;
     return push;
 }
 
@@ -204,7 +206,7 @@ std::uint32_t Picker::recordCast(vk::Commands& commands, const vk::BindingSets& 
 // All rays are cast, then resolved.
 void Picker::record(VkCommandBuffer handle, std::uint32_t slot, const Casts& casts,
                     const std::optional<Section>& section) const noexcept {
-    const vk::BindingSets& sets = stage_.simulation().drawnSkins().areWhole ? *wholeSets_ : *sets_;
+    const vk::BindingSets& sets = document_.simulation().drawnSkins().areWhole ? *wholeSets_ : *sets_;
     vk::BufferView read = answers_.view();
     read.offset += slot * found_.view().size;
     read.size = found_.view().size;

@@ -4,7 +4,7 @@
 
 #include "sinew/vk/commands.hpp"
 #include "sinew/vk/kernel_store.hpp"
-#include "viewer/draw/stage_light.hpp"
+#include "viewer/draw/scene_light.hpp"
 #include "viewer/hands/pick.hpp"
 #include "viewer/pick.h"
 
@@ -14,9 +14,9 @@
 
 namespace sinew::viewer {
 
-class Stage;
+class Document;
 
-/// Must not outlive its Device, which must not move, nor the stage.
+/// Must not outlive its Device, which must not move, nor the document.
 class Picker {
 public:
     /// Rays of one recording.
@@ -27,10 +27,10 @@ public:
     };
     using Casts = std::array<std::optional<Cast>, rays>;
 
-    /// `light`: balls and closed skins of the stage's scene. At most `slots` recordings may be in flight at a
-    /// time. Throws vk::Error.
-    Picker(const vk::Device& device, const Stage& stage, const StageLight& light, std::uint32_t slots);
-    /// Call after the stage changed its simulation. Throws vk::Error.
+    /// `light`: balls and closed skins of the document's scene. At most `slots` recordings may be in flight
+    /// at a time. Throws vk::Error.
+    Picker(const vk::Device& device, const Document& document, const SceneLight& light, std::uint32_t slots);
+    /// Call after the document changed its simulation. Throws vk::Error.
     void restart();
 
     /// Casts rays at the state for which recordSkin() was recorded. With a section, they pass the hidden side
@@ -52,7 +52,7 @@ private:
                              layout::PickPush push) const noexcept;
 
     const vk::Device& device_;
-    const Stage& stage_;
+    const Document& document_;
     std::shared_ptr<const vk::Kernel> skinCaster_, ballCaster_, cutCaster_,
         resolver_; // from the device's store
     // Of the scene.

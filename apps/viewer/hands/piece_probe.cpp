@@ -4,7 +4,7 @@
 #include "app/drawn.hpp"
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/commands.hpp"
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -14,7 +14,7 @@ namespace sinew::viewer {
 void PieceProbe::record(VkCommandBuffer handle) noexcept {
     try {
         if (copies_.empty())
-            for (const vk::BufferView& view : app::topologyViews(stage_.simulation(), stage_.scene()))
+            for (const vk::BufferView& view : app::topologyViews(document_.simulation(), document_.scene()))
                 copies_.push_back({view, vk::Buffer(device_, {.name = "probe.triangles",
                                                               .count = view.size / view.stride,
                                                               .stride = view.stride,
@@ -36,9 +36,9 @@ app::PieceCount PieceProbe::count(std::size_t all) const {
         std::memcpy(bytes, copy->to.mapped(), view.size);
     };
     if (copies_.empty()) return {.isCounted = false};
-    const sim::Scene& scene = stage_.scene();
-    return app::countPieces(scene, app::readTopology(read, stage_.simulation(), scene, stage_.settings()),
-                            all);
+    const sim::Scene& scene = document_.scene();
+    return app::countPieces(
+        scene, app::readTopology(read, document_.simulation(), scene, document_.settings()), all);
 }
 
 } // namespace sinew::viewer

@@ -8,14 +8,14 @@
 
 namespace sinew::viewer {
 
-class Stage;
+class Document;
 
-/// Must not outlive its Device, which must not move, nor the stage. One recording at a time.
+/// Must not outlive its Device, which must not move, nor the document. One recording at a time.
 class PieceProbe {
 public:
-    PieceProbe(const vk::Device& device, const Stage& stage) : device_(device), stage_(stage) {}
+    PieceProbe(const vk::Device& device, const Document& document) : device_(device), document_(document) {}
 
-    /// Call after the stage changed its simulation: drops the copies.
+    /// Call after the document changed its simulation: drops the copies.
     void restart() noexcept { copies_.clear(); }
     /// Records the copies; call it after recordSkin() of the simulation. Allocates at the first use; without
     /// memory it records nothing.
@@ -30,7 +30,7 @@ private:
         vk::Buffer to;
     };
     const vk::Device& device_;
-    const Stage& stage_;
+    const Document& document_;
     std::vector<Copy> copies_;
 };
 

@@ -14,7 +14,7 @@ public:
     /// A point of the pointer's path.
     struct Place {
         Ray ray;
-        float near = 0, far = 0; ///< where the ray enters and leaves the stage [m]
+        float near = 0, far = 0; ///< where the ray enters and leaves the scene [m]
         bool isFirst = false;    ///< of its stroke
     };
     struct Settled {

@@ -52,7 +52,7 @@ layout::MarkWall wallOf(const sim::Collider& collider, const sim::Pose& pose) {
     return wall;
 }
 
-constexpr float markSize = 0.004f; // of the ball of a mark, in radii of the stage
+constexpr float markSize = 0.004f; // of the ball of a mark, in radii of the scene
 constexpr std::array bindings{
     VkVertexInputBindingDescription{0, sizeof(sim::layout::vec4), VK_VERTEX_INPUT_RATE_VERTEX},
     VkVertexInputBindingDescription{1, sizeof(layout::ContactMark), VK_VERTEX_INPUT_RATE_INSTANCE}};

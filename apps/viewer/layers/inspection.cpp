@@ -1,24 +1,24 @@
 // Makes the buffers layer by layer.
 #include "viewer/layers/inspection.hpp"
 
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace sinew::viewer {
 
-Inspection::Inspection(const vk::Device& device, const Stage& stage, std::uint32_t slots)
-    : device_(device), stage_(stage), slots_(slots) {}
+Inspection::Inspection(const vk::Device& device, const Document& document, std::uint32_t slots)
+    : device_(device), document_(document), slots_(slots) {}
 
-bool Inspection::has(const Watched& watched) const noexcept {
+bool Inspection::has(const WantedLayers& watched) const noexcept {
     for (std::size_t i = 0; i < layerTable().size(); ++i)
         if (watched.layers.looks[i] > 0 && layerTable()[i]->make && !parts_.of[i]) return false;
     return !watched.isCounting || parts_.counter;
 }
 
-Inspection::Parts Inspection::make(const Watched& watched, const sim::Scene& scene) const {
-    const LayerContext of{device_, scene, stage_.settings(), stage_.simulation(), slots_ + 1};
+Inspection::Parts Inspection::make(const WantedLayers& watched, const sim::Scene& scene) const {
+    const LayerContext of{device_, scene, document_.settings(), document_.simulation(), slots_ + 1};
     Parts parts;
     for (std::size_t i = 0; i < layerTable().size(); ++i)
         if (watched.layers.looks[i] > 0 && layerTable()[i]->make && !parts_.of[i])
@@ -37,7 +37,7 @@ void Inspection::add(Parts parts) noexcept {
 }
 
 void Inspection::prepare(const Layers& layers) {
-    add(make({layers}, stage_.scene()));
+    add(make({layers}, document_.scene()));
 }
 
 void Inspection::restart() noexcept {

@@ -9,15 +9,15 @@
 
 namespace sinew::viewer {
 
-class Stage;
+class Document;
 
 /// Active layers, and whether contacts of the particle under the pointer are counted.
-struct Watched {
+struct WantedLayers {
     Layers layers;
     bool isCounting = false;
 };
 
-/// Must not outlive its Device, which must not move, nor the stage.
+/// Must not outlive its Device, which must not move, nor the document.
 class Inspection {
 public:
     /// The parts that layers need of one simulation.
@@ -30,16 +30,16 @@ public:
     };
 
     /// Makes no parts yet. At most `slots` pictures, and one rehearsal, may be in flight at a time.
-    Inspection(const vk::Device& device, const Stage& stage, std::uint32_t slots);
+    Inspection(const vk::Device& device, const Document& document, std::uint32_t slots);
 
-    bool has(const Watched& watched) const noexcept;
-    /// Makes the missing parts for the stage's simulation and `scene`, a copy of the stage's. Any thread,
-    /// during which nothing may be added. Throws vk::Error.
-    Parts make(const Watched& watched, const sim::Scene& scene) const;
+    bool has(const WantedLayers& watched) const noexcept;
+    /// Makes the missing parts for the document's simulation and `scene`, a copy of the document's. Any
+    /// thread, during which nothing may be added. Throws vk::Error.
+    Parts make(const WantedLayers& watched, const sim::Scene& scene) const;
     void add(Parts parts) noexcept;
     /// Makes and adds the missing parts. Throws vk::Error.
     void prepare(const Layers& layers);
-    /// Call after the stage changed its simulation: drops all parts, but keeps kernels for the next ones.
+    /// Call after the document changed its simulation: drops all parts, but keeps kernels for the next ones.
     void restart() noexcept;
 
     /// Runs the kernels of `layers`, which must be ready, on the state for which recordSkin() was recorded.
@@ -64,7 +64,7 @@ public:
 
 private:
     const vk::Device& device_;
-    const Stage& stage_;
+    const Document& document_;
     std::uint32_t slots_;
     Parts parts_, before_; // before_: for the simulation before
 };

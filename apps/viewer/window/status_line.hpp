@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/piece_count.hpp"
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 
 #include <chrono>
 

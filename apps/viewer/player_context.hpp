@@ -1,11 +1,11 @@
-// References that the parts of a Show have in common, and what they ask of its loop.
+// References that the parts of a ScenePlayer have in common, and what they ask of its loop.
 #pragma once
 
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/hands/controller.hpp"
-#include "viewer/opening.hpp"
-#include "viewer/prepared_show.hpp"
-#include "viewer/screen.hpp"
+#include "viewer/opened_scene.hpp"
+#include "viewer/prepared_player.hpp"
+#include "viewer/session.hpp"
 #include "viewer/tools.hpp"
 
 #include <cstdio>
@@ -20,18 +20,18 @@ inline void printLine(const std::string& text) {
 }
 
 /// All of it outlives the parts.
-struct ShowContext {
-    Screen& screen;
+struct PlayerContext {
+    Session& session;
     const vk::Device& device;
-    const Opening& opening;
-    PreparedShow& prepared;
-    Stage& stage;
+    const OpenedScene& opening;
+    PreparedPlayer& prepared;
+    Document& document;
     Controller& controller;
     Tools& tools;
     std::function<void()> settleAll; ///< waits for all pictures on their way and takes their results
     std::function<void()> redraw;    ///< makes a picture due, although nothing moves
     std::function<void()>
-        wentBack; ///< the state of the stage is an earlier one: pictures on their way are void
+        wentBack; ///< the state of the document is an earlier one: pictures on their way are void
 };
 
 } // namespace sinew::viewer

@@ -2,8 +2,8 @@
 #include "played.hpp"
 
 #include "sim/compile/compile.hpp"
-#include "viewer/beside.hpp"
 #include "viewer/draw/offscreen.hpp"
+#include "viewer/second_simulation.hpp"
 
 #include <cmath>
 
@@ -19,15 +19,16 @@ const std::string hanging = changed(changed(block, "cuttable = true\n", ""), "[[
 // A played scene with a second simulation beside it, in the order of the window's loop.
 struct Pair : Played {
     explicit Pair(const BesideShape& shape, const std::string& text = hanging)
-        : Played(text), beside(test::device(), opening.loaded, stage.settings(), stage.material(), shape, 1) {
+        : Played(text),
+          beside(test::device(), opening.loaded, document.settings(), document.material(), shape, 1) {
         run([&](VkCommandBuffer commands) { beside.recordReset(commands); });
     }
-    std::optional<Beside::Trouble> play(int steps, const StepHands& hands = {}) {
+    std::optional<SecondSimulation::Trouble> play(int steps, const StepHands& hands = {}) {
         for (int i = 0; i < steps; ++i) {
             run([&](VkCommandBuffer commands) {
-                recordStep(commands, stage, hands);
-                beside.recordStep(commands, stage, hands, 0, true);
-                stage.recordSkin(commands);
+                recordStep(commands, document, hands);
+                beside.recordStep(commands, document, hands, 0, true);
+                document.recordSkin(commands);
                 beside.recordPicture(commands, 0, true);
                 probe.record(commands);
             });
@@ -40,7 +41,7 @@ struct Pair : Played {
     }
     // Largest distance between the same particle in both simulations [m].
     double apart() {
-        const auto here = placesOf(stage.simulation()), there = placesOf(beside.simulation());
+        const auto here = placesOf(document.simulation()), there = placesOf(beside.simulation());
         double most = 0;
         for (std::size_t i = 0; i < here.size(); ++i)
             most = std::max(most, std::hypot(double{here[i].x} - double{there[i].x},
@@ -48,7 +49,7 @@ struct Pair : Played {
                                              double{here[i].z} - double{there[i].z}));
         return most;
     }
-    Beside beside;
+    SecondSimulation beside;
 };
 
 TEST(BesideShape, IsReadFromTheCommandLineAndShown) {
@@ -61,14 +62,14 @@ TEST(BesideShape, IsReadFromTheCommandLineAndShown) {
         EXPECT_EQ(shapeOf(knobsOf(*parseBeside(text))), *parseBeside(text));
 }
 
-TEST(Beside, OfTheSameShapeHasTheSameBits) {
+TEST(SecondSimulation, OfTheSameShapeHasTheSameBits) {
     Pair pair({sim::Solver::split, 4});
     ASSERT_FALSE(pair.play(5));
     EXPECT_EQ(pair.apart(), 0);
-    EXPECT_EQ(pair.beside.stage().steps(), 5u);
+    EXPECT_EQ(pair.beside.document().steps(), 5u);
 }
 
-TEST(Beside, OfAnotherSolverFallsAlikeAndIsMeasured) {
+TEST(SecondSimulation, OfAnotherSolverFallsAlikeAndIsMeasured) {
     Pair pair({sim::Solver::gaussSeidel, 6});
     ASSERT_FALSE(pair.play(10));
     EXPECT_EQ(pair.beside.shape(), (BesideShape{sim::Solver::gaussSeidel, 6}));
@@ -80,9 +81,9 @@ TEST(Beside, OfAnotherSolverFallsAlikeAndIsMeasured) {
     EXPECT_EQ(pair.beside.facts().phases.front().ms.count(), 10u);
 }
 
-TEST(Beside, IsHeldByTheSameHandAndPulledByTheSameGravity) {
+TEST(SecondSimulation, IsHeldByTheSameHandAndPulledByTheSameGravity) {
     Pair pair({sim::Solver::jacobi, 8});
-    pair.stage.setGravity(2);
+    pair.document.setGravity(2);
     StepHands hands;
     hands.grabs[0] = {.particle = 0,
                       .radius = 0.2f,
@@ -96,12 +97,12 @@ TEST(Beside, IsHeldByTheSameHandAndPulledByTheSameGravity) {
     ASSERT_FALSE(pair.play(20, hands));
     const auto held = pair.placesOf(pair.beside.simulation());
     EXPECT_GT(held[0].y, before[0].y + 0.1f) << "lifted";
-    const auto first = pair.placesOf(pair.stage.simulation());
+    const auto first = pair.placesOf(pair.document.simulation());
     EXPECT_NEAR(first[0].y, held[0].y, 0.05f) << "both follow the hand";
-    EXPECT_EQ(pair.beside.stage().gravity().y, -2);
+    EXPECT_EQ(pair.beside.document().gravity().y, -2);
 }
 
-TEST(Beside, GoesOnWhereTheFirstStands) {
+TEST(SecondSimulation, GoesOnWhereTheFirstStands) {
     Pair pair({sim::Solver::gaussSeidel, 6});
     StepHands hands;
     hands.grabs[0] = {.particle = 0,
@@ -112,29 +113,30 @@ TEST(Beside, GoesOnWhereTheFirstStands) {
                       .maxAcceleration = 400};
     ASSERT_FALSE(pair.play(12, hands));
     ASSERT_GT(pair.apart(), 0);
-    pair.run([&](VkCommandBuffer commands) { pair.beside.recordTakeOver(commands, pair.stage); });
+    pair.run([&](VkCommandBuffer commands) { pair.beside.recordTakeOver(commands, pair.document); });
     EXPECT_EQ(pair.apart(), 0);
-    EXPECT_EQ(pair.beside.stage().steps(), pair.stage.steps());
+    EXPECT_EQ(pair.beside.document().steps(), pair.document.steps());
     EXPECT_EQ(pair.beside.facts().strainRms.count(), 0u) << "what was measured was of another state";
     ASSERT_FALSE(pair.play(2, hands));
 }
 
 // The simulation that takes over needs the capacities of the other one.
-TEST(Beside, GoesOnWithTheRoomAndTheMaterialThatTheFirstHas) {
+TEST(SecondSimulation, GoesOnWithTheRoomAndTheMaterialThatTheFirstHas) {
     Pair pair({sim::Solver::split, 6}, block);
     ASSERT_FALSE(pair.play(3));
-    ASSERT_TRUE(pair.stage.makeSurfaceRoom(4 * pair.stage.settings().cutSurfaceRoom + 200000, test::queue()));
-    pair.stage.turnNow({.stiffness = 0.5f});
+    ASSERT_TRUE(
+        pair.document.makeSurfaceRoom(4 * pair.document.settings().cutSurfaceRoom + 200000, test::queue()));
+    pair.document.turnNow({.stiffness = 0.5f});
     pair.run([&](VkCommandBuffer commands) { pair.step(commands); });
-    ASSERT_EQ(pair.stage.material(), sim::Material{.stiffness = 0.5f});
-    EXPECT_FALSE(pair.beside.stage().hasRoomOf(pair.stage));
-    Beside next(test::device(), pair.opening.loaded,
-                sim::withRoomsOf(pair.beside.stage().settings(), pair.stage.settings()),
-                pair.stage.material(), pair.beside.shape(), 1);
-    EXPECT_TRUE(next.stage().hasRoomOf(pair.stage));
-    EXPECT_EQ(next.stage().material(), pair.stage.material());
-    pair.run([&](VkCommandBuffer commands) { next.recordTakeOver(commands, pair.stage); });
-    const auto here = pair.placesOf(pair.stage.simulation()), there = pair.placesOf(next.simulation());
+    ASSERT_EQ(pair.document.material(), sim::Material{.stiffness = 0.5f});
+    EXPECT_FALSE(pair.beside.document().hasRoomOf(pair.document));
+    SecondSimulation next(test::device(), pair.opening.loaded,
+                          sim::withRoomsOf(pair.beside.document().settings(), pair.document.settings()),
+                          pair.document.material(), pair.beside.shape(), 1);
+    EXPECT_TRUE(next.document().hasRoomOf(pair.document));
+    EXPECT_EQ(next.document().material(), pair.document.material());
+    pair.run([&](VkCommandBuffer commands) { next.recordTakeOver(commands, pair.document); });
+    const auto here = pair.placesOf(pair.document.simulation()), there = pair.placesOf(next.simulation());
     ASSERT_EQ(here.size(), there.size());
     for (std::size_t i = 0; i < here.size(); ++i)
         EXPECT_TRUE(here[i].x == there[i].x && here[i].y == there[i].y && here[i].z == there[i].z) << i;
@@ -152,7 +154,7 @@ template <typename Act> std::string refusalOf(const Act& act) {
 // The scene asks for a block that may be cut. Its contacts come by default and are no reason.
 const std::string cuts = "grid[0] \"block\": may be cut, which solver jacobi does not support: use split";
 
-TEST(Beside, RefusesWhatItsSolverHasNoFormFor) {
+TEST(SecondSimulation, RefusesWhatItsSolverHasNoFormFor) {
     EXPECT_EQ(refusalOf([] { Pair({sim::Solver::jacobi, 8}, block); }), cuts);
     const std::string touching = refusalOf([] {
         Pair({sim::Solver::jacobi, 8}, changed(hanging, "young_", "collides = true\nyoung_"));
@@ -160,12 +162,12 @@ TEST(Beside, RefusesWhatItsSolverHasNoFormFor) {
     EXPECT_NE(touching.find("not support particles that touch each other"), std::string::npos) << touching;
 }
 
-TEST(Stage, RefusesAShapeForWhatTheSceneAsksForAlone) {
+TEST(Document, RefusesAShapeForWhatTheSceneAsksForAlone) {
     const auto refusal = [](const std::string& text) {
         Scene scene(text);
-        scene.stage.setDefaults(scene.opening.loaded.defaults);
-        scene.stage.wantShape(sim::Solver::jacobi, 4);
-        return refusalOf([&] { scene.stage.reshape(test::queue()); });
+        scene.document.setDefaults(scene.opening.loaded.defaults);
+        scene.document.wantShape(sim::Solver::jacobi, 4);
+        return refusalOf([&] { scene.document.reshape(test::queue()); });
     };
     EXPECT_EQ(refusal(block), "none") << "it may be cut, and collides by default, but nothing has cut it";
     const std::string touching = refusal(changed(block, "young_", "collides = true\nyoung_"));
@@ -175,33 +177,33 @@ TEST(Stage, RefusesAShapeForWhatTheSceneAsksForAlone) {
 const std::string sphere = "[solver]\nsubsteps = 4\n[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\n"
                            "voxel = 0.25\ncenter = [0, 2, 0]\n";
 
-bool recovers(const Stage& stage) {
-    return stage.scene().grids.at(0).recoveryPressure > 0;
+bool recovers(const Document& document) {
+    return document.scene().grids.at(0).recoveryPressure > 0;
 }
 
-TEST(Beside, OfAnotherSolverGoesWithoutTheRecoveryThatTheSceneDoesNotAskFor) {
+TEST(SecondSimulation, OfAnotherSolverGoesWithoutTheRecoveryThatTheSceneDoesNotAskFor) {
     for (const sim::Solver solver : {sim::Solver::jacobi, sim::Solver::gaussSeidel}) {
         Pair pair({solver, 6}, sphere);
-        EXPECT_TRUE(recovers(pair.stage));
-        EXPECT_FALSE(recovers(pair.beside.stage()));
+        EXPECT_TRUE(recovers(pair.document));
+        EXPECT_FALSE(recovers(pair.beside.document()));
         ASSERT_EQ(pair.beside.notes().size(), 1u);
         EXPECT_EQ(pair.beside.notes()[0],
                   std::string("mesh sphere: no recovery, cells that fold may stay so: it needs solver split, "
                               "the scene is solved by ") +
                       sim::solverName(solver));
         ASSERT_FALSE(pair.play(5));
-        EXPECT_EQ(pair.beside.stage().steps(), 5u);
-        pair.run([&](VkCommandBuffer commands) { pair.beside.recordTakeOver(commands, pair.stage); });
+        EXPECT_EQ(pair.beside.document().steps(), 5u);
+        pair.run([&](VkCommandBuffer commands) { pair.beside.recordTakeOver(commands, pair.document); });
         ASSERT_FALSE(pair.play(5));
     }
     const Pair same({sim::Solver::split, 6}, sphere);
-    EXPECT_TRUE(recovers(same.beside.stage()));
+    EXPECT_TRUE(recovers(same.beside.document()));
     EXPECT_TRUE(same.beside.notes().empty());
-    EXPECT_TRUE(recovers(Pair({sim::Solver::split, 0}, sphere).beside.stage()));
-    EXPECT_FALSE(recovers(Pair({sim::Solver::jacobi, 0}, sphere).beside.stage()));
+    EXPECT_TRUE(recovers(Pair({sim::Solver::split, 0}, sphere).beside.document()));
+    EXPECT_FALSE(recovers(Pair({sim::Solver::jacobi, 0}, sphere).beside.document()));
 }
 
-TEST(Beside, WarnsOfWhatLoadingInItsShapeWouldWarnOf) {
+TEST(SecondSimulation, WarnsOfWhatLoadingInItsShapeWouldWarnOf) {
     const std::string stiff = changed(changed(hanging, "2e4", "2e6"), "substeps = 4", "substeps = 60");
     const auto beside = [&](std::uint32_t substeps) {
         return Pair({sim::Solver::split, substeps}, stiff).beside.warnings();
@@ -213,7 +215,7 @@ TEST(Beside, WarnsOfWhatLoadingInItsShapeWouldWarnOf) {
     EXPECT_EQ(beside(2), openText(changed(stiff, "substeps = 60", "substeps = 2")).loaded.warnings);
 }
 
-TEST(Beside, RefusesTheRecoveryThatTheSceneAsksFor) {
+TEST(SecondSimulation, RefusesTheRecoveryThatTheSceneAsksFor) {
     try {
         const Pair pair({sim::Solver::jacobi, 6}, sphere + "recovery = 2\n");
         FAIL() << "it is played";
@@ -226,45 +228,45 @@ TEST(Beside, RefusesTheRecoveryThatTheSceneAsksFor) {
 
 // A change of the solver, as a replay makes it, leaves out a default recovery that the solver does not
 // support.
-TEST(Stage, LeavesDefaultRecoveryOutOfShapesWithoutAFormForIt) {
+TEST(Document, LeavesDefaultRecoveryOutOfShapesWithoutAFormForIt) {
     Scene scene(sphere);
-    Stage& stage = scene.stage;
+    Document& document = scene.document;
     const auto play = [&](int steps) {
         for (int i = 0; i < steps; ++i)
-            scene.run([&](VkCommandBuffer commands) { stage.recordStep(commands); });
+            scene.run([&](VkCommandBuffer commands) { document.recordStep(commands); });
     };
-    stage.setDefaults(scene.opening.loaded.defaults);
+    document.setDefaults(scene.opening.loaded.defaults);
     play(3);
-    stage.wantShape(sim::Solver::gaussSeidel, 6);
-    ASSERT_NO_THROW(stage.reshape(test::queue()));
-    EXPECT_FALSE(recovers(stage));
-    stage.turnNow({.stiffness = 0.5f});
+    document.wantShape(sim::Solver::gaussSeidel, 6);
+    ASSERT_NO_THROW(document.reshape(test::queue()));
+    EXPECT_FALSE(recovers(document));
+    document.turnNow({.stiffness = 0.5f});
     play(3);
-    EXPECT_FALSE(recovers(stage));
-    EXPECT_EQ(stage.material(), sim::Material{.stiffness = 0.5f});
-    stage.wantShape(sim::Solver::split, 4);
-    stage.reshape(test::queue());
-    EXPECT_TRUE(recovers(stage));
-    EXPECT_EQ(stage.steps(), 6u);
+    EXPECT_FALSE(recovers(document));
+    EXPECT_EQ(document.material(), sim::Material{.stiffness = 0.5f});
+    document.wantShape(sim::Solver::split, 4);
+    document.reshape(test::queue());
+    EXPECT_TRUE(recovers(document));
+    EXPECT_EQ(document.steps(), 6u);
 }
 
-TEST(Beside, IsDrawnInTheRightHalf) {
+TEST(SecondSimulation, IsDrawnInTheRightHalf) {
     Pair pair({sim::Solver::split, 4});
     constexpr VkExtent2D whole{161, 80}, half{81, 80};
     Offscreen both(test::device(), whole, pair.opening.light), one(test::device(), half, pair.opening.light);
     const auto drawBoth = [&] {
         pair.run([&](VkCommandBuffer commands) {
-            pair.stage.recordSkin(commands);
+            pair.document.recordSkin(commands);
             pair.beside.recordPicture(commands, 0, false);
             const Overlay none;
             both.recordHalves(commands, pair.opening.camera,
-                              {{{pair.stage.simulation(), none}, {pair.beside.simulation(), none}}});
+                              {{{pair.document.simulation(), none}, {pair.beside.simulation(), none}}});
         });
         return both.read();
     };
     const auto drawOne = [&](const sim::Simulation& simulation) {
         pair.run([&](VkCommandBuffer commands) {
-            pair.stage.recordSkin(commands);
+            pair.document.recordSkin(commands);
             pair.beside.recordPicture(commands, 0, false);
             one.record(commands, pair.opening.camera, simulation);
         });
@@ -283,9 +285,9 @@ TEST(Beside, IsDrawnInTheRightHalf) {
         return count;
     };
     for (int i = 0; i < 20; ++i) // only the first simulation
-        pair.run([&](VkCommandBuffer commands) { recordStep(commands, pair.stage, {}); });
+        pair.run([&](VkCommandBuffer commands) { recordStep(commands, pair.document, {}); });
     const Picture picture = drawBoth();
-    const Picture left = drawOne(pair.stage.simulation()), right = drawOne(pair.beside.simulation());
+    const Picture left = drawOne(pair.document.simulation()), right = drawOne(pair.beside.simulation());
     EXPECT_EQ(differing(picture, left, 0), 0);
     EXPECT_EQ(differing(picture, right, whole.width - half.width), 0);
     EXPECT_GT(differing(picture, left, whole.width - half.width), 50) << "it has fallen";

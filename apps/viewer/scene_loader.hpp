@@ -1,7 +1,7 @@
 // The list of scenes and their loader. Loading runs in another thread and may fail, while the window goes on.
 #pragma once
 
-#include "viewer/opening.hpp"
+#include "viewer/opened_scene.hpp"
 #include "viewer/previews.hpp"
 
 #include <functional>
@@ -11,17 +11,17 @@
 namespace sinew::viewer {
 
 /// Used by one thread; loads in another, which the destructor waits for.
-class Library {
+class SceneLoader {
 public:
     /// Further work for a loaded scene, in the loading thread; may throw.
-    using Prepare = std::function<void(Opening&, const Options&)>;
+    using Prepare = std::function<void(OpenedScene&, const Options&)>;
 
     /// Draws the preview of a scene, in the thread of the previews; may throw.
     using Draw = std::function<std::optional<Picture>(const Options&, const std::stop_token&)>;
 
     /// `options` as the program was started with. The list holds the scene files in the folder of the opened
     /// one, or the built-in scenes.
-    explicit Library(Options options, Prepare prepare = {}, Draw draw = {});
+    explicit SceneLoader(Options options, Prepare prepare = {}, Draw draw = {});
 
     /// Options of the first scene.
     const Options& options() const { return options_; }
@@ -42,10 +42,10 @@ public:
     void openFile(const std::string& file, float aspect);
     /// Opens the scene on show again, to take over from it with another solver, other substeps or another
     /// material; all other options stay.
-    void reopen(const scenes::Overrides& overrides, const Again& again, float aspect);
+    void reopen(const scenes::Overrides& overrides, const ReloadRequest& reload, float aspect);
 
     /// Opens the scene on show again on another device; later scenes also use that device.
-    void reopenOn(const std::string& device, const Again& again, float aspect);
+    void reopenOn(const std::string& device, const ReloadRequest& reload, float aspect);
 
     /// Records that the scene on show, and all opened later, use that device.
     void moveTo(const std::string& device);
@@ -56,9 +56,9 @@ public:
     bool isOpening() const { return opening_.valid(); }
     /// The requested scene once it is loaded, else null. Throws app::Failure and the exceptions of
     /// scenes::load and Prepare; the scene on show then stays the current one.
-    std::unique_ptr<Opening> take();
+    std::unique_ptr<OpenedScene> take();
     /// After take() of a scene that was to take over: makes it again, to take over the present state.
-    void askAgain(const Again& again, float aspect);
+    void askAgain(const ReloadRequest& reload, float aspect);
     /// After take(), if the scene could not be shown: makes the one before current again.
     void putBack();
 
@@ -66,7 +66,7 @@ private:
     struct Request {
         Options options;
         std::size_t name;
-        std::optional<Again> again = {};
+        std::optional<ReloadRequest> reload = {};
         std::optional<InputFile> input = {};
     };
     void begin(Request request, float aspect);
@@ -77,7 +77,7 @@ private:
     std::vector<std::string> names_, files_; // files_ is empty for built-in scenes
     std::size_t current_;
     std::optional<Request> shown_, before_, asked_;
-    std::future<std::unique_ptr<Opening>> opening_;
+    std::future<std::unique_ptr<OpenedScene>> opening_;
     Previews previews_; // last: its thread reads names_ and files_
 };
 

@@ -1,5 +1,5 @@
-// Runs a stage with gauges of its own, and formats settings as text.
-#include "viewer/beside.hpp"
+// Runs a document with gauges of its own, and formats settings as text.
+#include "viewer/second_simulation.hpp"
 
 #include "scenes/recovery.hpp"
 #include "sim/compile/compile.hpp"
@@ -64,63 +64,65 @@ std::string toText(const BesideShape& shape) {
     return shape.substeps == 0 ? solver : solver + ", " + std::to_string(shape.substeps) + " substeps";
 }
 
-Beside::Beside(const vk::Device& device, const scenes::LoadedScene& loaded, const sim::Settings& settings,
-               const sim::Material& material, const BesideShape& shape, std::uint32_t slots)
+SecondSimulation::SecondSimulation(const vk::Device& device, const scenes::LoadedScene& loaded,
+                                   const sim::Settings& settings, const sim::Material& material,
+                                   const BesideShape& shape, std::uint32_t slots)
     : shape_(shapeOf(chosenFor(sim::withMaterial(sceneFor(loaded, settingsOf(settings, shape)), material),
                                settingsOf(settings, shape)))),
-      stage_(device, sceneFor(loaded, settingsOf(settings, shape_)), settingsOf(settings, shape_), material),
-      warnings_(scenes::newWarnings(loaded, stage_.settings())),
-      notes_(scenes::recoveryLeftOut(loaded, stage_.settings())), gauges_(stage_, loaded.scene.dt),
-      probe_(device, stage_.scene(), stage_.settings(), stage_.simulation()), flights_(slots) {
-    stage_.setBlades({loaded.blades, loaded.scene.dt});
-    const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
+      document_(device, sceneFor(loaded, settingsOf(settings, shape_)), settingsOf(settings, shape_),
+                material),
+      warnings_(scenes::newWarnings(loaded, document_.settings())),
+      notes_(scenes::recoveryLeftOut(loaded, document_.settings())), gauges_(document_, loaded.scene.dt),
+      probe_(device, document_.scene(), document_.settings(), document_.simulation()), flights_(slots) {
+    document_.setBlades({loaded.blades, loaded.scene.dt});
+    const auto spans = static_cast<std::uint32_t>(document_.simulation().phases().size());
     for (std::uint32_t slot = 0; slot < slots; ++slot) times_.emplace_back(device, spans);
 }
 
-void Beside::recordReset(VkCommandBuffer commands) noexcept {
-    stage_.recordReset(commands);
+void SecondSimulation::recordReset(VkCommandBuffer commands) noexcept {
+    document_.recordReset(commands);
     gauges_.restart();
     for (Flight& flight : flights_) flight = {};
 }
 
-void Beside::recordTakeOver(VkCommandBuffer commands, const Stage& first) {
-    stage_.recordTakeOver(commands, first);
+void SecondSimulation::recordTakeOver(VkCommandBuffer commands, const Document& first) {
+    document_.recordTakeOver(commands, first);
     gauges_.restart();
     for (Flight& flight : flights_) flight = {};
 }
 
-void Beside::recordStep(VkCommandBuffer commands, const Stage& first, const StepHands& hands,
-                        std::uint32_t slot, bool isTimed) noexcept {
+void SecondSimulation::recordStep(VkCommandBuffer commands, const Document& first, const StepHands& hands,
+                                  std::uint32_t slot, bool isTimed) noexcept {
     Flight& flight = flights_[slot];
-    if (flight.steps++ == 0) flight.firstStep = stage_.steps() + 1;
+    if (flight.steps++ == 0) flight.firstStep = document_.steps() + 1;
     flight.isTimed = flight.isTimed || isTimed;
-    stage_.setGravity(first.gravity());
-    viewer::recordStep(commands, stage_, hands, isTimed ? &times_[slot] : nullptr);
+    document_.setGravity(first.gravity());
+    viewer::recordStep(commands, document_, hands, isTimed ? &times_[slot] : nullptr);
 }
 
-void Beside::recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured) noexcept {
-    stage_.recordSkin(commands);
+void SecondSimulation::recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured) noexcept {
+    document_.recordSkin(commands);
     flights_[slot].isMeasured = isMeasured;
     if (isMeasured) probe_.record(commands);
 }
 
-std::optional<Beside::Trouble> Beside::settle(std::uint32_t slot) {
+std::optional<SecondSimulation::Trouble> SecondSimulation::settle(std::uint32_t slot) {
     const Flight flight = std::exchange(flights_[slot], {});
     for (std::uint32_t i = 0; i < flight.steps; ++i) {
         const std::uint64_t step = flight.firstStep + i;
-        if (const std::uint32_t needed = stage_.neededRoom(step); needed > 0) {
-            const sim::Settings& settings = stage_.settings();
+        if (const std::uint32_t needed = document_.neededRoom(step); needed > 0) {
+            const sim::Settings& settings = document_.settings();
             const auto roomy = sim::Rooms(settings).forContacts(settings, needed);
             if (!roomy) return Trouble{app::tooCrowded(step)};
             return Trouble{"its contacts need more room", roomy->contactRoom};
         }
-        if (const std::optional<Divergence> divergence = stage_.check(step))
+        if (const std::optional<Divergence> divergence = document_.check(step))
             return Trouble{divergence->sentence()};
-        const sim::Status status = stage_.simulation().status(step);
+        const sim::Status status = document_.simulation().status(step);
         gauges_.stepFinished(status);
     }
     if (flight.isTimed) gauges_.stepTimed(times_[slot].milliseconds());
-    if (flight.isMeasured) gauges_.strainMeasured(measureStrain(stage_.scene(), probe_));
+    if (flight.isMeasured) gauges_.strainMeasured(measureStrain(document_.scene(), probe_));
     return std::nullopt;
 }
 

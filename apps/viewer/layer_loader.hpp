@@ -5,7 +5,7 @@
 
 #include "sinew/vk/queue.hpp"
 #include "viewer/layers/inspection.hpp"
-#include "viewer/prepared_show.hpp"
+#include "viewer/prepared_player.hpp"
 
 #include <functional>
 #include <future>
@@ -13,17 +13,17 @@
 
 namespace sinew::viewer {
 
-/// Used by one thread, the one that submits pictures. Must not outlive device, stage and show.
-class Backstage {
+/// Used by one thread, the one that submits pictures. Must not outlive device, document and show.
+class LayerLoader {
 public:
     /// At most `slots` pictures may be in flight at a time.
-    Backstage(const vk::Device& device, PreparedShow& show, const Camera& camera, std::uint32_t slots);
-    ~Backstage(); ///< waits for the layers in the making and for the rehearsal
-    Backstage(const Backstage&) = delete;
-    Backstage& operator=(const Backstage&) = delete;
+    LayerLoader(const vk::Device& device, PreparedPlayer& player, const Camera& camera, std::uint32_t slots);
+    ~LayerLoader(); ///< waits for the layers in the making and for the rehearsal
+    LayerLoader(const LayerLoader&) = delete;
+    LayerLoader& operator=(const LayerLoader&) = delete;
 
     /// Returns the part of `wanted` that can be recorded now, and begins to make the rest.
-    Watched ready(const Watched& wanted);
+    WantedLayers ready(const WantedLayers& wanted);
     /// Continues rehearsals and adopts finished layers; needs no pictures. Returns true if a layer became
     /// ready. Throws vk::Error if a layer cannot be made.
     bool goOn();
@@ -37,8 +37,8 @@ public:
     void rehearse(const std::function<void(VkCommandBuffer)>& record, std::function<void()> done = {});
     bool isBusy();
 
-    /// Call before the stage changes its simulation: drops the layers of the old one and finishes rehearsals.
-    /// Waits.
+    /// Call before the document changes its simulation: drops the layers of the old one and finishes
+    /// rehearsals. Waits.
     void forget();
 
 private:
@@ -54,13 +54,13 @@ private:
         std::optional<Unseen> ofMoving, ofStill; // for views that are rehearsed
         std::size_t rehearsed = 0;               // count: the parts, then each addition
     };
-    Made make(const Watched& wanted, const sim::Scene& scene) const;
-    bool has(const Watched& watched) const noexcept;
+    Made make(const WantedLayers& wanted, const sim::Scene& scene) const;
+    bool has(const WantedLayers& watched) const noexcept;
     void rehearseNext();
     void add();
 
     const vk::Device& device_;
-    PreparedShow& show_;
+    PreparedPlayer& player_;
     const Camera camera_; // for rehearsals
     Inspection inspection_;
     std::uint32_t slots_;

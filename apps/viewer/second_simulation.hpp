@@ -4,7 +4,7 @@
 #pragma once
 
 #include "sinew/vk/timestamps.hpp"
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 #include "viewer/gauges.hpp"
 #include "viewer/hands/state_probe.hpp"
 #include "viewer/tools.hpp"
@@ -27,19 +27,20 @@ std::string toText(const BesideShape& shape);
 
 /// Must not outlive its Device, which must not move. May be made in any thread; afterwards used by the thread
 /// of the first.
-class Beside {
+class SecondSimulation {
 public:
     /// Takes scene, blades, material and capacities of `first`. At most `slots` pictures may be in flight at
     /// a time. Throws std::invalid_argument naming what the solver has no form for, and vk::Error.
-    Beside(const vk::Device& device, const scenes::LoadedScene& loaded, const sim::Settings& settings,
-           const sim::Material& material, const BesideShape& shape, std::uint32_t slots);
+    SecondSimulation(const vk::Device& device, const scenes::LoadedScene& loaded,
+                     const sim::Settings& settings, const sim::Material& material, const BesideShape& shape,
+                     std::uint32_t slots);
 
     /// Instead of a reset: continues from the state of `first`. All steps of both must have finished.
-    void recordTakeOver(VkCommandBuffer commands, const Stage& first);
+    void recordTakeOver(VkCommandBuffer commands, const Document& first);
     void recordReset(VkCommandBuffer commands) noexcept;
     /// Records the step that was just recorded for `first`. `isTimed`: the step of the first is timed too.
-    void recordStep(VkCommandBuffer commands, const Stage& first, const StepHands& hands, std::uint32_t slot,
-                    bool isTimed) noexcept;
+    void recordStep(VkCommandBuffer commands, const Document& first, const StepHands& hands,
+                    std::uint32_t slot, bool isTimed) noexcept;
     /// Records the skins and, if `isMeasured`, a copy of the particle positions.
     void recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured) noexcept;
 
@@ -51,15 +52,15 @@ public:
     /// Call when the picture in the slot has finished. Empty if all is well.
     std::optional<Trouble> settle(std::uint32_t slot);
 
-    const sim::Simulation& simulation() const noexcept { return stage_.simulation(); }
-    const Stage& stage() const noexcept { return stage_; }
+    const sim::Simulation& simulation() const noexcept { return document_.simulation(); }
+    const Document& document() const noexcept { return document_; }
     const BesideShape& shape() const noexcept { return shape_; }
     /// Warnings that loading the scene with these settings gives and loading it with its own does not.
     const std::vector<std::string>& warnings() const noexcept { return warnings_; }
     /// Notes on features that bodies have in the first simulation and do without here.
     const std::vector<std::string>& notes() const noexcept { return notes_; }
     /// The facts that gauges know.
-    Facts facts() const { return gauges_.facts(stage_); }
+    Facts facts() const { return gauges_.facts(document_); }
 
 private:
     struct Flight {
@@ -68,7 +69,7 @@ private:
         bool isTimed = false, isMeasured = false;
     };
     BesideShape shape_; // with the number of substeps filled in
-    Stage stage_;
+    Document document_;
     std::vector<std::string> warnings_, notes_;
     Gauges gauges_;
     StateProbe probe_;

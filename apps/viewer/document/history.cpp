@@ -1,5 +1,5 @@
 // Buffers are recycled: a dropped state's buffer serves the next state.
-#include "viewer/hands/history.hpp"
+#include "viewer/document/history.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -82,34 +82,34 @@ void History::bring(const History& other, const sim::Simulation& from, vk::Queue
     after_ = std::move(brought.after_);
 }
 
-void History::recordBefore(VkCommandBuffer commands, const Stage& stage, std::size_t more) {
-    const std::size_t most = room(stage) + more;
+void History::recordBefore(VkCommandBuffer commands, const Document& document, std::size_t more) {
+    const std::size_t most = room(document) + more;
     const auto forget = [this](States& states) {
         spare_.push_back(std::move(states.front().buffer));
         states.pop_front();
     };
     while (!after_.empty()) forget(after_);
     while (before_.size() >= most) forget(before_);
-    before_.push_back(record(commands, stage.simulation(), stage.played()));
+    before_.push_back(record(commands, document.simulation(), document.played()));
 }
 
-bool History::recordSwap(VkCommandBuffer commands, Stage& stage, States& from, States& to) {
+bool History::recordSwap(VkCommandBuffer commands, Document& document, States& from, States& to) {
     if (from.empty()) return false;
-    to.push_back(record(commands, stage.simulation(), stage.played()));
-    load(commands, stage, from);
+    to.push_back(record(commands, document.simulation(), document.played()));
+    load(commands, document, from);
     return true;
 }
 
-void History::load(VkCommandBuffer commands, Stage& stage, States& from) {
-    stage.simulation().recordLoadState(commands, from.back().buffer.view(), from.back().host);
-    stage.setPlayed(from.back().played);
+void History::load(VkCommandBuffer commands, Document& document, States& from) {
+    document.simulation().recordLoadState(commands, from.back().buffer.view(), from.back().host);
+    document.setPlayed(from.back().played);
     spare_.push_back(std::move(from.back().buffer));
     from.pop_back();
 }
 
-bool History::recordBack(VkCommandBuffer commands, Stage& stage) {
+bool History::recordBack(VkCommandBuffer commands, Document& document) {
     if (before_.empty()) return false;
-    load(commands, stage, before_);
+    load(commands, document, before_);
     return true;
 }
 
@@ -122,12 +122,12 @@ void History::limit(std::size_t states) {
     for (; before_.size() > states; before_.pop_front()) spare_.push_back(std::move(before_.front().buffer));
 }
 
-bool History::recordUndo(VkCommandBuffer commands, Stage& stage) {
-    return recordSwap(commands, stage, before_, after_);
+bool History::recordUndo(VkCommandBuffer commands, Document& document) {
+    return recordSwap(commands, document, before_, after_);
 }
 
-bool History::recordRedo(VkCommandBuffer commands, Stage& stage) {
-    return recordSwap(commands, stage, after_, before_);
+bool History::recordRedo(VkCommandBuffer commands, Document& document) {
+    return recordSwap(commands, document, after_, before_);
 }
 
 std::vector<std::uint64_t> History::times() const {

@@ -4,7 +4,7 @@
 #include "app/state_file.hpp"
 #include "sinew/vk/device.hpp"
 #include "viewer/draw/png.hpp"
-#include "viewer/draw/stage_light.hpp"
+#include "viewer/draw/scene_light.hpp"
 #include "viewer/hands/input_log.hpp"
 #include "viewer/options.hpp"
 #include "viewer/panels/facts.hpp"
@@ -14,53 +14,53 @@
 
 namespace sinew::viewer {
 
-struct Place;
-struct PreparedShow;
+struct WindowOutput;
+struct PreparedPlayer;
 
 /// Parameters of a reload: another simulation of the scene on show is to take over from it, because a setting
 /// changed that needs one.
-struct Again {
+struct ReloadRequest {
     sim::Material material; ///< of the new simulation
     sim::Settings settings; ///< with the present capacities
 };
 
-struct Opening {
-    Opening();
-    Opening(Opening&&) noexcept;
-    ~Opening();
+struct OpenedScene {
+    OpenedScene();
+    OpenedScene(OpenedScene&&) noexcept;
+    ~OpenedScene();
 
     scenes::LoadedScene loaded;
     Camera camera;
-    StageLight light;
+    SceneLight light;
     std::optional<float> bladeDepth; ///< initial depth (see CutTool::setDepth)
-    std::optional<Again> again;
+    std::optional<ReloadRequest> reload;
     std::optional<InputFile> input;   ///< log to play
     std::optional<app::SavedRun> run; ///< state to start from
 
     std::unique_ptr<vk::Device> device; ///< for a window; the next two use it
-    std::unique_ptr<Place> place;
-    std::unique_ptr<PreparedShow> prepared;
+    std::unique_ptr<WindowOutput> output;
+    std::unique_ptr<PreparedPlayer> prepared;
 };
 
 /// Loads the scene, or that of a saved state, and prints its notes and warnings to stderr. The camera is that
 /// of the file or the state, or has every body in a picture of aspect ratio `aspect`. Throws as scenes::load
 /// and app::readRun.
-Opening open(const Options& options, float aspect);
+OpenedScene open(const Options& options, float aspect);
 
 /// Like open(), without output to stderr.
-Opening look(const Options& options, float aspect);
+OpenedScene look(const Options& options, float aspect);
 
 /// The initial material: that of the reload or of the saved state, if there is one.
-sim::Material firstMaterial(const Opening& opening);
+sim::Material firstMaterial(const OpenedScene& opening);
 
 /// Requests a device that can draw, with validation if the options ask for it. Each message goes to stderr
 /// and is counted in `messages`, which must outlive the device; any thread increments it.
 vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>& messages);
 
 /// "organ: 4,211 particles, solver split with 32 substeps, on llvmpipe (software)".
-std::string headline(const Opening& opening, const vk::Device& device);
+std::string headline(const OpenedScene& opening, const vk::Device& device);
 
 /// The text chunks of every picture file.
-PictureText pictureText(const Opening& opening, const vk::Device& device, std::uint64_t step);
+PictureText pictureText(const OpenedScene& opening, const vk::Device& device, std::uint64_t step);
 
 } // namespace sinew::viewer

@@ -1,5 +1,5 @@
 // Changes swapchain and panels together.
-#include "viewer/screen.hpp"
+#include "viewer/session.hpp"
 
 #include "sinew/vk/check.hpp"
 
@@ -27,60 +27,61 @@ void merge(PanelInput& all, const PanelInput& next) {
 
 } // namespace
 
-Screen::Screen(Window& window, std::unique_ptr<Place> place, const Timing& timing,
-               const Preferences& preferences)
-    : window_(window), place_(std::move(place)), timing_(timing), panels_(window.scale() * preferences.scale),
-      ownScale_(preferences.scale), windowScale_(window.scale()), isVsync_(preferences.isVsync) {
+Session::Session(Window& window, std::unique_ptr<WindowOutput> output, const Timing& timing,
+                 const Preferences& preferences)
+    : window_(window), output_(std::move(output)), timing_(timing),
+      panels_(window.scale() * preferences.scale), ownScale_(preferences.scale), windowScale_(window.scale()),
+      isVsync_(preferences.isVsync) {
     panels_.choose(preferences.arePanelsShown);
-    place_->painter.setAtlas(panels_.atlas());
+    output_->painter.setAtlas(panels_.atlas());
     panels_.setPaste([this] { return window_.clipboard(); });
     panels_.setCopy([this](const std::string& text) { window_.setClipboard(text); });
     window_.setCover({[this](const Vector2& pixels) { return panels_.covers(pixels); },
                       [this] { return panels_.takesKeys(); }});
 }
 
-Screen::~Screen() {
+Session::~Session() {
     window_.setCover({});
-    place_->presenter.drain(); // the painter's buffers may be in use
+    output_->presenter.drain(); // the painter's buffers may be in use
 }
 
-std::unique_ptr<Place> Screen::moveTo(std::unique_ptr<Place> place) {
+std::unique_ptr<WindowOutput> Session::moveTo(std::unique_ptr<WindowOutput> output) {
     const auto change = [&] {
-        place_->presenter.retire(); // a window has one swapchain at a time
-        std::swap(place_, place);
+        output_->presenter.retire(); // a window has one swapchain at a time
+        std::swap(output_, output);
         pixels_ = {};
     };
     change();
     try {
-        place_->painter.setAtlas(panels_.atlas());
-        place_->painter.setSheet(sheet_);
+        output_->painter.setAtlas(panels_.atlas());
+        output_->painter.setSheet(sheet_);
         prepare([] {});
     } catch (...) {
         change();
         throw;
     }
-    return place;
+    return output;
 }
 
-bool Screen::prepare(const std::function<void()>& beforehand) {
+bool Session::prepare(const std::function<void()>& beforehand) {
     if (window_.scale() != windowScale_) rescale(); // the window may be on another display
     const VkExtent2D pixels = window_.pixels();
     const bool isSame = pixels.width == pixels_.width && pixels.height == pixels_.height;
-    if (pixels.width > 0 && isSame && !place_->presenter.isOutdated()) return true;
+    if (pixels.width > 0 && isSame && !output_->presenter.isOutdated()) return true;
     pixels_ = pixels;
-    if (pixels.width > 0) place_->presenter.waitIdle();
+    if (pixels.width > 0) output_->presenter.waitIdle();
     beforehand();
-    if (pixels.width == 0 || !place_->presenter.resize(pixels, isVsync_)) return false;
-    place_->painter.setPictures(place_->presenter.extent(), place_->presenter.views());
+    if (pixels.width == 0 || !output_->presenter.resize(pixels, isVsync_)) return false;
+    output_->painter.setPictures(output_->presenter.extent(), output_->presenter.views());
     return true;
 }
 
-void Screen::toggleVsync() {
+void Session::toggleVsync() {
     isVsync_ = !isVsync_;
     pixels_ = {}; // requests a new swapchain
 }
 
-void Screen::act(Action action) {
+void Session::act(Action action) {
     switch (action) {
     case Action::fullScreen:
         return window_.toggleFullScreen();
@@ -104,7 +105,7 @@ void Screen::act(Action action) {
     }
 }
 
-Preferences Screen::preferences() const {
+Preferences Session::preferences() const {
     const VkExtent2D size = window_.size();
     const auto isSensible = [](std::uint32_t side) {
         return side >= Preferences::smallest && side <= Preferences::largest;
@@ -117,7 +118,7 @@ Preferences Screen::preferences() const {
     return preferences;
 }
 
-void Screen::changeScale(int steps) {
+void Session::changeScale(int steps) {
     constexpr float step = 1.125f;
     const float scale = ownScale_ * std::pow(step, static_cast<float>(steps));
     const float whole = std::abs(scale - 1) < 0.01f ? 1 : scale; // returns to exactly 1
@@ -128,31 +129,31 @@ void Screen::changeScale(int steps) {
     tell(text);
 }
 
-void Screen::rescale() {
+void Session::rescale() {
     windowScale_ = window_.scale();
-    place_->presenter.waitIdle(); // the atlas may be in use
+    output_->presenter.waitIdle(); // the atlas may be in use
     panels_.rescale(windowScale_ * ownScale_);
-    place_->painter.setAtlas(panels_.atlas());
+    output_->painter.setAtlas(panels_.atlas());
     notices_.touch(); // the message needs a new layout
 }
 
-void Screen::expectPreviews(std::size_t count) {
+void Session::expectPreviews(std::size_t count) {
     sheet_ = PictureSheet(count);
-    place_->presenter.waitIdle(); // the old sheet may be in use
-    place_->painter.setSheet(sheet_);
+    output_->presenter.waitIdle(); // the old sheet may be in use
+    output_->painter.setSheet(sheet_);
 }
 
-void Screen::addPreview(std::size_t scene, const Picture& picture) {
+void Session::addPreview(std::size_t scene, const Picture& picture) {
     if (!sheet_.set(scene, picture)) return;
-    place_->painter.addPicture(sheet_, scene);
+    output_->painter.addPicture(sheet_, scene);
     notices_.touch();
 }
 
-void Screen::feed(const PanelInput& input) {
+void Session::feed(const PanelInput& input) {
     merge(input_, input);
 }
 
-Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene, Facts facts, bool areDue) {
+Wishes Session::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene, Facts facts, bool areDue) {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - std::exchange(lastPicture_, now)).count();
     facts.isVsync = isVsync_;
@@ -164,36 +165,36 @@ Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene
     input_.pointer = input.pointer;
     input_.isDown = input.isDown;
     input_.modifiers = input.modifiers;
-    Wishes wishes = panels_.build(scene, facts, input, place_->presenter.extent(), seconds);
+    Wishes wishes = panels_.build(scene, facts, input, output_->presenter.extent(), seconds);
     const bool areOld = ++picturesOfPanels_ >= picturesOfPanels && now - panelsDrawn_ >= panelsStay;
     if (areDue || areOld) {
         panelsDrawn_ = now;
         picturesOfPanels_ = 0;
     }
-    place_->painter.record(frame.commands, frame.slot, frame.image, panels_.drawn(),
-                           areDue || areOld ? PanelPainter::Draw::anew : PanelPainter::Draw::asKept);
+    output_->painter.record(frame.commands, frame.slot, frame.image, panels_.drawn(),
+                            areDue || areOld ? PanelPainter::Draw::anew : PanelPainter::Draw::asKept);
     return wishes;
 }
 
-void Screen::warn(const std::string& text) {
+void Session::warn(const std::string& text) {
     std::fprintf(stderr, "warning: %s\n", text.c_str());
     notices_.show({text, true}, Clock::now());
 }
 
-void Screen::note(const std::string& text) {
+void Session::note(const std::string& text) {
     std::fprintf(stderr, "note: %s\n", text.c_str());
     tell(text);
 }
 
-void Screen::tell(const std::string& text) {
+void Session::tell(const std::string& text) {
     notices_.show({text}, Clock::now());
 }
 
-void Screen::announce(const std::vector<std::string>& texts) {
+void Session::announce(const std::vector<std::string>& texts) {
     notices_.announce(texts, Clock::now());
 }
 
-bool Screen::hasNewNotice() {
+bool Session::hasNewNotice() {
     notices_.pass(Clock::now());
     return notices_.hasChanged();
 }

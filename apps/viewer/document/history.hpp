@@ -3,13 +3,13 @@
 
 #include "sinew/vk/buffer.hpp"
 #include "sinew/vk/queue.hpp"
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 
 #include <deque>
 
 namespace sinew::viewer {
 
-/// Holds states of the simulation of one stage, which is passed to every call, until bring(). Must not
+/// Holds states of the simulation of one document, which is passed to every call, until bring(). Must not
 /// outlive its Device, which must not move.
 class History {
 public:
@@ -21,17 +21,17 @@ public:
     History(const vk::Device& device, std::size_t mostStates) : device_(device), mostStates_(mostStates) {}
 
     /// Number of states that fit, at least one.
-    std::size_t room(const Stage& stage) const { return room(stage.simulation()); }
+    std::size_t room(const Document& document) const { return room(document.simulation()); }
 
     /// Records a copy of the present state, to return to, and drops the states to redo. Keeps `more` states
     /// than fit: the newest of them may be dropped (forgetFrom) without loss of older ones. Throws vk::Error
     /// if there is no memory.
-    void recordBefore(VkCommandBuffer commands, const Stage& stage, std::size_t more = 0);
+    void recordBefore(VkCommandBuffer commands, const Document& document, std::size_t more = 0);
     /// Records the return to the newest saved state, or forwards again; false if there is none.
-    bool recordUndo(VkCommandBuffer commands, Stage& stage);
-    bool recordRedo(VkCommandBuffer commands, Stage& stage);
+    bool recordUndo(VkCommandBuffer commands, Document& document);
+    bool recordRedo(VkCommandBuffer commands, Document& document);
     /// Like recordUndo(), but the present state cannot be redone.
-    bool recordBack(VkCommandBuffer commands, Stage& stage);
+    bool recordBack(VkCommandBuffer commands, Document& document);
     /// Drops the newest states to undo whose time is not before `played`, at most `most`.
     void forgetFrom(std::uint64_t played, std::size_t most = mostSteps);
     /// Replaces its own states by those of `other`, which may be this: states of `from` become states of `to`
@@ -45,7 +45,7 @@ public:
 
     std::size_t undos() const { return before_.size(); }
     std::size_t redos() const { return after_.size(); }
-    /// Times of the states (see Stage::played()): those to undo, oldest first, then those to redo, nearest
+    /// Times of the states (see Document::played()): those to undo, oldest first, then those to redo, nearest
     /// first.
     std::vector<std::uint64_t> times() const;
     /// Drops all states; keeps the buffers for reuse.
@@ -57,14 +57,14 @@ private:
     struct State {
         vk::Buffer buffer;
         sim::SavedState host;
-        std::uint64_t played = 0; ///< see Stage::played()
+        std::uint64_t played = 0; ///< see Document::played()
     };
     using States = std::deque<State>;
     struct Ferry;
     State record(VkCommandBuffer commands, const sim::Simulation& simulation, std::uint64_t played);
     std::size_t room(const sim::Simulation& simulation) const;
-    void load(VkCommandBuffer commands, Stage& stage, States& from);
-    bool recordSwap(VkCommandBuffer commands, Stage& stage, States& from, States& to);
+    void load(VkCommandBuffer commands, Document& document, States& from);
+    bool recordSwap(VkCommandBuffer commands, Document& document, States& from, States& to);
 
     const vk::Device& device_;
     std::size_t mostStates_;

@@ -1,5 +1,5 @@
 // The loop of the window.
-#include "viewer/show.hpp"
+#include "viewer/scene_player.hpp"
 
 #include "app/guard.hpp"
 #include "sinew/vk/check.hpp"
@@ -26,29 +26,30 @@ static_assert(Presenter::framesInFlight <= Timing::slots);
 
 } // namespace
 
-Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::Device& device,
-           std::unique_ptr<Opening> opening)
-    : screen_(screen), library_(library), devices_(devices), ownOpening_(std::move(opening)),
+ScenePlayer::ScenePlayer(Session& session, SceneLoader& sceneLoader, const Devices& devices,
+                         const vk::Device& device, std::unique_ptr<OpenedScene> opening)
+    : session_(session), sceneLoader_(sceneLoader), devices_(devices), ownOpening_(std::move(opening)),
       opening_(*ownOpening_), prepared_(*opening_.prepared),
-      controller_(opening_.camera, opening_.loaded.scene.dt), stage_(prepared_.stage),
-      tools_(device, opening_), context_{screen,
+      controller_(opening_.camera, opening_.loaded.scene.dt), document_(prepared_.document),
+      tools_(device, opening_), context_{session,
                                          device,
                                          opening_,
                                          prepared_,
-                                         stage_,
+                                         document_,
                                          controller_,
                                          tools_,
                                          [this] { settleAll(); },
                                          [this] { shown_ = Shown::nothing; },
                                          [this] { forgetFlights(); }},
-      comparison_(context_, backstage_),
-      backstage_(device, prepared_, opening_.camera, Presenter::framesInFlight),
-      gauges_(stage_, opening_.loaded.scene.dt), layers_(context_, backstage_),
+      comparison_(context_, layerLoader_),
+      layerLoader_(device, prepared_, opening_.camera, Presenter::framesInFlight),
+      gauges_(document_, opening_.loaded.scene.dt), layers_(context_, layerLoader_),
       capture_(context_, comparison_), observer_(context_, layers_, comparison_, gauges_),
-      adjustments_(context_, library, devices, comparison_), journal_(context_, library), times_(context_),
-      succession_(context_, {backstage_, layers_, observer_, times_, gauges_, adjustments_, journal_}),
+      adjustments_(context_, sceneLoader, devices, comparison_), journal_(context_, sceneLoader),
+      times_(context_),
+      succession_(context_, {layerLoader_, layers_, observer_, times_, gauges_, adjustments_, journal_}),
       status_(opening_.loaded.scene, device) {
-    if (!opening_.run || opening_.again) {
+    if (!opening_.run || opening_.reload) {
         controller_.playback.reset(); // initialises the buffers
         return;
     }
@@ -56,17 +57,17 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
     journal_.begin(*opening_.run);
 }
 
-Show::~Show() {
-    screen_.presenter().drain(); // an exception may have left frames in flight
+ScenePlayer::~ScenePlayer() {
+    session_.presenter().drain(); // an exception may have left frames in flight
 }
 
-void Show::takeOver(const Show& before) {
-    stage_.takeOver(before.stage_, tools_.bringOf(before.tools_));
+void ScenePlayer::takeOver(const ScenePlayer& before) {
+    document_.takeOver(before.document_, tools_.bringOf(before.tools_));
     succession_.restartParts(); // it may have had to make room first
     controller_ = before.controller_;
-    tools_.goOn(before.tools_, stage_);
+    tools_.goOn(before.tools_, document_);
     gauges_.goOn(before.gauges_);
-    status_.setSleeping(gauges_.facts(stage_).sleeping);
+    status_.setSleeping(gauges_.facts(document_).sleeping);
     status_.setPieces(gauges_.pieces());
     comparison_.takeOver(before.comparison_);
     observer_.takeOver(before.observer_);
@@ -74,34 +75,34 @@ void Show::takeOver(const Show& before) {
     adjustments_.takeOver(before.adjustments_);
 }
 
-std::unique_ptr<Opening> Show::run() {
+std::unique_ptr<OpenedScene> ScenePlayer::run() {
     adjustments_.keepAsItWas(); // what was asked for could not be shown
-    std::unique_ptr<Opening> next;
-    while (!next && !screen_.window().isClosing() && !app::isInterrupted()) {
+    std::unique_ptr<OpenedScene> next;
+    while (!next && !session_.window().isClosing() && !app::isInterrupted()) {
         turn();
-        if (!stage_.isGrowing() && !backstage_.isBusy() && !comparison_.isMaking())
+        if (!document_.isGrowing() && !layerLoader_.isBusy() && !comparison_.isMaking())
             next = adjustments_.takeOpened();
     }
     settleAll();
     const app::Writing writing;
     endFilm();
     capture_.reportFiles(PictureWriter::Wait::yes);
-    if (next && !next->again) screen_.layers().section.reset(); // it belonged to this scene
-    shown_ = Shown::nothing;                                    // run() may be called again
+    if (next && !next->reload) session_.layers().section.reset(); // it belonged to this scene
+    shown_ = Shown::nothing;                                      // run() may be called again
     return next;
 }
 
 // One look at the input, and a picture where there is something to be seen.
-void Show::turn() {
+void ScenePlayer::turn() {
     const bool isIdle = isHidden_ || (shown_ == Shown::still && panelsDue_ == 0);
-    const bool isBusy = backstage_.isBusy();        // pictures wait for it, input does not
-    if (!isBusy) screen_.presenter().waitForSlot(); // the next picture then uses the newest input
-    screen_.timing().beforeInput(isIdle);
-    const bool isMaking = isAwaited() || stage_.isGrowing();
-    Input input = screen_.window().poll(isBusy || (isIdle && isMaking) ? rehearsalWait
-                                        : isIdle                       ? idleWait
-                                                                       : 0);
-    screen_.timing().afterInput(!input.isEmpty() || input.panels.isTouched, times_.onTheirWay());
+    const bool isBusy = layerLoader_.isBusy();       // pictures wait for it, input does not
+    if (!isBusy) session_.presenter().waitForSlot(); // the next picture then uses the newest input
+    session_.timing().beforeInput(isIdle);
+    const bool isMaking = isAwaited() || document_.isGrowing();
+    Input input = session_.window().poll(isBusy || (isIdle && isMaking) ? rehearsalWait
+                                         : isIdle                       ? idleWait
+                                                                        : 0);
+    session_.timing().afterInput(!input.isEmpty() || input.panels.isTouched, times_.onTheirWay());
     comparison_.fold(input);
     const bool hasMoved = observer_.take(input);
     const bool isUsed = hasMoved || !input.presses.empty();
@@ -116,18 +117,18 @@ void Show::turn() {
     handle(input);
     adjustments_.tend(journal_.isReplaying());
     capture_.reportFiles(PictureWriter::Wait::no);
-    while (const auto preview = library_.previews().take())
-        screen_.addPreview(preview->first, preview->second);
+    while (const auto preview = sceneLoader_.previews().take())
+        session_.addPreview(preview->first, preview->second);
     if (!isBusy) play();
     if (!layers_.tend() && observer_.isInspecting()) observer_.toggleInspector();
     sayWhatIsMade();
     times_.countPipelines();
     if (const auto title = status_.title(controller_.playback.isPaused(), isDiverged_))
-        screen_.window().setTitle(*title);
+        session_.window().setTitle(*title);
 }
 
 // A button has the pointer over the panel: what is to be pinned or looked at is pointed at next.
-void Show::grant(const Wishes& wishes, Input& input) {
+void ScenePlayer::grant(const Wishes& wishes, Input& input) {
     for (const Action action : wishes.actions)
         if (action == Action::pin && !journal_.isReplaying())
             tools_.armPin();
@@ -139,38 +140,38 @@ void Show::grant(const Wishes& wishes, Input& input) {
     adjustments_.open(wishes);
     if (wishes.device && adjustments_.mayOpen()) {
         if (journal_.isReplaying())
-            screen_.tell(Journal::howToEnd());
+            session_.tell(Journal::howToEnd());
         else
             adjustments_.changeDevice(*wishes.device);
     }
-    if (wishes.sectionOffset && screen_.layers().section) {
+    if (wishes.sectionOffset && session_.layers().section) {
         layers_.moveSectionTo(*wishes.sectionOffset);
         input.needsRedraw = true;
     }
-    if (wishes.beside) screen_.beside() = shapeOf(*wishes.beside);
+    if (wishes.beside) session_.beside() = shapeOf(*wishes.beside);
     if (wishes.knobs && !journal_.isReplaying()) adjustments_.turn(*wishes.knobs); // else the log has them
 }
 
-void Show::handle(Input& input) {
+void ScenePlayer::handle(Input& input) {
     observer_.takePress(input);
     if (!input.files.empty()) adjustments_.openFile(input.files.front());
     for (const Action action : input.actions) {
-        if (action == Action::drop && screen_.panels().isHelpShown())
-            screen_.panels().closeHelp();
+        if (action == Action::drop && session_.panels().isHelpShown())
+            session_.panels().closeHelp();
         else if (!journal_.takes(action) && !controller_.act(action) && !tools_.act(action) &&
                  !layers_.act(action))
             act(action);
     }
     if (!journal_.isReplaying()) tools_.handle(input, controller_);
-    if (const std::string note = tools_.takeNote(); !note.empty()) screen_.tell(note);
-    screen_.feed(input.panels);
+    if (const std::string note = tools_.takeNote(); !note.empty()) session_.tell(note);
+    session_.feed(input.panels);
     status_.setTool(tools_.name());
     layers_.slideSection(input.slide);
     const float notches = input.notches + (tools_.isPokeOn() || tools_.isBladeOn() ? 0 : input.growth);
     if (notches != 0 && !journal_.isReplaying()) controller_.wheel(notches, input.pointer);
 }
 
-void Show::act(Action action) {
+void ScenePlayer::act(Action action) {
     switch (action) {
     case Action::frame:
         return observer_.frameAll();
@@ -195,19 +196,19 @@ void Show::act(Action action) {
     case Action::nextScene:
         return adjustments_.openNext(1);
     case Action::open:
-        screen_.panels().askForFile();
+        session_.panels().askForFile();
         panelsDue_ = picturesOfAFocus;
         return;
     default:
-        if (!adjustments_.act(action)) screen_.act(action);
+        if (!adjustments_.act(action)) session_.act(action);
     }
 }
 
-void Show::play() {
+void ScenePlayer::play() {
     journal_.compareReplay();
     succession_.takeRoom();
-    if (!backstage_.isBusy()) comparison_.tend(isDiverged_);
-    if (backstage_.isBusy()) return;
+    if (!layerLoader_.isBusy()) comparison_.tend(isDiverged_);
+    if (layerLoader_.isBusy()) return;
     succession_.takeShape();
     journal_.dropReplay();
     isHidden_ = !prepareSwapchain();
@@ -220,7 +221,7 @@ void Show::play() {
                            capture_.wantsPicture() || observer_.isWaiting() || tools_.isWaiting() ||
                            shown_ == Shown::nothing;
     if (isChanged) lastChange_ = now;
-    if (screen_.hasNewNotice()) panelsDue_ = picturesOfATouch;
+    if (session_.hasNewNotice()) panelsDue_ = picturesOfATouch;
     if (!isChanged && shown_ == Shown::still && panelsDue_ == 0) return;
     const bool isLast = !isChanged && (shown_ == Shown::still ||
                                        now - lastChange_ >= std::chrono::duration<double>(stillAfter));
@@ -234,11 +235,11 @@ void Show::play() {
 }
 
 // Plans steps; a film has a picture of every step.
-Plan Show::plan(double elapsed) {
+Plan ScenePlayer::plan(double elapsed) {
     const bool isOneByOne = capture_.isFilming() || journal_.isReplaying();
     const std::uint32_t most = isOneByOne ? 1 : budget_.steps(Playback::maxSteps);
-    const std::uint64_t undone = isDiverged_ ? 0 : stage_.undoneSteps();
-    const bool isWaiting = stage_.lacksContactRoom() || (stage_.wantsShape() && undone == 0);
+    const std::uint64_t undone = isDiverged_ ? 0 : document_.undoneSteps();
+    const bool isWaiting = document_.lacksContactRoom() || (document_.wantsShape() && undone == 0);
     Plan plan = controller_.playback.plan(elapsed, isWaiting ? 0 : most, undone);
     if (capture_.isFilming() && !isWaiting && !controller_.playback.isPaused() && !plan.isReset)
         plan.steps = 1;
@@ -250,24 +251,24 @@ Plan Show::plan(double elapsed) {
 }
 
 // False while the window has no size.
-bool Show::prepareSwapchain() {
-    return screen_.prepare([this] {
+bool ScenePlayer::prepareSwapchain() {
+    return session_.prepare([this] {
         shown_ = Shown::nothing;
         prepared_.moving.dropCanvases();
         if (prepared_.still) prepared_.still->dropCanvases();
     });
 }
 
-void Show::draw(Plan plan, View& view) {
-    screen_.presenter().waitForSlot();
+void ScenePlayer::draw(Plan plan, View& view) {
+    session_.presenter().waitForSlot();
     settleNext(plan);
     succession_.beginSurfaceRoom();
     if (isDiverged_ && !plan.isReset) { // keeps the last finite picture
         plan.steps = 0;
         controller_.playback.dropSingleSteps();
     }
-    if (stage_.lacksContactRoom()) plan.steps = 0; // since settle()
-    const std::optional<Presenter::Frame> frame = screen_.presenter().begin();
+    if (document_.lacksContactRoom()) plan.steps = 0; // since settle()
+    const std::optional<Presenter::Frame> frame = session_.presenter().begin();
     if (!frame) {
         if (plan.isReset) controller_.playback.reset();
         return;
@@ -277,62 +278,63 @@ void Show::draw(Plan plan, View& view) {
     if (capture_.isFilming() && plan.steps > 0) capture_.recordFilm(*frame, overlay);
     const bool isCutting = !inFlight_[frame->slot].sweeps.empty();
     drawPicture(*frame, overlay, view);
-    screen_.presenter().end(*frame);
+    session_.presenter().end(*frame);
     times_.submitted(*frame, isCutting);
     status_.frameDrawn();
 }
 
-void Show::recordReset(VkCommandBuffer commands) {
+void ScenePlayer::recordReset(VkCommandBuffer commands) {
     forgetFlights();
-    stage_.recordReset(commands);
+    document_.recordReset(commands);
     comparison_.recordReset(commands);
     gauges_.restart();
     journal_.reset(adjustments_.gravity());
     isDiverged_ = false;
 }
 
-void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
+void ScenePlayer::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     InFlight& flight = inFlight_[frame.slot];
     if (plan.isReset) recordReset(frame.commands);
-    const bool isWhole = stage_.undoneSteps() == 0 || isDiverged_; // otherwise those steps are repeated first
-    if (!stage_.lacksContactRoom() && !stage_.wantsShape() && isWhole &&
-        tools_.recordHistory(frame.commands, stage_)) { // otherwise later
+    const bool isWhole =
+        document_.undoneSteps() == 0 || isDiverged_; // otherwise those steps are repeated first
+    if (!document_.lacksContactRoom() && !document_.wantsShape() && isWhole &&
+        tools_.recordHistory(frame.commands, document_)) { // otherwise later
         forgetFlights();
         isDiverged_ = false;
     }
     if (journal_.isReplaying() && plan.steps > 0 && !journal_.playUntilStep(frame)) plan.steps = 0;
-    stage_.setRepeats(!journal_.isReplaying()); // a log has no such steps
-    flight.firstStep = stage_.steps() + 1;
-    if (const std::uint64_t undone = stage_.undoneSteps();
+    document_.setRepeats(!journal_.isReplaying()); // a log has no such steps
+    flight.firstStep = document_.steps() + 1;
+    if (const std::uint64_t undone = document_.undoneSteps();
         undone > 0) // repeats them alone: new steps come in later frames
         plan.steps = static_cast<std::uint32_t>(std::min<std::uint64_t>(plan.steps, undone));
     else
         controller_.playback.taken(plan.steps);
     flight.steps = plan.steps;
     for (std::uint32_t step = 0; step < plan.steps; ++step) {
-        if (const auto material = stage_.recordTurn(frame.commands)) {
+        if (const auto material = document_.recordTurn(frame.commands)) {
             tools_.turned(*material);
-            prepared_.facts.stiffness = stiffnessText(stage_);
+            prepared_.facts.stiffness = stiffnessText(document_);
         }
-        const StepHands hands = tools_.takeStep(frame.commands, stage_);
+        const StepHands hands = tools_.takeStep(frame.commands, document_);
         if (hands.sweep) flight.sweeps.push_back(*hands.sweep);
-        recordStep(frame.commands, stage_, hands, step == 0 ? times_.ofStep(frame.slot) : nullptr);
+        recordStep(frame.commands, document_, hands, step == 0 ? times_.ofStep(frame.slot) : nullptr);
         comparison_.recordStep(frame, hands, step == 0);
     }
     layers_.prepare(observer_.isInspecting());
     observer_.ask(frame.slot, plan.steps, !journal_.isReplaying());
-    stage_.recordSkin(frame.commands);
+    document_.recordSkin(frame.commands);
     observer_.record(frame);
     comparison_.recordPicture(frame, observer_.isMeasured(frame.slot));
 }
 
-void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
+void ScenePlayer::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
     const bool isReduced = prepared_.still && &view == &prepared_.moving;
     const bool areHalves = comparison_.simulation() != nullptr;
     const std::size_t scale = isReduced && !areHalves ? budget_.scale() : 0;
     std::optional<Canvas>& canvas = view.canvases[scale];
     if (!canvas && !areHalves)
-        canvas.emplace(view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views(),
+        canvas.emplace(view.renderer.makeCanvas(session_.presenter().extent(), session_.presenter().views(),
                                                 PictureBudget::scales[scale]));
     if (canvas) view.renderer.prepareCanvas(overlay.layers, *canvas);
     times_.begin(frame, PictureTimes::Part::drawing);
@@ -340,19 +342,19 @@ void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, Vi
         comparison_.drawHalves(frame, overlay, view);
     else
         view.renderer.record(frame.commands, frame.slot, *canvas, frame.image, controller_.camera,
-                             stage_.simulation(), overlay);
+                             document_.simulation(), overlay);
     times_.end(frame, PictureTimes::Part::drawing);
     capture_.recordPicture(frame, overlay);
     times_.begin(frame, PictureTimes::Part::panels);
     const auto reduced = isReduced ? std::optional(PictureBudget::scales[scale]) : std::nullopt;
-    wishes_ = screen_.drawPanels(frame, prepared_.facts, facts(reduced), arePanelsDue_);
+    wishes_ = session_.drawPanels(frame, prepared_.facts, facts(reduced), arePanelsDue_);
     if (!wishes_.isEmpty()) panelsDue_ = picturesOfATouch;
     times_.end(frame, PictureTimes::Part::panels);
 }
 
 // `reduced` as Facts::reduced.
-Facts Show::facts(std::optional<float> reduced) const {
-    Facts facts = gauges_.facts(stage_);
+Facts ScenePlayer::facts(std::optional<float> reduced) const {
+    Facts facts = gauges_.facts(document_);
     facts.isPaused = controller_.playback.isPaused();
     facts.isDiverged = isDiverged_;
     facts.reduced = reduced;
@@ -362,13 +364,14 @@ Facts Show::facts(std::optional<float> reduced) const {
     facts.pins = tools_.pins();
     for (const std::uint64_t steps : tools_.history().times()) {
         char time[40];
-        std::snprintf(time, sizeof time, "at %.2f s", static_cast<double>(steps) * double{stage_.scene().dt});
+        std::snprintf(time, sizeof time, "at %.2f s",
+                      static_cast<double>(steps) * double{document_.scene().dt});
         facts.cuts.push_back(time);
     }
     facts.undos = tools_.history().undos();
-    facts.scenes = library_.names();
-    facts.scene = library_.current();
-    facts.isOpening = library_.isOpening();
+    facts.scenes = sceneLoader_.names();
+    facts.scene = sceneLoader_.current();
+    facts.isOpening = sceneLoader_.isOpening();
     facts.devices = devices_.list();
     layers_.addTo(facts);
     observer_.addTo(facts);
@@ -381,7 +384,7 @@ Facts Show::facts(std::optional<float> reduced) const {
 }
 
 // Takes the results of a frame that has finished.
-void Show::settle(std::uint32_t slot) {
+void ScenePlayer::settle(std::uint32_t slot) {
     const InFlight flight = std::exchange(inFlight_[slot], {});
     const std::vector<double> phases = times_.settle(slot, flight.steps > 0);
     if (!phases.empty()) {
@@ -402,19 +405,19 @@ void Show::settle(std::uint32_t slot) {
 }
 
 // False if a step was undone: all that came after it were undone as well.
-bool Show::settleSteps(const InFlight& flight) {
+bool ScenePlayer::settleSteps(const InFlight& flight) {
     for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
         const std::uint64_t step = flight.firstStep + i;
-        if (stage_.neededRoom(step) > 0) {
+        if (document_.neededRoom(step) > 0) {
             makeRoom(step, flight);
             return false;
         }
-        if (stage_.lacksLists(step)) {
+        if (document_.lacksLists(step)) {
             repeatFrom(step, flight);
             return false;
         }
-        if (const std::optional<Divergence> divergence = stage_.check(step)) stop(divergence->sentence());
-        const sim::Status status = stage_.simulation().status(step);
+        if (const std::optional<Divergence> divergence = document_.check(step)) stop(divergence->sentence());
+        const sim::Status status = document_.simulation().status(step);
         observer_.stepFinished(status);
         succession_.surfaceMissing(status.cutSurfaceMissing);
         status_.setSleeping(status.sleeping);
@@ -426,49 +429,49 @@ bool Show::settleSteps(const InFlight& flight) {
 // Handles the next frame's slot. Before an undo or a material change all frames are handled, since a step
 // without contact lists must be repeated first. Does not wait if no step is in flight, or if no step will use
 // the new material.
-void Show::settleNext(const Plan& plan) {
-    const bool isTurning = tools_.wantsHistory() || (stage_.isTurnReady() && plan.steps > 0);
+void ScenePlayer::settleNext(const Plan& plan) {
+    const bool isTurning = tools_.wantsHistory() || (document_.isTurnReady() && plan.steps > 0);
     const bool areOnTheirWay =
         std::ranges::any_of(inFlight_, [](const InFlight& flight) { return flight.steps > 0; });
-    if (stage_.repeats() && isTurning && areOnTheirWay) return settleAll();
-    settle(screen_.presenter().nextSlot());
+    if (document_.repeats() && isTurning && areOnTheirWay) return settleAll();
+    settle(session_.presenter().nextSlot());
 }
 
 // Steps without room are undone by then and done again: no mistake of the program.
-void Show::settleAll() {
-    screen_.presenter().waitIdle();
+void ScenePlayer::settleAll() {
+    session_.presenter().waitIdle();
     for (std::uint32_t i = 0; i < Presenter::framesInFlight; ++i) // oldest first
-        settle((screen_.presenter().nextSlot() + i) % Presenter::framesInFlight);
-    if (stage_.lacksContactRoom() || isDiverged_) return;
-    for (const std::string& complaint : stage_.complaints()) screen_.warn(complaint);
+        settle((session_.presenter().nextSlot() + i) % Presenter::framesInFlight);
+    if (document_.lacksContactRoom() || isDiverged_) return;
+    for (const std::string& complaint : document_.complaints()) session_.warn(complaint);
 }
 
 // Later frames repeat the undone steps, once a simulation with capacity for them is ready.
-void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
-    screen_.presenter().waitIdle(); // pictures in flight write into what the tools drop
-    const std::uint64_t newest = stage_.steps();
-    if (!stage_.beginRoom(step)) return stop(app::tooCrowded(step));
+void ScenePlayer::makeRoom(std::uint64_t step, const InFlight& undone) {
+    session_.presenter().waitIdle(); // pictures in flight write into what the tools drop
+    const std::uint64_t newest = document_.steps();
+    if (!document_.beginRoom(step)) return stop(app::tooCrowded(step));
     comparison_.fallBehind(); // it has taken those steps
     if (journal_.isReplaying()) {
-        if (stage_.wantsShape()) journal_.breakOff(); // the shape stands in the log already
-        stage_.keepShape();
+        if (document_.wantsShape()) journal_.breakOff(); // the shape stands in the log already
+        document_.keepShape();
         journal_.endReplay("contacts need more room than when it was recorded");
     }
-    tools_.restart(stage_, forgetUndone(undone), newest - stage_.steps());
+    tools_.restart(document_, forgetUndone(undone), newest - document_.steps());
 }
 
 // Repeats from a step in the same simulation, in the next frame.
-void Show::repeatFrom(std::uint64_t step, const InFlight& undone) {
-    screen_.presenter().waitIdle();
-    const std::uint64_t newest = stage_.steps();
-    stage_.goBackBefore(step);
+void ScenePlayer::repeatFrom(std::uint64_t step, const InFlight& undone) {
+    session_.presenter().waitIdle();
+    const std::uint64_t newest = document_.steps();
+    document_.goBackBefore(step);
     comparison_.fallBehind(); // it has taken those steps
-    gauges_.stepsRepeated(newest - stage_.steps());
-    tools_.takeBack(stage_, forgetUndone(undone), newest - stage_.steps());
+    gauges_.stepsRepeated(newest - document_.steps());
+    tools_.takeBack(document_, forgetUndone(undone), newest - document_.steps());
 }
 
 // Returns the cuts of `undone`, which was settled, and of later frames: all of those steps were undone.
-std::vector<Sweep> Show::forgetUndone(const InFlight& undone) {
+std::vector<Sweep> ScenePlayer::forgetUndone(const InFlight& undone) {
     std::vector<Sweep> sweeps = undone.sweeps;
     for (InFlight& later : inFlight_) { // at most one has some
         sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());
@@ -478,22 +481,22 @@ std::vector<Sweep> Show::forgetUndone(const InFlight& undone) {
     return sweeps;
 }
 
-// The state of the stage is an earlier one. Steps on their way lead to a state that is no more: nobody need
-// look at them, nor cut again what they cut.
-void Show::forgetFlights() {
+// The state of the document is an earlier one. Steps on their way lead to a state that is no more: nobody
+// need look at them, nor cut again what they cut.
+void ScenePlayer::forgetFlights() {
     capture_.keepAll(); // the film keeps what has happened
     for (InFlight& flight : inFlight_) flight = {};
     comparison_.fallBehind(); // it goes on from there, too
 }
 
-void Show::stop(const std::string& why) {
+void ScenePlayer::stop(const std::string& why) {
     isDiverged_ = true;
     journal_.breakOff();
     controller_.playback.pause();
-    screen_.warn(why);
+    session_.warn(why);
 }
 
-void Show::endFilm() {
+void ScenePlayer::endFilm() {
     if (!capture_.isFilming()) return;
     settleAll(); // the last pictures
     capture_.endFilm();
@@ -501,12 +504,12 @@ void Show::endFilm() {
 }
 
 // True while something is made that hands wait for. Nobody waits for room for a surface.
-bool Show::isAwaited() const {
-    return backstage_.isMaking() || stage_.lacksContactRoom() || stage_.wantsShape() ||
+bool ScenePlayer::isAwaited() const {
+    return layerLoader_.isMaking() || document_.lacksContactRoom() || document_.wantsShape() ||
            comparison_.isMaking();
 }
 
-void Show::sayWhatIsMade() {
+void ScenePlayer::sayWhatIsMade() {
     if (!isAwaited()) {
         isMakingSaid_ = false;
         return makingSince_.reset();
@@ -514,8 +517,8 @@ void Show::sayWhatIsMade() {
     if (!makingSince_) makingSince_ = Clock::now();
     if (isMakingSaid_ || Clock::now() - *makingSince_ < patience) return;
     isMakingSaid_ = true;
-    screen_.tell(stage_.lacksContactRoom() ? "preparing room for more contacts: steps wait for it"
-                                           : "the requested change is being prepared");
+    session_.tell(document_.lacksContactRoom() ? "preparing room for more contacts: steps wait for it"
+                                               : "the requested change is being prepared");
 }
 
 } // namespace sinew::viewer

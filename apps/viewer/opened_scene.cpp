@@ -1,9 +1,9 @@
 // Loads scenes and chooses their first view.
-#include "viewer/opening.hpp"
+#include "viewer/opened_scene.hpp"
 
 #include "sim/compile/compile.hpp"
 #include "sinew/ranges.hpp"
-#include "viewer/prepared_show.hpp"
+#include "viewer/prepared_player.hpp"
 
 #include <cstdio>
 
@@ -17,7 +17,7 @@ Vector3 toVector(const sim::Vec3& v) {
 
 Camera firstView(const scenes::LoadedScene& loaded, float aspect) {
     const std::optional<float> ground = groundHeight(loaded.scene);
-    const Box bounds = stageBounds(loaded.scene);
+    const Box bounds = sceneBounds(loaded.scene);
     Camera camera;
     if (loaded.camera)
         camera = lookingFrom(toVector(loaded.camera->eye), toVector(loaded.camera->target),
@@ -49,20 +49,20 @@ Options withScene(Options options, const app::SavedRun& run) {
 
 } // namespace
 
-Opening::Opening() = default;
-Opening::Opening(Opening&&) noexcept = default;
-Opening::~Opening() = default;
+OpenedScene::OpenedScene() = default;
+OpenedScene::OpenedScene(OpenedScene&&) noexcept = default;
+OpenedScene::~OpenedScene() = default;
 
-Opening open(const Options& options, float aspect) {
-    Opening opening = look(options, aspect);
+OpenedScene open(const Options& options, float aspect) {
+    OpenedScene opening = look(options, aspect);
     for (const std::string& note : opening.loaded.notes) std::fprintf(stderr, "%s\n", note.c_str());
     for (const std::string& warning : opening.loaded.warnings)
         std::fprintf(stderr, "warning: %s\n", warning.c_str());
     return opening;
 }
 
-Opening look(const Options& asked, float aspect) {
-    Opening opening;
+OpenedScene look(const Options& asked, float aspect) {
+    OpenedScene opening;
     if (app::isRunFile(asked.scene)) opening.run = app::readRun(asked.scene);
     const Options options = opening.run ? withScene(asked, *opening.run) : asked;
     opening.loaded = options.scene.empty() ? scenes::loadBuiltIn(options.builtIn, options.overrides)
@@ -81,8 +81,8 @@ Opening look(const Options& asked, float aspect) {
     return opening;
 }
 
-sim::Material firstMaterial(const Opening& opening) {
-    return opening.again ? opening.again->material : opening.run ? opening.run->material : sim::Material{};
+sim::Material firstMaterial(const OpenedScene& opening) {
+    return opening.reload ? opening.reload->material : opening.run ? opening.run->material : sim::Material{};
 }
 
 vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>& messages) {
@@ -94,7 +94,7 @@ vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>
             }};
 }
 
-std::string headline(const Opening& opening, const vk::Device& device) {
+std::string headline(const OpenedScene& opening, const vk::Device& device) {
     const sim::Settings& settings = opening.loaded.settings;
     return opening.loaded.scene.name + ": " + grouped(opening.loaded.scene.particles.size()) +
            " particles, solver " + sim::solverName(settings.solver) + " with " +
@@ -102,7 +102,7 @@ std::string headline(const Opening& opening, const vk::Device& device) {
            device.description().type + ")";
 }
 
-PictureText pictureText(const Opening& opening, const vk::Device& device, std::uint64_t step) {
+PictureText pictureText(const OpenedScene& opening, const vk::Device& device, std::uint64_t step) {
     return {{"Software", "Sinew " SINEW_VERSION},
             {"Scene", opening.loaded.scene.name},
             {"Step", std::to_string(step)},

@@ -1,5 +1,5 @@
 // Lists a folder and loads in a thread.
-#include "viewer/library.hpp"
+#include "viewer/scene_loader.hpp"
 
 #include "scenes/built_in.hpp"
 #include "viewer/replay.hpp"
@@ -30,7 +30,7 @@ std::vector<fs::path> sceneFiles(const fs::path& folder) {
 
 } // namespace
 
-Library::Library(Options options, Prepare prepare, Draw draw)
+SceneLoader::SceneLoader(Options options, Prepare prepare, Draw draw)
     : options_(std::move(options)), prepare_(std::move(prepare)), current_(none),
       previews_(
           [this, draw = std::move(draw), started = options_](std::size_t name, const std::stop_token& stop) {
@@ -52,19 +52,19 @@ Library::Library(Options options, Prepare prepare, Draw draw)
     shown_ = Request{options_, current_};
 }
 
-void Library::open(std::size_t name, float aspect) {
+void SceneLoader::open(std::size_t name, float aspect) {
     if (name >= names_.size()) return;
     begin({ofScene(options_, name), name}, aspect);
 }
 
-Options Library::ofScene(Options options, std::size_t name) const {
+Options SceneLoader::ofScene(Options options, std::size_t name) const {
     options.scene = files_.empty() ? "" : files_[name];
     options.builtIn = names_[name];
     options.overrides = {};
     return options;
 }
 
-void Library::openNext(int by, float aspect) {
+void SceneLoader::openNext(int by, float aspect) {
     if (names_.empty()) return;
     const std::size_t count = names_.size();
     const std::size_t first = by > 0 ? 0 : count - 1; // if none is current
@@ -74,40 +74,40 @@ void Library::openNext(int by, float aspect) {
          aspect);
 }
 
-void Library::openFile(const std::string& file, float aspect) {
+void SceneLoader::openFile(const std::string& file, float aspect) {
     Options options = options_;
     options.scene = file;
     options.overrides = {};
     begin({std::move(options), none}, aspect);
 }
 
-void Library::reopen(const scenes::Overrides& overrides, const Again& again, float aspect) {
-    Request request{shown_->options, shown_->name, again};
+void SceneLoader::reopen(const scenes::Overrides& overrides, const ReloadRequest& reload, float aspect) {
+    Request request{shown_->options, shown_->name, reload};
     if (overrides.solver) request.options.overrides.solver = overrides.solver;
     if (overrides.substeps) request.options.overrides.substeps = overrides.substeps;
     begin(std::move(request), aspect);
 }
 
-void Library::reopenOn(const std::string& device, const Again& again, float aspect) {
-    Request request{shown_->options, shown_->name, again};
+void SceneLoader::reopenOn(const std::string& device, const ReloadRequest& reload, float aspect) {
+    Request request{shown_->options, shown_->name, reload};
     request.options.device = device;
     begin(std::move(request), aspect);
 }
 
-void Library::moveTo(const std::string& device) {
+void SceneLoader::moveTo(const std::string& device) {
     shown_->options.device = options_.device = device;
 }
 
-void Library::playAgain(const InputFile& input, float aspect) {
+void SceneLoader::playAgain(const InputFile& input, float aspect) {
     begin({shown_->options, shown_->name, std::nullopt, input}, aspect);
 }
 
-void Library::begin(Request request, float aspect) {
+void SceneLoader::begin(Request request, float aspect) {
     if (isOpening()) return;
     asked_ = std::move(request);
     opening_ = std::async(std::launch::async, [asked = *asked_, aspect, this] {
-        auto opening = std::make_unique<Opening>(viewer::open(asked.options, aspect));
-        opening->again = asked.again;
+        auto opening = std::make_unique<OpenedScene>(viewer::open(asked.options, aspect));
+        opening->reload = asked.reload;
         if (asked.input) prepareForReplay(*opening, *asked.input);
         opening->input = asked.input;
         if (prepare_) prepare_(*opening, asked.options);
@@ -115,24 +115,24 @@ void Library::begin(Request request, float aspect) {
     });
 }
 
-std::unique_ptr<Opening> Library::take() {
+std::unique_ptr<OpenedScene> SceneLoader::take() {
     if (!isOpening() || opening_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return nullptr;
-    std::unique_ptr<Opening> opened = opening_.get();
+    std::unique_ptr<OpenedScene> opened = opening_.get();
     before_ = std::exchange(shown_, std::move(asked_));
     current_ = shown_->name;
     options_.device = shown_->options.device;
     return opened;
 }
 
-void Library::askAgain(const Again& again, float aspect) {
+void SceneLoader::askAgain(const ReloadRequest& reload, float aspect) {
     Request request = *shown_;
     putBack();
-    request.again = again;
+    request.reload = reload;
     begin(std::move(request), aspect);
 }
 
-void Library::putBack() {
+void SceneLoader::putBack() {
     shown_ = before_;
     current_ = shown_->name;
     options_.device = shown_->options.device;

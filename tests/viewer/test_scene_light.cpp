@@ -1,5 +1,5 @@
-// Tests of the stage's bounds, and of the volume that the shadow maps cover.
-#include "viewer/draw/stage_light.hpp"
+// Tests of the scene's bounds, and of the volume that the shadow maps cover.
+#include "viewer/draw/scene_light.hpp"
 
 #include "sinew/bodies.hpp"
 
@@ -22,7 +22,7 @@ sim::Scene droppedBlock() {
     return scene;
 }
 
-TEST(Stage, HasAGroundOnlyWhereAPlaneFacesUp) {
+TEST(Document, HasAGroundOnlyWhereAPlaneFacesUp) {
     sim::Scene scene;
     EXPECT_FALSE(groundHeight(scene));
     scene.planes.push_back({.normal = {1, 0, 0}, .offset = 3});
@@ -32,28 +32,28 @@ TEST(Stage, HasAGroundOnlyWhereAPlaneFacesUp) {
     EXPECT_EQ(groundHeight(scene), 0.25f) << "the highest is the one that bodies reach";
 }
 
-TEST(Stage, ReachesFromTheBodyDownToTheGround) {
-    const Box bounds = stageBounds(droppedBlock());
+TEST(Document, ReachesFromTheBodyDownToTheGround) {
+    const Box bounds = sceneBounds(droppedBlock());
     EXPECT_FLOAT_EQ(bounds.min().y(), -0.25f);
     EXPECT_FLOAT_EQ(bounds.max().y(), 0.8f);
     EXPECT_FLOAT_EQ(bounds.sizes().x(), 0.2f);
 }
 
-TEST(Stage, LeavesRoomForClothToSwingDown) {
+TEST(Document, LeavesRoomForClothToSwingDown) {
     sim::Scene scene;
     sim::addCloth(scene, {.origin = {0, 1, 0}, .size = {11, 11}, .spacing = 0.1f, .pinned = {0, 10}});
-    EXPECT_LE(stageBounds(scene).min().y(), 0.0f);
-    EXPECT_GE(stageBounds(scene).min().y(), -0.5f);
+    EXPECT_LE(sceneBounds(scene).min().y(), 0.0f);
+    EXPECT_GE(sceneBounds(scene).min().y(), -0.5f);
 }
 
-TEST(Stage, OfAnEmptySceneIsFinite) {
+TEST(Document, OfAnEmptySceneIsFinite) {
     const layout::FrameParams params = frameParams(lightFor(sim::Scene{}, Camera{}), Camera{}, 1.5f);
     EXPECT_TRUE(Eigen::Map<const Matrix4>(params.clipFromWorld.columns).allFinite());
     EXPECT_TRUE(Eigen::Map<const Matrix4>(params.shadowFromWorld.columns).allFinite());
 }
 
-TEST(StageLight, ShadowMapHoldsTheWholeStage) {
-    const StageLight light = lightFor(droppedBlock(), Camera{});
+TEST(SceneLight, ShadowMapHoldsTheWholeStage) {
+    const SceneLight light = lightFor(droppedBlock(), Camera{});
     const layout::FrameParams params = frameParams(light, Camera{}, 1.5f);
     for (int corner = 0; corner < 8; ++corner) {
         const Vector3 at =
@@ -65,16 +65,16 @@ TEST(StageLight, ShadowMapHoldsTheWholeStage) {
     }
 }
 
-TEST(StageLight, DepthGrowsAwayFromTheLight) {
-    const StageLight light = lightFor(droppedBlock(), Camera{});
+TEST(SceneLight, DepthGrowsAwayFromTheLight) {
+    const SceneLight light = lightFor(droppedBlock(), Camera{});
     const layout::FrameParams params = frameParams(light, Camera{}, 1.5f);
     const Vector3 center = light.bounds.center();
     EXPECT_LT(transform(params.shadowFromWorld, center + 0.1f * light.toLight).z(),
               transform(params.shadowFromWorld, center).z());
 }
 
-TEST(StageLight, FloorMapHoldsTheShadowsOfTheStage) {
-    const StageLight light = lightFor(droppedBlock(), Camera{});
+TEST(SceneLight, FloorMapHoldsTheShadowsOfTheStage) {
+    const SceneLight light = lightFor(droppedBlock(), Camera{});
     const layout::FrameParams params = frameParams(light, Camera{}, 1.5f);
     for (int corner = 0; corner < 8; ++corner) {
         Vector3 at = light.bounds.corner(static_cast<Box::CornerType>(corner));
@@ -84,15 +84,15 @@ TEST(StageLight, FloorMapHoldsTheShadowsOfTheStage) {
     }
 }
 
-TEST(StageLight, PlanMapMeasuresHeightAboveTheGround) {
-    const StageLight light = lightFor(droppedBlock(), Camera{});
+TEST(SceneLight, PlanMapMeasuresHeightAboveTheGround) {
+    const SceneLight light = lightFor(droppedBlock(), Camera{});
     const layout::FrameParams params = frameParams(light, Camera{}, 1.5f);
     EXPECT_NEAR(transform(params.planFromWorld, {1, -0.25f, -2}).z(), 0, 1e-5f);
     EXPECT_NEAR(transform(params.planFromWorld, {1, 0.25f, -2}).z(), 0.5f / params.floor.w, 1e-5f);
 }
 
-TEST(StageLight, DoesNotMoveWithTheBodies) {
-    const StageLight light = lightFor(droppedBlock(), Camera{});
+TEST(SceneLight, DoesNotMoveWithTheBodies) {
+    const SceneLight light = lightFor(droppedBlock(), Camera{});
     Camera moved = orbited(Camera{}, {0.3f, 0.1f});
     const layout::FrameParams a = frameParams(light, Camera{}, 1.5f), b = frameParams(light, moved, 1.5f);
     EXPECT_TRUE(

@@ -9,24 +9,24 @@
 
 namespace sinew::viewer {
 
-/// Main thread only. Screen, library, devices and the device that `opening` was prepared on must outlive it;
-/// the screen must use that device's place before run().
-class Show {
+/// Main thread only. Session, scene loader, devices and the device that `opening` was prepared on must
+/// outlive it; the screen must use that device's place before run().
+class ScenePlayer {
 public:
     /// Throws vk::Error.
-    Show(Screen& screen, Library& library, const Devices& devices, const vk::Device& device,
-         std::unique_ptr<Opening> opening);
-    ~Show(); ///< waits for the screen's queue
-    Show(const Show&) = delete;
-    Show& operator=(const Show&) = delete;
+    ScenePlayer(Session& session, SceneLoader& sceneLoader, const Devices& devices, const vk::Device& device,
+                std::unique_ptr<OpenedScene> opening);
+    ~ScenePlayer(); ///< waits for the screen's queue
+    ScenePlayer(const ScenePlayer&) = delete;
+    ScenePlayer& operator=(const ScenePlayer&) = delete;
 
     /// Continues from `before`, which shows the same scene and does not run, with its tools and log. Instead
     /// of the reset of a new player. Throws vk::Error; `before` is then unchanged.
-    void takeOver(const Show& before);
+    void takeOver(const ScenePlayer& before);
 
     /// Runs until the window is closed or the program is interrupted, or until another scene is loaded, which
     /// it returns; it may then be called again. Throws vk::Error.
-    std::unique_ptr<Opening> run();
+    std::unique_ptr<OpenedScene> run();
 
     /// The view of the scene.
     const Camera& camera() const { return controller_.camera; }
@@ -76,18 +76,18 @@ private:
     bool isAwaited() const;
     void sayWhatIsMade();
 
-    Screen& screen_;
-    Library& library_;
+    Session& session_;
+    SceneLoader& sceneLoader_;
     const Devices& devices_;
-    const std::unique_ptr<const Opening> ownOpening_;
-    const Opening& opening_;
-    PreparedShow& prepared_;
+    const std::unique_ptr<const OpenedScene> ownOpening_;
+    const OpenedScene& opening_;
+    PreparedPlayer& prepared_;
     Controller controller_;
-    Stage& stage_;
+    Document& document_;
     Tools tools_;
-    const ShowContext context_;
-    Comparison comparison_; // outlives its rehearsals in backstage_
-    Backstage backstage_;
+    const PlayerContext context_;
+    Comparison comparison_; // outlives its rehearsals in layerLoader_
+    LayerLoader layerLoader_;
     Gauges gauges_;
     LayerView layers_;
     Capture capture_;

@@ -1,5 +1,4 @@
-// The simulation controller: the simulation of the scene on show, its step count, material, solver and
-// capacity.
+// The document: the scene on show with its simulation, step count, material, solver and capacity.
 #pragma once
 
 #include "app/state_file.hpp"
@@ -30,16 +29,16 @@ struct Divergence {
 };
 
 /// Must not outlive its Device, which must not move.
-class Stage {
+class Document {
 public:
     /// The scene is given as in its file; `material` is applied to it from the start.
-    Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings,
-          const sim::Material& material = {});
-    ~Stage(); ///< waits for a material that is being prepared
-    Stage(const Stage&) = delete;
-    Stage& operator=(const Stage&) = delete;
+    Document(const vk::Device& device, sim::Scene scene, const sim::Settings& settings,
+             const sim::Material& material = {});
+    ~Document(); ///< waits for a material that is being prepared
+    Document(const Document&) = delete;
+    Document& operator=(const Document&) = delete;
 
-    /// Record as those of sim::Simulation do. A new stage must be reset once before its first step.
+    /// Record as those of sim::Simulation do. A new document must be reset once before its first step.
     void recordReset(VkCommandBuffer commands) noexcept;
     void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
                     std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
@@ -77,7 +76,7 @@ public:
     /// other passes waits for reshape(). Throws as Simulation::prepareChange.
     void turnNow(const sim::Material& material);
     /// Polls the material change; call it for every picture. `refused`: the material needs other passes.
-    /// Throws as turnNow(); the stage is then unchanged.
+    /// Throws as turnNow(); the document is then unchanged.
     enum class Turn { none, ready, refused };
     Turn takeTurn(bool isPaused);
     /// Records the prepared material for the next step; returns it. Does nothing if none is ready or
@@ -98,20 +97,20 @@ public:
     /// the present simulation repeats those steps first.
     bool isShapeMade();
     /// Continues after the newest step in the requested simulation. Waits for `queue`, in which everything
-    /// was submitted, and for the simulation in the making. Throws as sim::Simulation; the stage is then
+    /// was submitted, and for the simulation in the making. Throws as sim::Simulation; the document is then
     /// unchanged, without a request. Not while there are undoneSteps() or lacksContactRoom().
     void reshape(vk::Queue& queue, const app::Bring& bring = {});
 
-    /// Continues from the state of `from`, a stage of the same scene that may have another material, solver,
-    /// number of substeps and device; capacities become at least those of `from`. Instead of recordReset().
-    /// All steps of both must have finished. Waits. Throws as sim::Simulation: this stage must then be reset,
-    /// and `from` is unchanged.
-    void takeOver(const Stage& from, const app::Bring& bring = {});
+    /// Continues from the state of `from`, a document of the same scene that may have another material,
+    /// solver, number of substeps and device; capacities become at least those of `from`. Instead of
+    /// recordReset(). All steps of both must have finished. Waits. Throws as sim::Simulation: this document
+    /// must then be reset, and `from` is unchanged.
+    void takeOver(const Document& from, const app::Bring& bring = {});
 
     /// Records a take-over on the same device; all steps of both must have finished before the commands run.
     /// Capacities stay as they are: requires hasRoomOf(from).
-    void recordTakeOver(VkCommandBuffer commands, const Stage& from);
-    bool hasRoomOf(const Stage& other) const noexcept;
+    void recordTakeOver(VkCommandBuffer commands, const Document& from);
+    bool hasRoomOf(const Document& other) const noexcept;
 
     /// For callers that restore earlier states.
     sim::Simulation& simulation() noexcept { return *simulation_; }

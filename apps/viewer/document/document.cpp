@@ -1,5 +1,5 @@
 // Counts steps and converts status words to sentences.
-#include "viewer/draw/stage.hpp"
+#include "viewer/document/document.hpp"
 
 #include "scenes/recovery.hpp"
 #include "sinew/vk/check.hpp"
@@ -20,8 +20,8 @@ std::string Divergence::sentence() const {
            "material";
 }
 
-Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings,
-             const sim::Material& material)
+Document::Document(const vk::Device& device, sim::Scene scene, const sim::Settings& settings,
+                   const sim::Material& material)
     : device_(device.anchored()), given_(std::move(scene)), scene_(sim::withMaterial(given_, material)),
       first_(settings), settings_(settings), stiffness_(sim::inspectStiffness(scene_, settings)),
       rooms_(settings), simulation_(std::make_unique<sim::Simulation>(device, scene_, settings)),
@@ -31,16 +31,16 @@ Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& se
     if (length > 0) down_ = {g.x / length, g.y / length, g.z / length};
 }
 
-Stage::~Stage() {
+Document::~Document() {
     if (turning_.valid()) turning_.wait();
 }
 
-void Stage::recordReset(VkCommandBuffer commands) noexcept {
+void Document::recordReset(VkCommandBuffer commands) noexcept {
     simulation_->recordReset(commands);
     steps_ = newest_ = played_ = 0;
 }
 
-app::SavedRun Stage::save(const vk::Device& device, vk::Queue& queue) const {
+app::SavedRun Document::save(const vk::Device& device, vk::Queue& queue) const {
     app::SavedRun run = app::saveRun(device, *simulation_, settings_, queue);
     run.played = played_;
     run.material = material_;
@@ -48,7 +48,7 @@ app::SavedRun Stage::save(const vk::Device& device, vk::Queue& queue) const {
     return run;
 }
 
-void Stage::load(const vk::Device& device, const app::SavedRun& run, vk::Queue& queue) {
+void Document::load(const vk::Device& device, const app::SavedRun& run, vk::Queue& queue) {
     if (run.material != material_) {
         turnNow(run.material);
         const VkCommandBuffer commands = queue.begin();
@@ -62,8 +62,9 @@ void Stage::load(const vk::Device& device, const app::SavedRun& run, vk::Queue& 
     played_ = run.played;
 }
 
-void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std::span<const sim::Grab> grabs,
-                       const sim::Blade& blade, std::span<const sim::HostCollider> hostColliders) noexcept {
+void Document::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps,
+                          std::span<const sim::Grab> grabs, const sim::Blade& blade,
+                          std::span<const sim::HostCollider> hostColliders) noexcept {
     recordTurn(commands);
     ++recordedSteps_;
     const sim::Blade scripted = blades_.at(played_++);
@@ -76,40 +77,40 @@ void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std
     simulation_->record(commands, step, timestamps);
 }
 
-void Stage::setGravity(float gravity) noexcept {
+void Document::setGravity(float gravity) noexcept {
     gravity_ = down_;
     gravity_.x *= gravity;
     gravity_.y *= gravity;
     gravity_.z *= gravity;
 }
 
-sim::Scene Stage::sceneOf(const sim::Material& material, const sim::Settings& settings) const {
+sim::Scene Document::sceneOf(const sim::Material& material, const sim::Settings& settings) const {
     sim::Scene scene = scenes::withoutDefaults(sim::withMaterial(given_, material), defaults_, settings);
     if (!blades_.areAny()) scenes::leaveWhole(scene, settings);
     return scene;
 }
 
 // Reads of the step program only what does not change meanwhile: recordTurn() waits for this.
-Stage::Turned Stage::prepare(const sim::Material& material) const {
+Document::Turned Document::prepare(const sim::Material& material) const {
     Turned turned{material, sceneOf(material, settings()), {}, std::nullopt};
     turned.change = simulation().prepareChange(turned.scene);
     turned.stiffness = sim::inspectStiffness(turned.scene, settings());
     return turned;
 }
 
-void Stage::beginTurn() {
+void Document::beginTurn() {
     if (!wanted_ || turning_.valid() || ready_ || isGrowing()) return; // for the simulation that comes
     turning_ = std::async(std::launch::async, [this, material = *std::exchange(wanted_, std::nullopt)] {
         return prepare(material);
     });
 }
 
-void Stage::turn(const sim::Material& material) {
+void Document::turn(const sim::Material& material) {
     wanted_ = material;
     beginTurn();
 }
 
-void Stage::turnNow(const sim::Material& material) {
+void Document::turnNow(const sim::Material& material) {
     ready_ = prepare(material);
     refused_.reset();
     if (ready_->change) return;
@@ -117,36 +118,36 @@ void Stage::turnNow(const sim::Material& material) {
     refused_ = material;
 }
 
-void Stage::wantShape(sim::Solver solver, std::uint32_t substeps) {
+void Document::wantShape(sim::Solver solver, std::uint32_t substeps) {
     const bool isBegun = next_ && !refused_ && next_->settings.solver == solver &&
                          next_->settings.substeps == substeps && next_->material == material_;
     if (!isBegun) dropShape();
     shape_ = Shape{solver, substeps};
 }
 
-void Stage::keepShape() {
+void Document::keepShape() {
     dropShape();
     shape_.reset();
 }
 
-void Stage::dropShape() {
+void Document::dropShape() {
     if (!next_ || next_->purpose != Purpose::shape) return;
     successor_.drop();
     next_.reset();
 }
 
 // The thread reads the scene as it was given, which never changes: the material may be turned meanwhile.
-void Stage::make(const sim::Settings& settings, const sim::Material& material) {
+void Document::make(const sim::Settings& settings, const sim::Material& material) {
     successor_.request(
         {device_, [this, settings, material] { return sceneOf(material, settings); }, settings});
 }
 
-void Stage::begin(const Next& next) {
+void Document::begin(const Next& next) {
     next_ = next;
     make(next.settings, next.material);
 }
 
-void Stage::beginShape() {
+void Document::beginShape() {
     sim::Settings settings = settings_;
     if (shape_) {
         settings.solver = shape_->solver;
@@ -156,13 +157,13 @@ void Stage::beginShape() {
 }
 
 // A growth for the surface makes way: what still lacks room then says so again.
-bool Stage::isShapeMade() {
+bool Document::isShapeMade() {
     if (!wantsShape() || lacksContactRoom() || made_ || undoneSteps() > 0) return false;
     if (!next_ || next_->purpose != Purpose::shape) beginShape();
     return successor_.isReady();
 }
 
-void Stage::reshape(vk::Queue& queue, const app::Bring& bring) {
+void Document::reshape(vk::Queue& queue, const app::Bring& bring) {
     if (!wantsShape()) return;
     assert(!lacksContactRoom() && !made_ && undoneSteps() == 0);
     if (!next_ || next_->purpose != Purpose::shape) beginShape();
@@ -175,21 +176,21 @@ void Stage::reshape(vk::Queue& queue, const app::Bring& bring) {
     stiffness_ = sim::inspectStiffness(scene_, settings_);
 }
 
-void Stage::takeSuccessor(const sim::Material& material, vk::Queue& queue, const app::Bring& bring) {
+void Document::takeSuccessor(const sim::Material& material, vk::Queue& queue, const app::Bring& bring) {
     sim::Successor::Made made = successor_.take();
     app::takeOver(*made.simulation, *simulation_, queue, bring);
     continueIn(std::move(made), material);
 }
 
 // Waits for a simulation with these rooms.
-void Stage::enlarge(const sim::Settings& settings, vk::Queue& queue, const app::Bring& bring) {
+void Document::enlarge(const sim::Settings& settings, vk::Queue& queue, const app::Bring& bring) {
     next_.reset();
     make(settings, material_);
     takeSuccessor(material_, queue, bring);
 }
 
 // It has taken over, and nothing uses the simulation before it any more.
-void Stage::continueIn(sim::Successor::Made made, const sim::Material& material) {
+void Document::continueIn(sim::Successor::Made made, const sim::Material& material) {
     simulation_ = std::move(made.simulation);
     settings_ = made.settings;
     scene_ = std::move(made.scene);
@@ -197,11 +198,11 @@ void Stage::continueIn(sim::Successor::Made made, const sim::Material& material)
     material_ = material;
 }
 
-void Stage::widen(const sim::Settings& roomy, vk::Queue& queue) {
+void Document::widen(const sim::Settings& roomy, vk::Queue& queue) {
     if (!sim::haveRoomsOf(settings_, roomy)) enlarge(sim::withRoomsOf(settings_, roomy), queue, {});
 }
 
-void Stage::takeOver(const Stage& from, const app::Bring& bring) {
+void Document::takeOver(const Document& from, const app::Bring& bring) {
     const sim::Settings roomy = sim::withRoomsOf(settings_, from.settings_);
     if (!sim::haveRoomsOf(settings_, roomy)) // else it was made with them: pipelines take their time
         simulation_ = std::make_unique<sim::Simulation>(device_, scene_, roomy);
@@ -214,11 +215,11 @@ void Stage::takeOver(const Stage& from, const app::Bring& bring) {
     played_ = from.played_;
 }
 
-bool Stage::hasRoomOf(const Stage& other) const noexcept {
+bool Document::hasRoomOf(const Document& other) const noexcept {
     return sim::haveRoomsOf(settings_, other.settings_);
 }
 
-void Stage::recordTakeOver(VkCommandBuffer commands, const Stage& from) {
+void Document::recordTakeOver(VkCommandBuffer commands, const Document& from) {
     assert(hasRoomOf(from));
     simulation().recordTakeOver(commands, from.simulation());
     gravity_ = from.gravity_;
@@ -228,7 +229,7 @@ void Stage::recordTakeOver(VkCommandBuffer commands, const Stage& from) {
 }
 
 // While no steps are recorded, a later request replaces a prepared material.
-Stage::Turn Stage::takeTurn(bool isPaused) {
+Document::Turn Document::takeTurn(bool isPaused) {
     if (isPaused && wanted_) ready_.reset();
     beginTurn();
     if (!turning_.valid() || turning_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
@@ -245,7 +246,7 @@ Stage::Turn Stage::takeTurn(bool isPaused) {
     return Turn::ready;
 }
 
-std::optional<sim::Material> Stage::recordTurn(VkCommandBuffer commands) noexcept {
+std::optional<sim::Material> Document::recordTurn(VkCommandBuffer commands) noexcept {
     while (!recorded_.empty() && recorded_.front().step + sim::Simulation::framesInFlight < recordedSteps_)
         recorded_.pop_front();
     if (!isTurnReady()) return std::nullopt;
@@ -260,7 +261,7 @@ std::optional<sim::Material> Stage::recordTurn(VkCommandBuffer commands) noexcep
 
 // Before the simulation makes way for another one: what is prepared is of this one. takeTurn() has it
 // prepared again, or tells why it cannot be had.
-void Stage::awaitTurn() {
+void Document::awaitTurn() {
     if (ready_ && !wanted_) wanted_ = ready_->material;
     ready_.reset();
     if (!turning_.valid()) return;
@@ -268,7 +269,7 @@ void Stage::awaitTurn() {
     isTurnOutdated_ = true;
 }
 
-std::optional<Divergence> Stage::check(std::uint64_t step) const {
+std::optional<Divergence> Document::check(std::uint64_t step) const {
     const sim::Status status = simulation().status(step);
     if (status.contactRoom > 0 || status.nonFinite == 0 || status.frame != static_cast<std::uint32_t>(step))
         return std::nullopt;
@@ -282,23 +283,23 @@ std::optional<Divergence> Stage::check(std::uint64_t step) const {
                       .body = body == scene_.bodies.end() ? scene_.name : body->name};
 }
 
-std::uint32_t Stage::neededRoom(std::uint64_t step) const {
+std::uint32_t Document::neededRoom(std::uint64_t step) const {
     const sim::Status status = simulation().status(step);
     return status.frame == static_cast<std::uint32_t>(step) ? status.contactRoom : 0;
 }
 
-bool Stage::lacksLists(std::uint64_t step) const {
+bool Document::lacksLists(std::uint64_t step) const {
     const sim::Status status = simulation().status(step);
     return status.frame == static_cast<std::uint32_t>(step) && status.lacksLists;
 }
 
 // The first of the steps that were undone is the next one.
-void Stage::goBackBefore(std::uint64_t step) noexcept {
+void Document::goBackBefore(std::uint64_t step) noexcept {
     played_ -= steps_ - (step - 1);
     steps_ = step - 1;
 }
 
-bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue, const app::Bring& bring) {
+bool Document::makeRoom(std::uint64_t step, vk::Queue& queue, const app::Bring& bring) {
     awaitTurn();
     const std::optional<sim::Settings> settings = rooms_.forContacts(settings_, neededRoom(step));
     if (!settings) return false;
@@ -307,7 +308,7 @@ bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue, const app::Bring& bri
     return true;
 }
 
-bool Stage::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::Bring& bring) {
+bool Document::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::Bring& bring) {
     if (!rooms_.lackSurface(needed)) return false;
     awaitTurn();
     const std::optional<sim::Settings> settings = rooms_.forSurface(settings_, needed);
@@ -321,7 +322,7 @@ bool Stage::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::B
     return true;
 }
 
-bool Stage::beginRoom(std::uint64_t step) {
+bool Document::beginRoom(std::uint64_t step) {
     const std::uint32_t needed = neededRoom(step);
     const std::optional<sim::Settings> settings = rooms_.forContacts(settings_, needed);
     if (!settings) return false;
@@ -333,7 +334,7 @@ bool Stage::beginRoom(std::uint64_t step) {
     return true;
 }
 
-bool Stage::beginSurfaceRoom(std::uint32_t needed) {
+bool Document::beginSurfaceRoom(std::uint32_t needed) {
     assert(!next_ && !wantsShape());
     if (!rooms_.lackSurface(needed)) return false;
     const std::optional<sim::Settings> settings = rooms_.forSurface(settings_, needed);
@@ -341,7 +342,7 @@ bool Stage::beginSurfaceRoom(std::uint32_t needed) {
     return settings.has_value();
 }
 
-Stage::Growth Stage::askGrowth() {
+Document::Growth Document::askGrowth() {
     if (!isGrowing()) return Growth::none;
     if (made_) return Growth::made;
     if (!successor_.isReady() || turning_.valid()) return Growth::making;
@@ -360,16 +361,16 @@ Stage::Growth Stage::askGrowth() {
     return Growth::made;
 }
 
-void Stage::bringGrowth(vk::Queue& queue, const app::Bring& bring) {
+void Document::bringGrowth(vk::Queue& queue, const app::Bring& bring) {
     made_->simulation->checkTakeOver(*simulation_);
     if (bring) bring(*simulation_, queue, *made_->simulation, queue);
 }
 
-void Stage::recordGrowth(VkCommandBuffer commands) noexcept {
+void Document::recordGrowth(VkCommandBuffer commands) noexcept {
     made_->simulation->recordTakeOver(commands, *simulation_);
 }
 
-void Stage::endGrowth() {
+void Document::endGrowth() {
     const Next next = *std::exchange(next_, std::nullopt);
     if (ready_ && !wanted_) wanted_ = ready_->material; // it was prepared for the old simulation
     ready_.reset();
@@ -377,7 +378,7 @@ void Stage::endGrowth() {
     beginWanted();
 }
 
-void Stage::beginWanted() {
+void Document::beginWanted() {
     if (!wantedRoom_) return;
     const std::uint32_t needed = *std::exchange(wantedRoom_, std::nullopt);
     if (const auto settings = rooms_.forContacts(settings_, needed))

@@ -2,9 +2,9 @@
 // place to draw in.
 #pragma once
 
-#include "viewer/beside.hpp"
 #include "viewer/panels/panels.hpp"
-#include "viewer/prepared_show.hpp"
+#include "viewer/prepared_player.hpp"
+#include "viewer/second_simulation.hpp"
 #include "viewer/window/notices.hpp"
 #include "viewer/window/preferences.hpp"
 #include "viewer/window/timing.hpp"
@@ -14,23 +14,23 @@
 namespace sinew::viewer {
 
 /// Main thread only. The window and the device of the place must outlive it.
-class Screen {
+class Session {
 public:
     /// Throws vk::Error.
-    Screen(Window& window, std::unique_ptr<Place> place, const Timing& timing,
-           const Preferences& preferences = {});
-    ~Screen(); ///< returns the window's events
-    Screen(const Screen&) = delete;
-    Screen& operator=(const Screen&) = delete;
+    Session(Window& window, std::unique_ptr<WindowOutput> output, const Timing& timing,
+            const Preferences& preferences = {});
+    ~Session(); ///< returns the window's events
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
 
     Window& window() { return window_; }
-    Presenter& presenter() { return place_->presenter; }
+    Presenter& presenter() { return output_->presenter; }
     Panels& panels() { return panels_; }
     Timing& timing() { return timing_; }
 
     /// Changes the place to draw in and returns the old one, which then has no swapchain. Throws vk::Error if
     /// the new one cannot get the window; everything is then as before, but a swapchain is due.
-    std::unique_ptr<Place> moveTo(std::unique_ptr<Place> place);
+    std::unique_ptr<WindowOutput> moveTo(std::unique_ptr<WindowOutput> output);
 
     /// Makes a swapchain if one is due. Calls `beforehand` before it destroys the old views, when nothing is
     /// in flight. False while the window has no size.
@@ -81,7 +81,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     Window& window_;
-    std::unique_ptr<Place> place_;
+    std::unique_ptr<WindowOutput> output_;
     Timing timing_;
     Panels panels_;
     PictureSheet sheet_{0};

@@ -1,5 +1,5 @@
 // Makes one set of layers after another in a thread, then rehearses them, one submission each.
-#include "viewer/backstage.hpp"
+#include "viewer/layer_loader.hpp"
 
 #include "sinew/vk/check.hpp"
 
@@ -9,11 +9,12 @@
 
 namespace sinew::viewer {
 
-Backstage::Backstage(const vk::Device& device, PreparedShow& show, const Camera& camera, std::uint32_t slots)
-    : device_(device), show_(show), camera_(camera), inspection_(device, show.stage, slots), slots_(slots),
-      isRehearsing_(isSoftware(device)), queue_(device) {}
+LayerLoader::LayerLoader(const vk::Device& device, PreparedPlayer& player, const Camera& camera,
+                         std::uint32_t slots)
+    : device_(device), player_(player), camera_(camera), inspection_(device, player.document, slots),
+      slots_(slots), isRehearsing_(isSoftware(device)), queue_(device) {}
 
-Backstage::~Backstage() {
+LayerLoader::~LayerLoader() {
     if (making_.valid()) making_.wait();
     try {
         queue_.waitIdle();
@@ -21,16 +22,17 @@ Backstage::~Backstage() {
     }
 }
 
-bool Backstage::has(const Watched& watched) const noexcept {
-    return inspection_.has(watched) && show_.moving.renderer.has(watched.layers) &&
-           (!show_.still || show_.still->renderer.has(watched.layers));
+bool LayerLoader::has(const WantedLayers& watched) const noexcept {
+    return inspection_.has(watched) && player_.moving.renderer.has(watched.layers) &&
+           (!player_.still || player_.still->renderer.has(watched.layers));
 }
 
-Watched Backstage::ready(const Watched& wanted) {
+WantedLayers LayerLoader::ready(const WantedLayers& wanted) {
     if (!isMaking() && !has(wanted))
-        making_ = std::async(std::launch::async,
-                             [this, wanted, scene = show_.stage.scene()] { return make(wanted, scene); });
-    Watched ready;
+        making_ = std::async(std::launch::async, [this, wanted, scene = player_.document.scene()] {
+            return make(wanted, scene);
+        });
+    WantedLayers ready;
     const auto add = [&](auto& part, const auto& asked) {
         const auto before = std::exchange(part, asked);
         if (!has(ready)) part = before;
@@ -42,7 +44,7 @@ Watched Backstage::ready(const Watched& wanted) {
 }
 
 // Runs in a thread of its own.
-Backstage::Made Backstage::make(const Watched& wanted, const sim::Scene& scene) const {
+LayerLoader::Made LayerLoader::make(const WantedLayers& wanted, const sim::Scene& scene) const {
     const auto unseen = [this](const Renderer& renderer) {
         Image image(device_,
                     {.name = "unseen picture",
@@ -53,18 +55,18 @@ Backstage::Made Backstage::make(const Watched& wanted, const sim::Scene& scene) 
         return Unseen{std::move(image), std::move(canvas)};
     };
     Made made{.layers = wanted.layers,
-              .moving = show_.moving.renderer.make(wanted.layers),
-              .still = show_.still ? show_.still->renderer.make(wanted.layers) : Renderer::Additions{},
+              .moving = player_.moving.renderer.make(wanted.layers),
+              .still = player_.still ? player_.still->renderer.make(wanted.layers) : Renderer::Additions{},
               .parts = inspection_.make(wanted, scene),
               .ofMoving = {},
               .ofStill = {}};
     if (!isRehearsing_) return made;
-    made.ofMoving.emplace(unseen(show_.moving.renderer));
-    if (show_.still) made.ofStill.emplace(unseen(show_.still->renderer));
+    made.ofMoving.emplace(unseen(player_.moving.renderer));
+    if (player_.still) made.ofStill.emplace(unseen(player_.still->renderer));
     return made;
 }
 
-bool Backstage::goOn() {
+bool LayerLoader::goOn() {
     const auto isThere = [this] {
         return making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     };
@@ -80,34 +82,34 @@ bool Backstage::goOn() {
 }
 
 // Rehearses one pipeline at a time, so that pictures can be drawn in between.
-void Backstage::rehearseNext() {
+void LayerLoader::rehearseNext() {
     rehearse([this](VkCommandBuffer commands) {
         const std::size_t next = made_->rehearsed++;
         if (next == 0) return made_->parts.recordRehearsal(commands, slots_);
         const bool isOfMoving = next <= made_->moving.count();
         const Renderer::Additions& additions = isOfMoving ? made_->moving : made_->still;
-        const Renderer& renderer = isOfMoving ? show_.moving.renderer : show_.still->renderer;
+        const Renderer& renderer = isOfMoving ? player_.moving.renderer : player_.still->renderer;
         Canvas& canvas = isOfMoving ? made_->ofMoving->canvas : made_->ofStill->canvas;
         renderer.recordRehearsal(commands, Renderer::slots - 1, canvas, camera_, made_->layers, additions,
                                  next - 1 - (isOfMoving ? 0 : made_->moving.count()));
     });
 }
 
-void Backstage::add() {
+void LayerLoader::add() {
     Made made = *std::exchange(made_, std::nullopt);
-    show_.moving.renderer.add(std::move(made.moving));
-    if (show_.still) show_.still->renderer.add(std::move(made.still));
+    player_.moving.renderer.add(std::move(made.moving));
+    if (player_.still) player_.still->renderer.add(std::move(made.still));
     inspection_.add(std::move(made.parts));
 }
 
-void Backstage::rehearse(const std::function<void(VkCommandBuffer)>& record, std::function<void()> done) {
+void LayerLoader::rehearse(const std::function<void(VkCommandBuffer)>& record, std::function<void()> done) {
     const VkCommandBuffer commands = queue_.begin();
     record(commands);
     running_ = queue_.submit(commands);
     done_ = std::move(done);
 }
 
-bool Backstage::isBusy() {
+bool LayerLoader::isBusy() {
     if (!running_) return false;
     std::uint64_t finished = 0;
     vk::check(device_.functions().vkGetSemaphoreCounterValue(device_.handle(), queue_.timeline(), &finished),
@@ -118,7 +120,7 @@ bool Backstage::isBusy() {
     return running_.has_value();
 }
 
-void Backstage::forget() {
+void LayerLoader::forget() {
     if (making_.valid()) making_.wait();
     making_ = {};
     queue_.waitIdle();

@@ -9,9 +9,9 @@
 
 namespace sinew::viewer {
 
-constexpr float pinShare = 0.02f; ///< radius of the ball of a hand or pin / radius of the stage
+constexpr float pinShare = 0.02f; ///< radius of the ball of a hand or pin / radius of the scene
 
-struct StageLight {
+struct SceneLight {
     Box bounds;                           ///< box in which bodies are expected [m]
     std::optional<float> ground;          ///< height of the floor [m]; empty = no floor
     Vector3 toLight = Vector3::UnitY();   ///< unit direction to the key light
@@ -30,10 +30,10 @@ struct StageLight {
 };
 
 /// Places a key light to the left of `camera`, and adds room around the bodies to fall, spread and bounce.
-StageLight lightFor(const sim::Scene& scene, const Camera& camera);
+SceneLight lightFor(const sim::Scene& scene, const Camera& camera);
 
 /// Shader parameters of one picture.
-layout::FrameParams frameParams(const StageLight& light, const Camera& camera, float aspect,
+layout::FrameParams frameParams(const SceneLight& light, const Camera& camera, float aspect,
                                 const std::optional<Section>& section = {});
 
 /// Distance between the fine lines of the ground's grid: 1, 2 or 5 times a power of ten near a fifth of

@@ -1,5 +1,5 @@
-// Fits the light's maps to the stage.
-#include "viewer/draw/stage_light.hpp"
+// Fits the light's maps to the scene.
+#include "viewer/draw/scene_light.hpp"
 
 #include "viewer/draw/layers.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 constexpr float keyAzimuth =
     -1.30f; // azimuth of the key light from the camera's [rad]: from the left, a little in front
 constexpr float keyElevation = 0.80f; // [rad]
-constexpr float hazeRadii = 30;       // radius at which the ground has faded, in radii of the stage
+constexpr float hazeRadii = 30;       // radius at which the ground has faded, in radii of the scene
 
 layout::vec4 packed(const Vector3& v, float w) {
     return {v.x(), v.y(), v.z(), w};
@@ -61,8 +61,8 @@ Matrix4 planMatrix(const layout::vec4& floor, float ground) {
 
 } // namespace
 
-StageLight lightFor(const sim::Scene& scene, const Camera& camera) {
-    StageLight light{.bounds = stageBounds(scene), .ground = groundHeight(scene)};
+SceneLight lightFor(const sim::Scene& scene, const Camera& camera) {
+    SceneLight light{.bounds = sceneBounds(scene), .ground = groundHeight(scene)};
     const float room = std::max(0.4f * light.bounds.sizes().maxCoeff(), 1e-3f);
     light.bounds.extend(Vector3(light.bounds.min() - Vector3(room, light.ground ? 0 : room, room)));
     light.bounds.extend(Vector3(light.bounds.max() + Vector3(room, 0.5f * room, room)));
@@ -85,12 +85,12 @@ float gridSpacing(float size) {
     return decade * (wanted < 2 * decade ? 1.0f : wanted < 5 * decade ? 2.0f : 5.0f);
 }
 
-bool StageLight::areSolidsOutward() const {
+bool SceneLight::areSolidsOutward() const {
     return std::ranges::equal(isClosed, isOutward,
                               [](bool closed, bool outward) { return !closed || outward; });
 }
 
-layout::FrameParams frameParams(const StageLight& light, const Camera& camera, float aspect,
+layout::FrameParams frameParams(const SceneLight& light, const Camera& camera, float aspect,
                                 const std::optional<Section>& section) {
     const Vector3 center = light.bounds.center(), at = eye(camera);
     const float radius = light.radius(), haze = hazeRadii * radius;

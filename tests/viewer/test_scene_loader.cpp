@@ -1,0 +1,183 @@
+// Tests of opening scenes while the window continues: lists, dropped files, and files that are no scenes.
+#include "viewer/scene_loader.hpp"
+
+#include "mesh/import.hpp"
+#include "viewer/pictures/recording.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <thread>
+#include <unistd.h>
+
+namespace sinew::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LibraryTest : public testing::Test {
+protected:
+    void SetUp() override {
+        fs::create_directories(folder);
+        write("b.toml",
+              "[[box]]\nparticles = [3, 3, 3]\ncenter = [0, 1, 0]\nspacing = 0.1\nyoung_modulus = 1e4\n");
+        write("a.toml", "[[chain]]\nparticles = 3\nlength = 0.1\nmass = 0.1\n");
+        write("broken.toml", "[[box]]\nparticles = \n");
+        write("drop_mesh.toml", "");
+        write("noise.obj", "this is no mesh\n");
+    }
+    void TearDown() override { fs::remove_all(folder); }
+    std::string write(const std::string& name, const std::string& text) {
+        std::ofstream(folder / name) << text;
+        return (folder / name).string();
+    }
+    static std::unique_ptr<OpenedScene> await(SceneLoader& sceneLoader) {
+        while (sceneLoader.isOpening()) {
+            if (auto opened = sceneLoader.take()) return opened;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        return nullptr;
+    }
+    SceneLoader libraryOf(const std::string& scene) {
+        return SceneLoader(Options{.scene = scene.empty() ? "" : (folder / scene).string()});
+    }
+
+    const fs::path folder = fs::temp_directory_path() / ("sinew-library-" + std::to_string(::getpid()));
+};
+
+TEST_F(LibraryTest, OffersTheSceneFilesBesideTheOneOpened) {
+    const SceneLoader sceneLoader = libraryOf("b.toml");
+    EXPECT_EQ(sceneLoader.names(), (std::vector<std::string>{"a", "b", "broken"}));
+    EXPECT_EQ(sceneLoader.current(), 1u);
+}
+
+TEST_F(LibraryTest, OffersTheBuiltInScenesWhereNoFileWasOpened) {
+    const SceneLoader sceneLoader = libraryOf("");
+    ASSERT_LT(sceneLoader.current(), sceneLoader.names().size());
+    EXPECT_EQ(sceneLoader.names()[sceneLoader.current()], "organ");
+    EXPECT_EQ(std::ranges::count(sceneLoader.names(), "drop_mesh"), 0);
+    EXPECT_EQ(std::ranges::count(sceneLoader.names(), "cloth"), 1);
+}
+
+TEST_F(LibraryTest, OpensTheNextRoundTheEnd) {
+    SceneLoader sceneLoader = libraryOf("b.toml");
+    sceneLoader.openNext(-1, 1.5f);
+    const auto a = await(sceneLoader);
+    ASSERT_TRUE(a);
+    EXPECT_EQ(a->loaded.scene.name, "a");
+    EXPECT_EQ(sceneLoader.current(), 0u);
+    sceneLoader.openNext(-1, 1.5f); // broken.toml
+    EXPECT_THROW(await(sceneLoader), mesh::ImportError);
+    EXPECT_EQ(sceneLoader.current(), 0u) << "what cannot be opened leaves the one on show";
+    sceneLoader.openNext(1, 1.5f);
+    ASSERT_TRUE(await(sceneLoader));
+    EXPECT_EQ(sceneLoader.current(), 1u);
+}
+
+TEST_F(LibraryTest, OpensWhatIsDroppedAndRefusesWhatIsNoMesh) {
+    SceneLoader sceneLoader = libraryOf("b.toml");
+    for (const char* bad : {"noise.obj", "missing.stl", "broken.toml"}) {
+        sceneLoader.openFile((folder / bad).string(), 1.5f);
+        EXPECT_THROW(await(sceneLoader), mesh::ImportError) << bad;
+        EXPECT_EQ(sceneLoader.current(), 1u);
+    }
+    sceneLoader.openFile(folder.string(), 1.5f);
+    EXPECT_THROW(await(sceneLoader), mesh::ImportError) << "a folder";
+    sceneLoader.openFile((folder / "a.toml").string(), 1.5f);
+    ASSERT_TRUE(await(sceneLoader));
+    sceneLoader.putBack();
+    EXPECT_EQ(sceneLoader.current(), 1u);
+}
+
+TEST_F(LibraryTest, OpensTheSameSceneAgainWithOtherSubsteps) {
+    SceneLoader sceneLoader = libraryOf("b.toml");
+    ReloadRequest reload;
+    reload.material.stiffness = 7;
+    sceneLoader.reopen({.substeps = 9}, reload, 1.5f);
+    const auto opened = await(sceneLoader);
+    ASSERT_TRUE(opened);
+    EXPECT_EQ(opened->loaded.settings.substeps, 9u);
+    ASSERT_TRUE(opened->reload);
+    EXPECT_EQ(opened->reload->material.stiffness, 7);
+    EXPECT_EQ(sceneLoader.current(), 1u);
+}
+
+// The shown scene has grown while its successor was opened, so the successor is opened again.
+TEST_F(LibraryTest, OpensWhatIsToTakeOverOnceMore) {
+    SceneLoader sceneLoader = libraryOf("b.toml");
+    sceneLoader.reopen({.substeps = 9}, {}, 1.5f);
+    ASSERT_TRUE(await(sceneLoader));
+    ReloadRequest roomier;
+    roomier.settings.contactRoom = 48;
+    sceneLoader.askAgain(roomier, 1.5f);
+    EXPECT_FALSE(sceneLoader.shown().overrides.substeps) << "the one on show is still there";
+    const auto opened = await(sceneLoader);
+    ASSERT_TRUE(opened && opened->reload);
+    EXPECT_EQ(opened->reload->settings.contactRoom, 48u);
+    EXPECT_EQ(opened->loaded.settings.substeps, 9u) << "what was asked for stays";
+    EXPECT_EQ(sceneLoader.shown().overrides.substeps, 9u);
+}
+
+TEST_F(LibraryTest, OpensOneAtATime) {
+    SceneLoader sceneLoader = libraryOf("b.toml");
+    sceneLoader.open(0, 1.5f);
+    sceneLoader.open(2, 1.5f); // a broken file, which is no longer wanted
+    const auto opened = await(sceneLoader);
+    ASSERT_TRUE(opened);
+    EXPECT_EQ(opened->loaded.scene.name, "a");
+    EXPECT_FALSE(sceneLoader.isOpening());
+}
+
+TEST(Recording, NeverWritesOverWhatIsThereAndLeavesNothingEmpty) {
+    const fs::path was = fs::current_path();
+    const fs::path folder = fs::temp_directory_path() / ("sinew-recording-" + std::to_string(::getpid()));
+    fs::create_directories(folder);
+    fs::current_path(folder);
+    EXPECT_EQ(freeName("a/b", ".png"), "a_b.png");
+    std::ofstream("a_b.png") << "x";
+    EXPECT_EQ(freeName("a/b", ".png"), "a_b-2.png");
+    Recording("empty", 64, 64, 60).finish();
+    EXPECT_FALSE(fs::exists("empty.mp4") || fs::exists("empty")) << "without a picture nothing is kept";
+    fs::current_path(was);
+    fs::remove_all(folder);
+}
+
+TEST_F(LibraryTest, StaysOnTheDeviceThatWasChosen) {
+    std::vector<std::string> devices; // devices on which scenes were prepared
+    SceneLoader sceneLoader(Options{.scene = (folder / "b.toml").string()},
+                            [&](OpenedScene&, const Options& options) { devices.push_back(options.device); });
+    sceneLoader.openNext(-1, 1.5f);
+    ASSERT_TRUE(await(sceneLoader));
+    sceneLoader.reopenOn("other", {}, 1.5f);
+    const auto reload = await(sceneLoader);
+    ASSERT_TRUE(reload);
+    EXPECT_EQ(reload->loaded.scene.name, "a");
+    EXPECT_TRUE(reload->reload);
+    sceneLoader.openNext(1, 1.5f);
+    ASSERT_TRUE(await(sceneLoader));
+    EXPECT_EQ(devices, (std::vector<std::string>{"", "other", "other"}));
+    sceneLoader.reopenOn("third", {}, 1.5f);
+    ASSERT_TRUE(await(sceneLoader));
+    sceneLoader.putBack(); // the scene could not be shown
+    EXPECT_EQ(sceneLoader.shown().device, "other");
+    sceneLoader.openNext(-1, 1.5f);
+    ASSERT_TRUE(await(sceneLoader));
+    EXPECT_EQ(devices.back(), "other");
+}
+
+TEST_F(LibraryTest, KeepsTheSceneOnShowWhereTheNextCannotBePrepared) {
+    SceneLoader sceneLoader(Options{.scene = (folder / "b.toml").string()},
+                            [](OpenedScene&, const Options& options) {
+                                if (options.device == "bad") throw std::runtime_error("no such device");
+                            });
+    sceneLoader.reopenOn("bad", {}, 1.5f);
+    EXPECT_THROW(await(sceneLoader), std::runtime_error);
+    EXPECT_EQ(sceneLoader.current(), 1u);
+    EXPECT_EQ(sceneLoader.shown().device, "");
+    sceneLoader.openNext(-1, 1.5f);
+    EXPECT_TRUE(await(sceneLoader)) << "on the device as before";
+}
+
+} // namespace
+} // namespace sinew::viewer
