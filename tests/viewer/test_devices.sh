@@ -61,7 +61,7 @@ echo "devices: other substeps take over, and a replay comes to the same state"
 xdotool mousemove 750 500 click --repeat 40 --delay 20 5 # scrolls to the end of the panel
 sleep 1
 xdotool mousemove 854 541 click 1                        # one more
-for _ in {1..100}; do grep -q ' with 17 substeps, on ' viewer.out && break; sleep 0.1; done
+await 10 says ' with 17 substeps, on '
 grep -q ' with 17 substeps, on ' viewer.out || fail "the number of substeps was not turned"
 expectTheSame substeps.png "the simulation with more substeps"
 for _ in {1..5}; do keys period; done
@@ -78,7 +78,7 @@ for way in ctrl+z ctrl+shift+z ctrl+z; do
     [[ $way == ctrl+z && $(title) != *pieces* || $way == ctrl+shift+z && $(title) == *pieces* ]] || fail "$way leads nowhere"
 done
 keys F8
-for _ in {1..100}; do grep -q '^input: ' viewer.out && break; sleep 0.1; done
+await 10 says '^input: '
 hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
 grep -q '^solve split 16$' block-*.input || fail "the input does not say where another device took over"
 grep -q '^solve split 17$' block-*.input || fail "the input does not say where the substeps changed"

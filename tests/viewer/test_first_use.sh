@@ -66,10 +66,10 @@ done
 (($(reds layers.png) < 20)) || fail "bodies do not get the colors of the map"
 echo "first use: a picture, a film"
 keys F12
-for _ in {1..300}; do grep -q '^picture: ' viewer.out && break; sleep 0.1; done
+await 30 says '^picture: '
 grep -q '^picture: ' viewer.out || fail "F12 made no picture"
 keys F9
-for _ in {1..100}; do grep -q '^recording ' viewer.out && break; sleep 0.1; done
+await 10 says '^recording '
 for _ in {1..100}; do
     keys period
     sleep 1

@@ -42,7 +42,7 @@ awaitTitle pieces
 keys Tab
 sleep 3
 keys F7
-for _ in {1..100}; do grep -q '^frame times' viewer.out && break; sleep 0.1; done
+await 10 says '^frame times'
 cp viewer.out first.out
 agree first.out "frame [ms]" "frame in a cut [ms]" "thread of the window" "step, on the device" "drawing, on the device" \
     "panels, on the device" "input to picture, at most" "input to picture [pictures"

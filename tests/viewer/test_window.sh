@@ -43,7 +43,7 @@ keys r
 awaitStill reset.png
 same stepped.png reset.png && fail "R changed nothing"
 keys F12
-for _ in {1..100}; do grep -q '^picture: ' viewer.out && break; sleep 0.1; done
+await 10 says '^picture: '
 for _ in {1..4}; do keys F12; sleep 0.1; done # pictures of one step, some while others are being written
 for _ in {1..100}; do
     sleep 0.3
@@ -152,7 +152,7 @@ for _ in {1..12}; do xdotool mousemove_relative -- 0 -8; sleep 0.1; done
 awaitTop held.png -lt $((top - 30))
 lifted=$now
 xdotool mouseup 1
-for _ in {1..100}; do [[ $(title) != *holding* ]] && break; sleep 0.1; done
+await 10 lacksTitle holding
 [[ $(title) != *holding* ]] || fail "the block was not let go"
 awaitTop dropped.png -gt $((lifted + 20)) # at any place
 keys space
@@ -169,7 +169,7 @@ read -r now height < <(rows two.png)
 xdotool keydown ctrl mousemove 100 100 mousemove 110 100
 awaitTitle blade
 xdotool keyup ctrl
-for _ in {1..100}; do [[ $(title) != *blade* ]] && break; sleep 0.1; done
+await 10 lacksTitle blade
 [[ $(title) != *blade* ]] || fail "the blade stays when Ctrl is let go"
 keys c
 awaitTitle blade
@@ -183,8 +183,8 @@ stroke() {
     xdotool mouseup 1
 }
 stroke
-for _ in {1..300}; do [[ $(title) == *pieces* ]] && break; sleep 0.1; done
-[[ $(title) == *pieces* ]] || stroke # if the slow window saw only an end of the first stroke
+for _ in {1..300}; do hasTitle pieces && break; sleep 0.1; done
+hasTitle pieces || stroke # if the slow window saw only an end of the first stroke
 awaitTitle 'pieces'
 keys c # back to the grab tool
 shoot cut.png
@@ -199,7 +199,7 @@ done
 (($(inside parted.png) > 200)) || fail "the inside is not seen: $(inside parted.png) pixels of it"
 xdotool mouseup 1
 for ((undo = 0; undo < strokes; ++undo)); do keys ctrl+z; sleep 1; done
-for _ in {1..100}; do [[ $(title) != *pieces* ]] && break; sleep 0.1; done
+await 10 lacksTitle pieces
 [[ $(title) != *pieces* ]] || fail "Ctrl + Z did not join the halves"
 for _ in {1..100}; do # the title changes before the picture
     shoot undone.png
@@ -216,7 +216,7 @@ awaitTitle paused
 
 echo "window: what hands did leads to the same state without a window"
 keys F8
-for _ in {1..100}; do grep -q '^input: ' viewer.out && break; sleep 0.1; done
+await 10 says '^input: '
 hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
 [[ -n $hash ]] || fail "F8 saved no input"
 grep -q '^material 2 1 0\.6' block-*.input && grep -q '^gravity 9\.5' block-*.input || fail "keys turned no knobs: $(grep '^material\|^gravity' block-*.input)"
@@ -232,7 +232,7 @@ find . -name 'block-*.png' -delete
 keys F12
 for _ in {1..100}; do compgen -G 'block-*.png' >/dev/null && break; sleep 0.1; done
 keys ctrl+s
-for _ in {1..100}; do grep -q '^state: ' viewer.out && break; sleep 0.1; done
+await 10 says '^state: '
 grep -q '^state: block-[0-9]*\.state$' viewer.out || fail "Ctrl + S saved no state"
 for run in first second; do
     "$viewer" block-*.state --headless --frames 9 --picture-frames 0 --size 640x400 --out "$run" >"$run.out" 2>"$run.err" ||
@@ -277,7 +277,7 @@ keys space
 awaitTitle paused
 rm block-*.input
 keys F8
-for _ in {1..100}; do grep -q '^input: ' viewer.out && break; sleep 0.1; done
+await 10 says '^input: '
 hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
 [[ -n $hash ]] || fail "F8 saved no input of a state"
 log=$(echo block-*.input)
@@ -319,7 +319,7 @@ scene=$state
 start
 awaitTitle 'pieces'
 keys r
-for _ in {1..100}; do [[ $(title) != *pieces* ]] && break; sleep 0.1; done
+await 10 lacksTitle pieces
 [[ $(title) != *pieces* ]] || fail "a reset does not lead from a state to the start of its scene"
 quit
 awaitEnd 0
@@ -341,7 +341,7 @@ for _ in {1..200}; do [[ -s viewer.err ]] && break; sleep 0.1; done
 [[ $(cat viewer.err) == "warning: cannot read scene: "*broken.toml* ]] || fail "a scene that is none was not refused in a line"
 [[ $(title) == *other*paused* ]] || fail "a scene that is none took the place of one"
 keys F9
-for _ in {1..200}; do grep -q '^recording other-' viewer.out && break; sleep 0.1; done
+await 20 says '^recording other-'
 awaitStill filmed.png
 for step in {1..4}; do # one after the other, because a busy machine is slow to draw a whole picture
     mv filmed.png unfilmed.png
@@ -349,7 +349,7 @@ for step in {1..4}; do # one after the other, because a busy machine is slow to 
     awaitOther unfilmed.png filmed.png "step $step of the film changes nothing"
 done
 keys F9
-for _ in {1..200}; do grep -q '^4 pictures in other-' viewer.out && break; sleep 0.1; done
+await 20 says '^4 pictures in other-'
 grep -q '^4 pictures in other-' viewer.out || fail "F9 made no film of the four steps"
 film=$(sed -n 's/^recording //p' viewer.out)
 [[ -s $film && ( ! -d $film || -s $film/frame_0003.png ) ]] || fail "the film is not there"
@@ -400,7 +400,7 @@ kill -0 "$running" || fail "the viewer ended with the encoder"
 keys F9
 for _ in {1..200}; do [[ -n $(find . -name '*.mp4*.part' -size +1000k) ]] && break; sleep 0.1; done
 keys F9
-for _ in {1..200}; do grep -q ' pictures in other-.*\.mp4$' viewer.out && break; sleep 0.1; done
+await 20 says ' pictures in other-.*\.mp4$'
 grep -q ' pictures in other-.*\.mp4$' viewer.out || fail "there is no film after the one that failed"
 quit
 code=0

@@ -49,6 +49,15 @@ start() {
     awaitWindow '^Sinew'
     awaitTitle fps
 }
+await() { # SECONDS COMMAND...: waits until the command succeeds
+    local tries=$((10 * $1))
+    shift
+    for ((; tries > 0; --tries)); do "$@" && return; sleep 0.1; done
+    fail "waited in vain for: $*"
+}
+says() { grep -q "$1" viewer.out; }
+hasTitle() { [[ $(title) =~ $1 ]]; }
+lacksTitle() { [[ ! $(title) =~ $1 ]]; }
 title() { xdotool getwindowname "$window"; }
 awaitTitle() { # PATTERN
     for _ in {1..1200}; do
