@@ -41,7 +41,6 @@ const std::vector<std::string> exactFunctions{// math.glsl
 /// Functions that decide in several kernels and are not exact, with the reason why this is harmless.
 const std::map<std::string, std::string> looseDecisions{
     {"isBesideWay(struct-Searched", "a face is searched by find_faces or by find_wide_faces"},
-    {"isInBox(struct-Searched", "a face is searched by find_faces or by find_wide_faces"},
     {"isNear(struct-Searched-u1-struct-ContactFace",
      "a face is searched by find_faces or by find_wide_faces"},
     {"isSliver(",

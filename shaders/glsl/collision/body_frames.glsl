@@ -29,25 +29,30 @@ void setRates(inout BodyFrame frame, mat3 w) {
 // Squared Frobenius norm.
 float squaredNorm(mat3 a) { return dot(a[0], a[0]) + dot(a[1], a[1]) + dot(a[2], a[2]); }
 
+// Least factor by which a frame may shorten distances while lists stay valid.
+#define LEAST_STRETCH 0.9
+
 // Slack: the distance from their expected positions that two particles of bodies with a common frame may have before
 // a pair that is missing in the lists can touch. The pair was farther apart than reach + margin; A makes d no shorter
 // than s |d|, where s^2 >= 1 - |A^T A - 1|; on the straight path from one position to the next, a rotation by the
-// angle a shortens it by a^2 / 8.
-float slackOf(mat3 a, mat3 turnOfSubstep, float reach, float margin) {
+// angle a shortens it by a^2 / 8. Where d changes in the substep, by up to twice the pace of headings, the path is off
+// the expected one by up to a quarter of the product of both changes.
+float slackOf(mat3 a, mat3 turnOfSubstep, float reach, float margin, float pace) {
     const mat3 strain = transpose(a) * a - mat3(1.0);
-    const float s = sqrt(max(0.0, 1.0 - sqrt(squaredNorm(strain)))) - squaredNorm(turnOfSubstep) / 8.0;
-    return 0.49 * (s * margin - (1.0 - s) * reach);
+    const float turn2 = squaredNorm(turnOfSubstep), s = sqrt(max(0.0, 1.0 - sqrt(squaredNorm(strain)))) - turn2 / 8.0;
+    if (s < LEAST_STRETCH) return -1e18;
+    return 0.49 * (s * margin - (1.0 - s) * reach - sqrt(turn2) * pace);
 }
 
 // Advances the frame to the next substep, of length h. The rounding of positions far from the origin is subtracted
 // from the slack.
-void advance(inout BodyFrame frame, float h, float reach, float margin) {
+void advance(inout BodyFrame frame, float h, float reach, float margin, float pace) {
     const mat3 w = h * matrixOf(frame.rates);
     const vec3 to = placeOf(frame), u = frame.speed.xyz + h * frame.gravity.xyz, far = abs(to);
     const mat3 before = matrixOf(frame.map), a = before + w * before;
     frame.before = frame.map;
     setMap(frame, a, to + h * u);
-    const float slack = min(slackOf(before, w, reach, margin), slackOf(a, w, reach, margin));
+    const float slack = min(slackOf(before, w, reach, margin, pace), slackOf(a, w, reach, margin, pace));
     frame.speed = vec4(u, slack - 1e-6 * max(far.x, max(far.y, far.z)));
 }
 

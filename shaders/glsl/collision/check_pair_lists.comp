@@ -19,6 +19,7 @@ layout(std430, binding = 5) writeonly buffer Fast { uint fast[]; };
 layout(std140, binding = 6) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
 #define FRAMES_BINDING 7
+#define HEADING(i) vec4(0.0)
 #include "collision/list_check.glsl"
 
 void main() {

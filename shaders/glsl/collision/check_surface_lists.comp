@@ -18,6 +18,8 @@ layout(std430, binding = 3) buffer Bounds { GridBounds bounds; };
 layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
 #define FRAMES_BINDING 5
+FETCHED_VEC4(6, Headings, headingAt)
+#define HEADING(i) headingAt(i)
 #include "collision/strays.glsl"
 
 void main() {

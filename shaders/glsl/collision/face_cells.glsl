@@ -1,4 +1,4 @@
-// The block of cells around a face in which find_faces searches for points. Requires the names of that kernel.
+// The block of cells around one or two faces in which find_faces searches for points. Requires the names of that kernel.
 const float mostCells = 1000.0; // around a face
 
 #include "collision/cell_points.glsl"
@@ -8,17 +8,27 @@ struct Cells {
     uint points; // number of points in them
 };
 
-// The distance from the face beyond which no point of the grid is near; slightly larger because of rounding [m].
-float rangeOf(Searched face) {
-    const vec3 size = max(abs(face.low), abs(face.high));
-    return 1.01 * (face.reach + uintBitsToFloat(points.widest)) + 1e-6 * max(size.x, max(size.y, size.z));
+// Around the corners of one or two faces; reach as in Searched.
+struct Box {
+    vec3 low, high;
+    float reach;
+};
+
+Box boxOf(Searched one, Searched other) {
+    return Box(min(one.low, other.low), max(one.high, other.high), max(one.reach, other.reach));
+}
+
+// The distance from the box beyond which no point of the grid is near; slightly larger because of rounding [m].
+float rangeOf(Box box) {
+    const vec3 size = max(abs(box.low), abs(box.high));
+    return 1.01 * (box.reach + uintBitsToFloat(apart[FACE_POINTS_WIDEST])) + 1e-6 * max(size.x, max(size.y, size.z));
 }
 
 // Empty, with points = ~0, if the block has more than mostCells cells.
-Cells cellsAround(Searched face, Frame frame) {
-    const float reach = rangeOf(face);
+Cells cellsAround(Box box, Frame frame) {
+    const float reach = rangeOf(box);
     const vec3 top = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ));
-    const vec3 low = max(face.low - reach, frame.low), high = min(face.high + reach, top);
+    const vec3 low = max(box.low - reach, frame.low), high = min(box.high + reach, top);
     Cells cells = Cells(ivec3(0), ivec3(-1), 0u);
     if (any(lessThan(high, low))) return cells;
     cells.first = cellOf(low, frame);

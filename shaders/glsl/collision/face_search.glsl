@@ -1,6 +1,6 @@
 // Shared by the kernels that find pairs of a point and a face: the buffers, and the test. A pair is listed if its
-// distance is below the reach, plus a margin, plus the relative motion in this substep: so no pair that meets during
-// the substep is missed, however fast, and particles that move together are not listed because of their speed.
+// distance is below the reach, plus a margin, plus the approach in this substep or along headings: so no pair that meets
+// then is missed, however fast, and particles that move together are not listed because of their speed.
 #include "common/kernel.glsl"
 #include "common/math.glsl"
 #include "common/triangle.glsl"
@@ -26,6 +26,12 @@ layout(std430, binding = 6) coherent volatile buffer Bounds { GridBounds bounds;
 #define FINDS_PAIRS
 #define ENTRIES_OF_PAIR 1u
 #include "collision/listed_pairs.glsl"
+FETCHED_VEC4(HEADINGS_BINDING, Headings, headingAt)
+layout(constant_id = 2) const bool hasHeadings = false;
+vec4 headingOrNone(uint i) { return hasHeadings ? headingAt(i) : vec4(0.0); }
+#define HEADING(i) headingOrNone(i).xyz
+#define LEEWAY(i) headingOrNone(i).w
+float horizon = bounds.horizon; // [s]
 
 // A face with its positions and velocities at the end of the substep.
 struct Searched {
@@ -38,6 +44,10 @@ struct Searched {
     float still;    // the same without the motion of the face [m]
     vec3 va, vb, vc; // [m/s]
     vec3 v;          // their mean [m/s]
+    vec3 wa, wb, wc; // headings [m/s]
+    vec3 w;          // their mean [m/s]
+    float ahead;     // longest way of a corner along its heading [m]
+    float bending;   // the same relative to the mean [m]
     float size;      // radius of a ball around the face [m]
     float turning;   // motion of a corner relative to the mean in this substep [m]
     Squares squares;
@@ -45,77 +55,73 @@ struct Searched {
 
 float longestOf(vec3 a, vec3 b, vec3 c) { return sqrt(max(dot(a, a), max(dot(b, b), dot(c, c)))); }
 
+#include "collision/motion_of.glsl"
+vec3 meanOf(vec3 a, vec3 b, vec3 c) { return (a + b + c) / 3.0; }
+float motionOf(uint i) { return motionOf(VELOCITY(i).xyz, headingOrNone(i), horizon); }
+
 Searched searchedOf(uint f) {
     const ContactFace face = faces[f];
     const vec3 a = POSITION(face.a).xyz, b = POSITION(face.b).xyz, c = POSITION(face.c).xyz;
     const vec3 va = VELOCITY(face.a).xyz, vb = VELOCITY(face.b).xyz, vc = VELOCITY(face.c).xyz;
-    const float way = step.h * sqrt(max(dot(va, va), max(dot(vb, vb), dot(vc, vc))));
+    const vec3 wa = HEADING(face.a), wb = HEADING(face.b), wc = HEADING(face.c);
+    const float ahead = horizon * longestOf(wa, wb, wc), way = max(step.h * longestOf(va, vb, vc), ahead);
     const vec3 low = min(a, min(b, c)), high = max(a, max(b, c)), size = high - low;
     const Triangle triangle = triangleOf(b - a, c - a);
-    float still = abs(face.thickness) + push.margin;
+    const float leeway = max(LEEWAY(face.a), max(LEEWAY(face.b), LEEWAY(face.c)));
+    float still = abs(face.thickness) + push.margin + leeway;
     if (isSliver(triangle)) still += 1e-3 * length(size); // its edges may be as far apart as that
-    const vec3 v = (va + vb + vc) / 3.0;
-    return Searched(f, face, a, triangle, low, high, still + way, still, va, vb, vc, v, 0.5 * length(size),
-                    step.h * longestOf(va - v, vb - v, vc - v), squaresOf(triangle));
+    const vec3 v = meanOf(va, vb, vc), w = meanOf(wa, wb, wc);
+    return Searched(f, face, a, triangle, low, high, still + way, still, va, vb, vc, v, wa, wb, wc, w, ahead,
+                    horizon * longestOf(wa - w, wb - w, wc - w), 0.5 * length(size), step.h * longestOf(va - v, vb - v, vc - v), squaresOf(triangle));
 }
 
-#include "collision/excluded.glsl"
-
-// Links between a point and the corners of a face: none; only diagonals, so that the contact distance is
-// LINKED_REACH; or links that exclude the contact.
-#define BOND_NONE 0u
-#define BOND_DIAGONAL 1u
-#define BOND_EXCLUDED 2u
-
-layout(constant_id = 1) const bool hasLinks = false; // a body may be cut
-layout(std430, binding = LINKS_BINDING) readonly buffer Links { uint links[]; }; // live links of each lattice node
-#include "lattice/link_masks.glsl"
-#include "lattice/link_ways.glsl"
-
-// Finds the links between a point and a face. The row of a body that may be cut ends with the position of its strides
-// in the table, where a further entry says whether diagonal links permit contacts.
-uint bondOf(Searched face, uint i) {
-    if (isExcluded(face.index, i)) return BOND_EXCLUDED;
-    if (!hasLinks) return BOND_NONE;
-    const uint end = EXCLUDED(face.index + 1u), last = end > EXCLUDED(face.index) ? EXCLUDED(end - 1u) : 0u;
-    if ((last & EXCLUDED_LINKED) == 0u) return BOND_NONE;
-    const uint strides = last & ~EXCLUDED_LINKED, rowStride = EXCLUDED(strides), sliceStride = EXCLUDED(strides + 1u);
-    uint alive = 0u;
-    [[dont_unroll]] for (uint c = 0u; c < 3u; ++c) {
-        const uint corner = c == 0u ? face.face.a : c == 1u ? face.face.b : face.face.c;
-        alive |= links[corner] & linksTo(int(i) - int(corner), rowStride, sliceStride);
-    }
-    if (alive == 0u) return BOND_NONE;
-    return (alive & EDGE_LINKS) != 0u || EXCLUDED(strides + 2u) == 0u ? BOND_EXCLUDED : BOND_DIAGONAL;
-}
+#include "collision/face_bonds.glsl"
 
 // True if x is within `reach` of the face's box; `reach` includes radius and motion of the point.
-bool isInBox(Searched face, vec3 x, float reach) {
-    const vec3 d = max(max(face.low - x, x - face.high), vec3(0.0));
-    return dot(d, d) < reach * reach;
+bool isInBox(vec3 low, vec3 high, vec3 x, float reach) {
+    const vec3 d = max(max(low - x, x - high), vec3(0.0));
+    return dot3(d, d) < reach * reach;
+}
+bool isInBox(Searched face, vec3 x, float reach) { return isInBox(face.low, face.high, x, reach); }
+
+// Distance by which a point may approach the face, in this substep or along headings [m].
+float mostApproach(Searched face, uint i) {
+    return max(step.h * length(VELOCITY(i).xyz - face.v) + face.turning, horizon * length(HEADING(i) - face.w) + face.bending);
 }
 
 // True if a fast point, seen from the centre of a face, stays outside of the ball around the face during the whole
-// substep: without this test a body of small faces would be listed completely with it. Its motion in the next substep
-// is within the margin, or lists are rebuilt.
+// substep: without this test a body of small faces would be listed completely with it. Its motion after that is along
+// its heading and within the margin, or lists are rebuilt.
 bool isBesideWay(Searched face, uint i, vec3 x) {
     const vec3 way = step.h * (VELOCITY(i).xyz - face.v), d = 0.5 * (face.low + face.high) - x;
     const float length2 = dot(way, way);
     if (length2 < face.size * face.size) return false;
     const vec3 apart = d + clamp(-dot(d, way) / length2, 0.0, 1.0) * way;
-    const float reach = 1.001 * (face.size + face.still + face.turning + RADIUS(i));
+    const float reach = 1.001 * (face.size + face.still + face.turning + face.ahead + horizon * length(HEADING(i)) + RADIUS(i) + LEEWAY(i));
     return dot(apart, apart) > reach * reach;
 }
+
+// Distance by which a point and a face, which are d apart, may approach in this substep or along their headings. The
+// normal of a plane between them, square to d, separates them at both ends of both ways, and so in between.
+float approachOf(Searched face, uint i, vec3 d) {
+    const vec3 n = d / max(length(d), 1e-30);
+    const float v = dot(n, VELOCITY(i).xyz), w = dot(n, HEADING(i));
+    const float back = v - min(dot(n, face.va), min(dot(n, face.vb), dot(n, face.vc)));
+    const float on = max(dot(n, face.wa), max(dot(n, face.wb), dot(n, face.wc))) - w;
+    return 1.001 * max(0.0, max(step.h * back, horizon * on));
+}
+
+bool isCorner(Searched face, uint i) { return i == face.face.a || i == face.face.b || i == face.face.c; }
 
 // True if a pair must be listed; the caller tests for excluded pairs. `less`: amount by which the reach of this pair
 // is shorter [m].
 bool isNear(Searched face, uint i, vec3 x, float less) {
     const uint f = face.index;
-    if (i == face.face.a || i == face.face.b || i == face.face.c) return false;
+    if (isCorner(face, i)) return false;
     if (f >= push.moving && inverseMass[i] == 0.0) return false; // neither ever moves
     if (isBesideWay(face, i, x)) return false;
-    const vec3 v = VELOCITY(i).xyz, d = nearestOf(x - face.a, face.triangle, face.squares).d;
-    const float reach = face.still + RADIUS(i) + step.h * longestOf(v - face.va, v - face.vb, v - face.vc) - less;
+    const vec3 d = nearestOf(x - face.a, face.triangle, face.squares).d;
+    const float reach = face.still + RADIUS(i) + LEEWAY(i) + approachOf(face, i, d) - less;
     return dot(d, d) < reach * reach;
 }
 

@@ -1,7 +1,7 @@
 #version 460
 // Every edge searches for others near it, in the cells around it and among the edges outside of the grid, and lists
 // each pair once, in any order: sort_lists and index_rows_by_owner sort. A pair is listed if its distance, and that of the
-// balls around both edges, is below the reach, plus a margin, plus the motion of both in this substep.
+// balls around both edges, is below the reach, plus a margin, plus the approach of both in this substep or along headings.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/kernel.glsl"
@@ -29,19 +29,24 @@ ContactEdge edgeAt(uint e) {
     return ContactEdge(words.x, words.y, words.z, uintBitsToFloat(words.w));
 }
 layout(std430, binding = 7) coherent volatile buffer Bounds { GridBounds bounds; };
-layout(std430, binding = 8) readonly buffer Points { FacePoints points; };
-layout(std430, binding = 9) readonly buffer Apart { uint apart[]; };
+layout(std430, binding = 8) readonly buffer Points { uint apart[]; }; // FACE_POINTS_...
+FETCHED_VEC4(9, Headings, headingAt)
+#define HEADING(i) headingAt(i).xyz
 layout(std430, binding = 10) readonly buffer Middles { vec4 middles[]; };
 layout(std430, binding = 11) buffer Chains { uint chains[]; }; // chains of owners
 #define PAIRS_BINDING 12
 layout(std430, binding = 13) buffer Status { StatusWords status; };
 layout(std430, binding = 14) buffer LinkChains { uint linkChains[]; };
 layout(std140, binding = 15) uniform Step { StepParams step; };
+FETCHED_VEC4(16, Velocities, velocityAt)
+#define VELOCITY(i) velocityAt(i).xyz
 layout(push_constant) uniform Push { FaceFindPush push; };
 #define FINDS_PAIRS
 #define ENTRIES_OF_PAIR 1u
 #include "collision/listed_pairs.glsl"
 
+#include "collision/motion_classes.glsl"
+float most = mostMotion();
 #include "collision/near_edges.glsl"
 #include "collision/grid_rows.glsl"
 #include "collision/cell_points.glsl"
@@ -89,7 +94,7 @@ void searchGrid(Searched one, uint total) {
     const Frame frame = frameOf(bounds, push.cells);
     const vec3 top = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)), size = abs(one.middle);
     // slightly larger because of rounding
-    const float range = 1.01 * (one.edge.radius + one.way + uintBitsToFloat(points.widest) + push.margin) +
+    const float range = 1.01 * (one.edge.radius + one.way + uintBitsToFloat(apart[FACE_POINTS_WIDEST]) + push.margin) +
                         1e-6 * max(size.x, max(size.y, size.z));
     const vec3 low = max(one.middle - range, frame.low), high = min(one.middle + range, top);
     if (any(lessThan(high, low))) return;
@@ -108,9 +113,9 @@ void main() {
     const uint total = START(push.cells);
     const bool standsApart = isApart(one.edge, one.way);
     if (total > 0u && !standsApart) searchGrid(one, total);
-    if (points.apart > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);
-    for (uint k = 0u; k < min(points.apart, FACE_MOST_POINTS) && !isFull(); ++k) {
-        const uint f = apart[k];
+    if (apart[FACE_POINTS_APART] > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);
+    for (uint k = 0u; k < min(apart[FACE_POINTS_APART], FACE_MOST_POINTS) && !isFull(); ++k) {
+        const uint f = apart[FACE_POINTS_FIRST + k];
         // of two edges outside of the grid the first lists the pair
         if ((standsApart && f < e) || !isNear(one, f, edgeAt(f), wayOf(f), middles[f].xyz) || isExcluded(e, f)) continue;
         list(one, f);

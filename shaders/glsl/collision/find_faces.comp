@@ -1,11 +1,12 @@
 #version 460
-// Every small face searches for points near it, in the cells around it and among the points outside of the grid, and
-// lists the pairs in any order: sort_lists and index_rows_by_owner sort. A face with too many points around it is left to
-// find_wide_faces.
+// Every two small faces that share an edge search for points near them, in the cells around both and among the points
+// outside of the grid, and list the pairs in any order: sort_lists and index_rows_by_owner sort. Most of the time goes
+// into visits of points that are near neither. Faces with too many points around them are left to find_wide_faces.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define WEIGHT_BINDING 15
 #define LINKS_BINDING 16
+#define HEADINGS_BINDING 13
 #include "collision/face_search.glsl"
 #include "collision/hash_grid.glsl"
 
@@ -14,25 +15,27 @@ FETCHED_UVEC4(10, Sorted, sortedAt)
 FETCHED_UINT(11, Starts, startAt)
 #define SORTED(k) sortedAt(k)
 #define START(slot) startAt(slot)
-layout(std430, binding = 12) buffer Points { FacePoints points; };
-layout(std430, binding = 13) buffer Apart { uint apart[]; }; // points; from push.points on, wide faces
-layout(std430, binding = 14) readonly buffer SearchedFaces { uint searchedFaces[]; }; // ~0 in padding
+layout(std430, binding = 12) buffer Points { uint apart[]; }; // FACE_POINTS_...
+layout(std430, binding = 14) readonly buffer SearchedFaces { uint searchedFaces[]; }; // in pairs; ~0 = none
 
+#include "collision/motion_classes.glsl"
 #include "collision/face_cells.glsl"
 #include "collision/grid_rows.glsl"
 
+float most = hasHeadings ? mostMotion() : 1e30; // of a point that is not apart [m]
+
 bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
-    const float size = sizeOf(RADIUS(i), step.h, VELOCITY(i).xyz), reach = face.reach + size;
-    return isInBox(face, x, reach) && (size <= push.most) != isApart && isNear(face, i, x, 0.0);
+    const float radius = RADIUS(i), motion = motionOf(i), reach = face.still + radius + LEEWAY(i) + 1.001 * mostApproach(face, i);
+    return isInBox(face, x, reach) && (radius + motion <= push.most && motion <= most) != isApart && isNear(face, i, x, 0.0);
 }
 
-// The points near the box of the face in up to 32 visits from `from` on: bit v for visit from + v.
-uint around(Searched face, float range, Rows rows, uint from, uint total) {
+// The points near the box in up to 32 visits from `from` on: bit v for visit from + v.
+uint around(Box box, float range, Rows rows, uint from, uint total) {
     const uint last = min(from + 32u, rows.all);
     uint visits = 0u;
     for (uint visit = from; visit < last; ++visit) {
         const vec3 x = uintBitsToFloat(SORTED(placeOf(rows, visit, total)).xyz);
-        visits |= uint(isInBox(face, x, range)) << visit - from;
+        visits |= uint(isInBox(box.low, box.high, x, range)) << visit - from;
     }
     return visits;
 }
@@ -50,40 +53,55 @@ uint nearOf(Searched face, uint visits, Rows rows, uint from, Frame frame, uint 
     return near;
 }
 
+void listNear(Searched face, uint near, Rows rows, uint from, uint total) {
+    for (; near != 0u; near &= near - 1u)
+        listUnlessExcluded(face, SORTED(placeOf(rows, from + uint(findLSB(near)), total)).w);
+}
+
 // Branches are what costs: a batch is measured first, and only the remaining points are processed then.
-void searchRows(Searched face, float range, Rows rows, Frame frame, uint total) {
+void searchRows(Searched one, Searched other, Box box, float range, Rows rows, Frame frame, uint total) {
     for (uint from = 0u; from < rows.all && !isFull(); from += 32u) {
-        uint near = nearOf(face, around(face, range, rows, from, total), rows, from, frame, total);
-        for (; near != 0u; near &= near - 1u)
-            listUnlessExcluded(face, SORTED(placeOf(rows, from + uint(findLSB(near)), total)).w);
+        const uint visits = around(box, range, rows, from, total);
+        listNear(one, nearOf(one, visits, rows, from, frame, total), rows, from, total);
+        if (hasHeadings && other.index != one.index) listNear(other, nearOf(other, visits, rows, from, frame, total), rows, from, total);
     }
 }
 
-void searchGrid(Searched face, Cells cells, Frame frame, uint total) {
-    const float range = rangeOf(face);
+void searchGrid(Searched one, Searched other, Box box, Cells cells, Frame frame, uint total) {
+    const float range = rangeOf(box);
     for (int z = cells.first.z; z <= cells.last.z; ++z)
         for (int y = cells.first.y; y <= cells.last.y; y += 3)
             for (int x = cells.first.x; x <= cells.last.x; x += 3)
-                searchRows(face, range, rowsFrom(ivec3(x, y, z), cells.last, frame), frame, total);
+                searchRows(one, other, box, range, rowsFrom(ivec3(x, y, z), cells.last, frame), frame, total);
 }
 
 void searchApart(Searched face) {
-    for (uint k = 0u; k < points.apart && !isFull(); ++k)
-        if (isNearby(face, apart[k], POSITION(apart[k]).xyz, true)) listUnlessExcluded(face, apart[k]);
+    for (uint k = 0u; k < apart[FACE_POINTS_APART] && !isFull(); ++k)
+        if (isNearby(face, apart[FACE_POINTS_FIRST + k], POSITION(apart[FACE_POINTS_FIRST + k]).xyz, true)) listUnlessExcluded(face, apart[FACE_POINTS_FIRST + k]);
 }
 
+void leaveToWide(uint f) { apart[FACE_POINTS_FIRST + push.points + atomicAdd(apart[FACE_POINTS_WIDE], 1u)] = f; }
+
 void main() {
-    const uint f = searchedFaces[itemIndex(push.searched)];
+    const uint item = itemIndex(push.searched);
+    if (item >= push.searched) return;
+    const uint first = searchedFaces[2u * item], second = searchedFaces[2u * item + 1u];
+    const uint f = first != ~0u ? first : second, g = second != ~0u ? second : first;
     if (f == ~0u) return;
-    const Searched face = searchedOf(f);
+    const Searched one = searchedOf(f);
+    Searched other = one;
+    if (hasHeadings && g != f) other = searchedOf(g);
+    const Box box = hasHeadings ? boxOf(one, other) : Box(one.low, one.high, one.reach);
     const uint total = START(push.cells);
     const Frame frame = frameOf(bounds, push.cells);
     Cells cells = Cells(ivec3(0), ivec3(-1), 0u);
-    if (total > 0u) cells = cellsAround(face, frame);
-    if (max(cells.points, points.apart) > FACE_MOST_POINTS) {
-        apart[push.points + atomicAdd(points.wide, 1u)] = f;
+    if (total > 0u) cells = cellsAround(box, frame);
+    if (max(cells.points, apart[FACE_POINTS_APART]) > FACE_MOST_POINTS) {
+        leaveToWide(f);
+        if (hasHeadings && g != f) leaveToWide(g);
         return;
     }
-    searchGrid(face, cells, frame, total);
-    searchApart(face);
+    searchGrid(one, other, box, cells, frame, total);
+    searchApart(one);
+    if (hasHeadings && g != f) searchApart(other);
 }

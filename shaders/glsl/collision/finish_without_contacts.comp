@@ -20,6 +20,7 @@ layout(std430, binding = 4) readonly buffer Radii { float radii[]; };
 layout(std430, binding = 5) writeonly buffer Fast { uint fast[]; };
 layout(std140, binding = 6) uniform Step { StepParams step; };
 #define FRAMES_BINDING 7
+#define HEADING(i) vec4(0.0)
 #include "collision/list_check.glsl"
 layout(std430, binding = 8) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 9) writeonly buffer NextPositions { vec4 nextPositions[]; };

@@ -16,6 +16,7 @@ layout(std430, binding = 3) readonly buffer Detected { vec4 detected[]; };
 layout(std430, binding = 4) writeonly buffer Frames { BodyFrame frames[FRAME_MOST_BODIES]; };
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
 layout(std140, binding = 6) uniform Step { StepParams step; };
+layout(std430, binding = 7) readonly buffer Headings { vec4 headings[]; };
 layout(push_constant) uniform Push { FramePush push; };
 
 shared uint cluster[FRAME_MOST_BODIES];
@@ -44,7 +45,10 @@ Fit clusterFit(uint b) {
     return fitOf(m, origin);
 }
 
-float mostDrift() { return 4.0 * push.margin; }
+// Distance from the frame that headings and leeways may lead to.
+float aside() { return push.ahead * push.pace + push.leeway; }
+
+float mostDrift() { return 4.0 * push.margin + 2.0 * aside(); }
 
 // Computes the box that a body's particles may reach in the step.
 void sweep(uint b, Fit fit) {
@@ -54,7 +58,7 @@ void sweep(uint b, Fit fit) {
     const float radius = 0.5 * length(to - from), arm = radius + length(middle - fit.to);
     const vec3 way = dt * (fit.u + fit.w * (middle - fit.to));
     const float more = (grown - 1.0 - turn) * arm + turn * grown * radius + dt * dt * length(step.gravity.xyz) +
-                       grown * (2.0 * push.margin + mostDrift()) + 0.51 * push.reach;
+                       grown * (2.0 * push.margin + aside() + mostDrift()) + 0.51 * push.reach;
     const vec3 back = way / float(push.substeps); // positions are those at the end of the first substep
     low[b] = vec4(min(from, min(from - back, from + way)) - more, 0.0);
     high[b] = vec4(max(to, max(to - back, to + way)) + more, 0.0);
@@ -124,7 +128,7 @@ void main() {
     frame.speed = vec4(fit.u - h * frame.gravity.xyz, 0.0);
     setMap(frame, fit.a - h * fit.w * fit.a, fit.to - h * fit.u); // at the start of the substep
     setRates(frame, fit.w);
-    advance(frame, h, push.reach, push.margin);
+    advance(frame, h, push.reach, push.margin, push.pace);
     if ((step.lists & LISTS_REPEATS) != 0u) frame.speed.w *= LISTS_EARLY; // in the first substep
     frames[b] = frame;
 }

@@ -1,4 +1,5 @@
-// Fits a frame to sums over particles. Requires the names sums, bodies, positions and detected of a kernel.
+// Fits a frame to sums over particles. Requires the names sums, bodies, positions, detected, headings and bounds of
+// a kernel.
 
 // Sums as in FRAME_SUMS, relative to one origin.
 struct Moments {
@@ -20,10 +21,12 @@ struct Fit {
 
 mat3 columnsAt(uint first) { return mat3(sums[first].xyz, sums[first + 1u].xyz, sums[first + 2u].xyz); }
 
+#include "collision/expected.glsl"
+
 Origin originOf(uint b) {
     const uint i = bodies[b].origin;
     const vec3 x = positions[i].xyz, r = detected[i].xyz;
-    return Origin(abs(r.x) < 1e17 ? r : x, x);
+    return Origin(abs(r.x) < 1e17 ? alongHeading(r, i) : x, x);
 }
 
 void add(inout Moments m, uint b, Origin origin) {

@@ -15,7 +15,7 @@ layout(std430, binding = 2) readonly buffer Contacts { ContactCandidate contacts
 layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) buffer Links { uint links[]; }; // elements of contacts
 layout(std430, binding = 5) writeonly buffer LinkLists { uvec2 linkLists[]; };
-layout(std430, binding = 6) writeonly buffer Points { FacePoints points; };
+layout(std430, binding = 6) buffer Points { uint apart[]; }; // FACE_POINTS_...
 layout(std430, binding = 7) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 8) readonly buffer Shapes { uvec4 shapes[]; }; // ContactFace or ContactEdge
 #include "collision/row_kind.glsl"
@@ -45,12 +45,21 @@ void complete(uint link) {
     }
     links[link] = min(low, push.room - 1u); // missing only if the step will be undone
 }
+#include "collision/motion_classes.glsl"
 #include "collision/sort_pairs.glsl"
+
+// Points that go far along their headings make every search wide: the next lists look less far ahead.
+void planHorizon() {
+    const float far = 8.0 * uintBitsToFloat(apart[FACE_POINTS_UNIT]), most = mostMotion();
+    const float share = 1.0 + bounds.aheadShare;
+    bounds.aheadShare = (most > far ? max(0.7 * share, 0.125) : min(1.4 * share, 1.0)) - 1.0;
+}
 
 void main() {
     const uint f = itemIndex(push.moving);
     if (f == 0u) {
-        points = FacePoints(0u, 0u, 0u, 0u); // for the next build
+        planHorizon();
+        for (uint k = 0u; k < FACE_POINTS_FIRST; ++k) apart[k] = 0u; // for the next build
         arguments[2] = DispatchArguments(min((bounds.entries + GROUP_SIZE - 1u) / GROUP_SIZE, uint(ROWS_MOST_GROUPS)), 1u, 1u, 0u);
     }
     if (f >= push.moving) return;

@@ -8,8 +8,11 @@
 
 layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 1) readonly buffer Radii { float radii[]; }; // below 0 = touches no face
-layout(std430, binding = 2) buffer Points { FacePoints points; };
-layout(std430, binding = 3) writeonly buffer Apart { uint apart[]; };
+layout(std430, binding = 2) buffer Points { uint apart[]; }; // FACE_POINTS_...
+layout(constant_id = 3) const bool limitsMotion = false; // motions are counted
+layout(constant_id = 2) const bool hasHeadings = false; // false: `velocities` have their share of them
+layout(std430, binding = 3) readonly buffer Headings { vec4 headings[]; };
+layout(std430, binding = 11) readonly buffer Bounds { GridBounds bounds; };
 layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(std430, binding = 5) readonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 6) readonly buffer Lists { uvec2 lists[]; };
@@ -19,12 +22,15 @@ layout(std430, binding = 9) writeonly buffer KeptOthers { uint keptOthers[]; }; 
 layout(std430, binding = 10) writeonly buffer KeptLists { uvec2 keptLists[]; };
 layout(push_constant) uniform Push { FaceFindPush push; };
 #include "collision/keep_list.glsl"
+#include "collision/motion_classes.glsl"
+#include "collision/motion_of.glsl"
 
 void main() {
     const uint i = itemIndex(push.points);
     keptLists[i] = keep(lists[i]);
     if (radii[i] < 0.0) return;
-    const float size = sizeOf(radii[i], step.h, velocities[i].xyz);
-    if (size <= push.most) atomicMax(points.widest, floatBitsToUint(size));
-    else apart[atomicAdd(points.apart, 1u)] = i; // also if the size is NaN
+    const float motion = motionOf(velocities[i].xyz, hasHeadings ? headings[i] : vec4(0.0), bounds.horizon);
+    const float size = radii[i] + motion;
+    if (size <= push.most && (!limitsMotion || motion <= mostMotion())) atomicMax(apart[FACE_POINTS_WIDEST], floatBitsToUint(size));
+    else apart[FACE_POINTS_FIRST + atomicAdd(apart[FACE_POINTS_APART], 1u)] = i; // also if the size is NaN
 }

@@ -22,8 +22,8 @@ void plan(uint element, bool runs, uint items) {
 }
 
 // Distance that particles may have strayed when lists are made: unreported particles have strayed by less than half
-// of the margin.
-float strayOf(uint moved) { return max(uintBitsToFloat(moved), 0.49 * push.margin); }
+// of the margin. Headings lead away from the frame of the body as well.
+float strayOf(uint moved) { return max(uintBitsToFloat(moved), 0.49 * push.margin) + push.ahead * push.pace + push.leeway; }
 
 bool isCalm() { return push.isLater != 0u && (step.lists & LISTS_CALM) != 0u; }
 
@@ -68,12 +68,22 @@ void planPasses(bool isBuilt, bool isComplete) {
     bounds.hurrying = 0u;
 }
 
+// The time for which particles follow their headings, in the substep that is checked next.
+void planHeadings(bool isBuilt) {
+    if (isBuilt) {
+        bounds.lasted = bounds.age;
+        bounds.horizon = (1.0 + bounds.aheadShare) * push.ahead * step.h;
+    }
+    bounds.ageBefore = isBuilt ? 0.0 : bounds.age;
+    bounds.age = min(bounds.ageBefore + step.h, bounds.horizon);
+}
+
 // Bodies far from each other have frames of their own while no particle strays; after that, all frames stand still
 // until the next step.
 void planFrame(uint b, uint moved, bool stands) {
     BodyFrame frame = frames[b];
     if (moved > 0u) restart(frame, stands);
-    advance(frame, step.h, push.reach, push.margin);
+    advance(frame, step.h, push.reach, push.margin, push.pace);
     frames[b] = frame;
 }
 
@@ -85,5 +95,6 @@ void main() {
     memoryBarrierBuffer();
     barrier();
     if (b == 0u) planPasses(moved > 0u, strayed == 0u);
+    if (b == 0u && push.bodies > 0u) planHeadings(moved > 0u);
     if (b < push.bodies) planFrame(b, moved, stands);
 }

@@ -1,5 +1,6 @@
 // Distance of a particle, now and at the start of the substep, from its expected position [m]. Requires POSITION,
-// VELOCITY and DETECTED of a kernel; DETECTED is the position when lists were made, w: its body.
+// VELOCITY, DETECTED and bounds of a kernel, with hasHeadings also HEADING; DETECTED is the position when lists were
+// made, w: its body.
 #include "collision/body_frames.glsl"
 
 #include "common/fetched.glsl"
@@ -18,17 +19,20 @@ BodyFrame frameAt(uint b) {
 }
 layout(constant_id = 4) const bool hasOneBody = false;
 
-// True if the distance exceeds the slack of `frame`, which is the same for all lanes if there is one body.
-bool hasStrayedFrom(BodyFrame frame, vec3 x, vec3 v, vec3 r, out float farthest) {
-    const vec3 stray = x - mapped(frame.map, r), start = x - step.h * v - mapped(frame.before, r);
+// True if the distance exceeds the slack of `frame`, which is the same for all lanes if there is one body. r: position
+// when lists were made; w: heading and leeway.
+bool hasStrayedFrom(BodyFrame frame, vec3 x, vec3 v, vec3 r, vec4 w, out float farthest) {
+    const vec3 stray = x - mapped(frame.map, r + bounds.age * w.xyz);
+    const vec3 start = x - step.h * v - mapped(frame.before, r + bounds.ageBefore * w.xyz);
     farthest = sqrt(max(dot3(stray, stray), dot3(start, start)));
-    return !(farthest <= frame.speed.w); // true for NaN too
+    return !(farthest <= frame.speed.w + LEAST_STRETCH * w.w); // true for NaN too
 }
 
 bool hasStrayed(uint i, vec3 x, vec3 v, out float farthest) {
     const vec4 r = DETECTED(i);
     farthest = 0.0;
     if (r.w < 0.0) return false; // FRAME_NONE
-    if (hasOneBody) return hasStrayedFrom(frameAt(0u), x, v, r.xyz, farthest);
-    return hasStrayedFrom(frameAt(uint(min(r.w, float(FRAME_MOST_BODIES - 1)))), x, v, r.xyz, farthest);
+    const vec4 w = HEADING(i);
+    if (hasOneBody) return hasStrayedFrom(frameAt(0u), x, v, r.xyz, w, farthest);
+    return hasStrayedFrom(frameAt(uint(min(r.w, float(FRAME_MOST_BODIES - 1)))), x, v, r.xyz, w, farthest);
 }

@@ -10,12 +10,21 @@ layout(std430, binding = 3) readonly buffer Chunks { FrameChunk chunks[]; };
 layout(std430, binding = 4) readonly buffer Members { uint members[]; };
 layout(std430, binding = 5) readonly buffer Radii { float radii[]; }; // below 0 = removed from contacts
 layout(std430, binding = 6) writeonly buffer Partial { vec4 partial[]; };
+layout(std430, binding = 7) readonly buffer Headings { vec4 headings[]; };
+layout(std430, binding = 8) readonly buffer Bounds { GridBounds bounds; };
 layout(push_constant) uniform Push { FramePush push; };
+#include "collision/expected.glsl"
 
-// Position when lists were made; without valid lists, the present position.
+// Position that the frame maps; without valid lists, the present position.
 vec3 referenceOf(uint i) {
     const vec3 r = detected[i].xyz;
-    return abs(r.x) < 1e17 ? r : positions[i].xyz;
+    return abs(r.x) < 1e17 ? alongHeading(r, i) : positions[i].xyz;
+}
+
+// Velocity of the frame at a particle, which follows its heading until the horizon.
+vec3 sharedVelocityOf(uint i) {
+    const vec3 v = velocities[i].xyz;
+    return hasHeadings && abs(detected[i].x) < 1e17 && bounds.age < bounds.horizon ? v - headings[i].xyz : v;
 }
 
 void main() {
@@ -29,7 +38,7 @@ void main() {
     for (uint k = chunk.first; k < chunk.first + chunk.count; ++k) {
         const uint i = members[k];
         if (radii[i] < 0.0) continue;
-        const vec3 at = positions[i].xyz, x = at - x0, r = referenceOf(i) - r0, v = velocities[i].xyz;
+        const vec3 at = positions[i].xyz, x = at - x0, r = referenceOf(i) - r0, v = sharedVelocityOf(i);
         count += 1.0;
         sumR += r;
         sumX += x;

@@ -1,7 +1,7 @@
 // The part of layout.h for the motion of bodies (collision/body_frames.hpp); only layout.h includes it.
 
 // The motion that a body is expected to have until its contact lists are rebuilt: a particle that was at r when they
-// were made is expected at A (r - from) + to at the end of the substep.
+// were made is expected at A (r + age w - from) + to at the end of the substep, where w is its heading.
 struct BodyFrame {
     vec4 map[3];    // rows of A; w: to - A from [m]
     vec4 before[3]; // the same at the start of the substep
@@ -45,5 +45,6 @@ struct FramePush {
     uint chunks, bodies;
     float reach;  // the largest contact distance [m]
     float margin; // distance beyond the reach up to which a pair is listed [m]
+    float ahead, pace, leeway; // see GridPush
     uint substeps; // per step
 };

@@ -282,6 +282,11 @@ struct GridBounds {
     uint pairs, entries, links;
     uint lacksLists; // StatusWords::lacksLists of the last step
     float edge;      // smallest size of a cell in the grid that was built last [m]
+    // Time since lists were made, at most `horizon`, at the end of the substep that is checked next, and at its start
+    // [s]: as long as particles are expected to follow their headings.
+    float age, ageBefore, horizon;
+    float lasted; // `age` when the lists before these were given up [s]
+    float aheadShare; // share of GridPush::ahead that the next lists use, less 1
 };
 
 #include "common/frames_layout.h"
@@ -314,6 +319,9 @@ struct GridPush {
     float quiet; // motion in a substep up to which no contact can lie on a path [m]
     uint bodies; // bodies with a frame
     float reach, margin; // see FramePush
+    float ahead;  // substeps for which particles are expected to follow their headings; 0 = they have none
+    float pace;   // largest heading, as a distance in a substep [m]
+    float leeway; // most that a particle may stray beyond what all may [m]
     uint isLater; // 1 = in a substep after the first
 };
 
@@ -382,15 +390,6 @@ struct ContactFace {
 };
 #define EXCLUDED_LINKED 0x80000000u // flag in the last word of a face's row of excluded points, beside the index of the strides
 
-// Points outside of the grid, and wide faces. A point is apart if it is too wide or too fast for the grid; a face is
-// wide if it has too many points around it. Some devices silently end a kernel's loops at 65,535 iterations in all.
-struct FacePoints {
-    uint apart;  // number of points apart
-    uint widest; // largest radius + motion in a substep of all other points; bits of a float [m]
-    uint wide;   // number of wide faces
-    uint unused0;
-};
-
 // Largest number of entries of a list: some devices silently end a kernel's loops at 65,535 iterations in all. A
 // longer list ends a step like a lack of capacity, and so do more entries per particle than CONTACT_MOST_ROOM.
 #define LIST_MOST 2048u
@@ -407,7 +406,7 @@ struct ListRange {
 struct FaceFindPush {
     uint points, searched; // particles; small faces; in whole work groups
     uint cells;            // cells of the grid
-    float most;    // largest radius + motion of a point in the grid [m]
+    float most;    // largest radius + motion of a point in the grid, in a substep or along its heading [m]
     float margin;  // distance beyond the reach up to which a pair is listed [m]
     uint room;     // capacity of the pool, in entries of all lists together
     uint moving;   // faces below this index have a corner that moves
@@ -420,8 +419,6 @@ struct ContactEdge {
     uint isMoving; // 1 = one of its ends may move
     float radius;  // radius of the ball around its midpoint that contains it; below 0 in padding [m]
 };
-
-struct ComputeEdgeBoundsPush { uint items, edges, members; }; // the larger number, in whole work groups; edges; watched ends
 
 struct FacePush {
     uint count;   // number of particles, or edges; whole work groups

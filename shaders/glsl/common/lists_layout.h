@@ -13,3 +13,8 @@
 
 // Work groups of a pass over the entries of a pool: as many as every device can dispatch.
 #define ROWS_MOST_GROUPS 65535
+
+struct ComputeEdgeBoundsPush {
+    uint items, edges, members; // the larger number, in whole work groups; edges; watched ends
+    float ahead, pace, unit;    // see GridPush; see motion_classes.glsl [m]
+};

@@ -22,17 +22,16 @@ bool isInside(Crossing crossing, float slack) {
     return crossing.exists && min(crossing.s, crossing.t) >= -slack && max(crossing.s, crossing.t) <= 1.0 + slack;
 }
 
-float squaredToSegment(vec3 ap, vec3 ab) {
-    const vec3 d = ap - clamp(dot(ap, ab) / max(dot(ab, ab), 1e-37), 0.0, 1.0) * ab;
-    return dot(d, d);
-}
+// From the nearest point of a segment ab to p.
+vec3 fromSegment(vec3 ap, vec3 ab) { return ap - clamp(dot(ap, ab) / max(dot(ab, ab), 1e-37), 0.0, 1.0) * ab; }
 
-// Squared distance of the segments from a and from c [m^2].
-float squaredBetween(vec3 ca, vec3 ab, vec3 cd) {
+vec3 shorterOf(vec3 a, vec3 b) { return dot(b, b) < dot(a, a) ? b : a; }
+
+// The shortest way from the segment cd to the segment ab [m].
+vec3 shortestBetween(vec3 ca, vec3 ab, vec3 cd) {
     const vec3 bc = ca + ab; // b - c
-    float least = min(min(squaredToSegment(ca, cd), squaredToSegment(bc, cd)),
-                      min(squaredToSegment(-ca, ab), squaredToSegment(cd - ca, ab)));
+    const vec3 ends = shorterOf(shorterOf(fromSegment(ca, cd), fromSegment(bc, cd)),
+                                -shorterOf(fromSegment(-ca, ab), fromSegment(cd - ca, ab)));
     const Crossing crossing = crossingOf(ca, ab, cd, 1e-10);
-    if (isInside(crossing, 0.0)) least = min(least, crossing.height * crossing.height);
-    return least;
+    return isInside(crossing, 0.0) ? shorterOf(ends, crossing.height * crossing.n) : ends;
 }

@@ -16,6 +16,7 @@ namespace {
 namespace k = kernels;
 
 constexpr std::uint32_t loose = 0, still = 1, firstLinked = 2; // bodies
+constexpr std::uint32_t hasHeadingsId = 1;                     // constant_id in expected.glsl
 constexpr std::size_t fewest = 8;                              // particles of a body of its own
 
 // Numbers of the largest components, by their lowest particle.
@@ -159,16 +160,17 @@ Frames add(ProgramBuilder& program, const Bodies& bodies, const Request& request
 void addFit(ProgramBuilder& program, const Frames& frames, const Seen& seen) {
     if (frames.chunks == BufferId{}) return;
     const layout::FramePush& push = frames.push;
+    const ProgramBuilder::Constants constants{{hasHeadingsId, push.ahead > 0}};
     program.dispatch(k::sumFrames, push.chunks,
                      {seen.positions, seen.velocities, seen.detected, frames.chunks, frames.members,
-                      seen.radii, frames.partial},
-                     push);
+                      seen.radii, frames.partial, seen.headings, seen.bounds},
+                     push, constants);
     program.dispatch(k::addFrames, push.bodies * FRAME_SUMS, {frames.partial, frames.bodies, frames.sums},
                      push);
-    program.dispatch(
-        k::fitFrames, GROUP_ITEMS,
-        {frames.sums, frames.bodies, seen.positions, seen.detected, frames.frames, seen.bounds, seen.step},
-        push);
+    program.dispatch(k::fitFrames, GROUP_ITEMS,
+                     {frames.sums, frames.bodies, seen.positions, seen.detected, frames.frames, seen.bounds,
+                      seen.step, seen.headings},
+                     push, constants);
 }
 
 } // namespace sinew::sim::collision::body_frames

@@ -55,6 +55,7 @@ struct Seen {
     BufferId positions;  ///< at the end of the first substep [m]
     BufferId velocities; ///< during that substep [m/s]
     BufferId detected;   ///< positions when lists were made [m]
+    BufferId headings;   ///< velocities relative to frames when lists were made [m/s]; unbound = none
     BufferId radii;      ///< by slot; below 0 = touches nothing any more [m]
     BufferId bounds;     ///< one layout::GridBounds
     BufferId step;       ///< layout::StepParams

@@ -1,6 +1,7 @@
 // The host side of lists of edges: sizes, and the order of the passes.
 #include "sim/collision/edge_lists.hpp"
 
+#include "collision/face_points.h"
 #include "kernels.hpp"
 #include "sim/collision/row_contacts.hpp"
 
@@ -66,6 +67,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
                               .particles = request.particles,
                               .watched = watched,
                               .reach = reachOf(request),
+                              .hasHeadings = true,
                               .substeps = request.substeps,
                               .name = "edges.grid",
                               .radiiName = "edges.grid.radii"})};
@@ -87,12 +89,11 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.middles = program.scratch<layout::vec4>("edges.middles", count);
     lists.speeds = program.scratch<layout::vec4>("edges.speeds", count);
     lists.excluded = program.upload("edges.excluded", request.exclusions);
-    lists.points = program.scratch<layout::FacePoints>("edges.points", 1);
+    lists.points = program.scratch<std::uint32_t>("edges.points", FACE_POINTS_FIRST + count);
     const std::size_t groups = request.particles / GROUP_ITEMS;
     lists.touching = program.scratch<std::uint32_t>("edges.groups", groups);
     lists.marks = program.scratch<std::uint32_t>("edges.groups.listed", groups);
     lists.grid.entries = pooled_lists::entriesInUse(lists.pooled, lists.grid);
-    lists.apart = program.scratch<std::uint32_t>("edges.apart", count);
     return lists;
 }
 
@@ -102,27 +103,32 @@ void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& 
 
 void addListCheck(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Grid& grid = lists.grid;
-    hash_grid::addListCheckOfMembers(program, grid,
-                                     {particles.positions, particles.velocities, particles.step});
+    const hash_grid::Moved moved{particles.positions, particles.velocities, particles.step};
+    hash_grid::addListCheckOfMembers(program, grid, moved);
     program.dispatchIndirect(
         k::computeEdgeBounds, grid.others,
         {particles.positions, particles.velocities, lists.edges, lists.thickness, lists.middles, lists.speeds,
-         grid.detected, grid.frames.ofSlots, grid.watched, grid.frames.members, particles.step},
-        layout::ComputeEdgeBoundsPush{grid.push.others, grid.push.count, grid.frames.memberCount});
-    hash_grid::addCells(program, grid, lists.middles);
+         grid.detected, grid.frames.ofSlots, grid.watched, grid.frames.members, particles.step, grid.headings,
+         grid.frames.frames, lists.points},
+        layout::ComputeEdgeBoundsPush{grid.push.others, grid.push.count, grid.frames.memberCount,
+                                      grid.push.ahead, grid.push.pace, 0.5f * grid.push.margin});
+    hash_grid::addCells(program, grid, lists.middles, moved);
 }
 
 void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Grid& grid = lists.grid;
-    std::vector<BufferId> buffers{lists.speeds, lists.radii, lists.points, lists.apart, particles.step};
+    std::vector<BufferId> buffers{lists.speeds, lists.radii, lists.points, unbound, particles.step};
     const std::vector<BufferId> keeping = pooled_lists::keepingBuffers(lists.pooled);
     buffers.insert(buffers.end(), keeping.begin(), keeping.end());
-    program.dispatchIndirect(k::listLargePoints, grid.particles, buffers, lists.push);
+    buffers.push_back(grid.bounds);
+    constexpr std::uint32_t limitsMotionId = 3; // constant_id in list_large_points.comp
+    program.dispatchIndirect(k::listLargePoints, grid.particles, buffers, lists.push, {{limitsMotionId, 1}});
     program.dispatchIndirect(k::findEdges, grid.particles,
                              {particles.positions, lists.edges, lists.speeds, lists.thickness, grid.sorted,
-                              grid.starts, lists.excluded, grid.bounds, lists.points, lists.apart,
+                              grid.starts, lists.excluded, grid.bounds, lists.points, grid.headings,
                               lists.middles, lists.pooled.chains, lists.pooled.pairs,
-                              program.program().status, lists.pooled.links->chains, particles.step},
+                              program.program().status, lists.pooled.links->chains, particles.step,
+                              particles.velocities},
                              lists.push);
     buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.thickness);
     buffers.push_back(lists.pooled.links->owners);

@@ -40,7 +40,7 @@ struct Lists {
     layout::FaceFindPush push{};
     pooled_lists::Lists pooled;
     BufferId edges;
-    BufferId radii, thickness, middles, speeds, excluded, points, apart;
+    BufferId radii, thickness, middles, speeds, excluded, points;
     BufferId touching, marks; ///< work groups of particles with an end of an edge in a list
 };
 

@@ -1,11 +1,15 @@
 // The host side of lists of points and faces: large faces, and the order of the passes.
 #include "sim/collision/face_lists.hpp"
 
+#include "collision/face_points.h"
 #include "kernels.hpp"
 #include "sim/collision/row_contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace sinew::sim::collision::face_lists {
 
@@ -13,7 +17,8 @@ namespace {
 
 namespace k = kernels;
 
-constexpr std::uint32_t hasLinksId = 1; // constant_id in face_search.glsl
+// constant_ids in face_search.glsl and list_large_points.comp
+constexpr std::uint32_t hasLinksId = 1, hasHeadingsId = 2, limitsMotionId = 3;
 
 // In the grid all points have radius 0: the size of cells follows from the faces.
 std::vector<float> pointsOf(std::span<const float> radii) {
@@ -22,13 +27,54 @@ std::vector<float> pointsOf(std::span<const float> radii) {
     return points;
 }
 
-// Whole work groups; padding is ~0.
-std::vector<std::uint32_t> facesWhere(std::span<const float> extents, float edge, bool isLarge) {
+constexpr std::uint32_t none = ~0u;
+
+std::vector<std::uint32_t> largeFaces(std::span<const float> extents, float edge) {
     std::vector<std::uint32_t> faces;
     for (std::uint32_t f = 0; f < extents.size(); ++f)
-        if ((extents[f] > edge) == isLarge) faces.push_back(f);
-    if (!isLarge) faces.resize(paddedCount(extents.size()), ~0u);
+        if (extents[f] > edge) faces.push_back(f);
     return faces;
+}
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>; // the lower corner first
+
+std::array<Edge, 3> edgesOf(const layout::ContactFace& face) {
+    return {std::minmax(face.a, face.b), std::minmax(face.b, face.c), std::minmax(face.c, face.a)};
+}
+
+// Whether a face belongs to a body that deforms: others have corners that no contact moves.
+bool deforms(const Request& request, const layout::ContactFace& face) {
+    return request.inverseMasses[face.a] > 0 || request.inverseMasses[face.b] > 0 ||
+           request.inverseMasses[face.c] > 0;
+}
+
+bool deform(const Request& request) {
+    return std::ranges::any_of(request.faces, [&](const auto& face) { return deforms(request, face); });
+}
+
+// All other faces, those that deform in pairs that share an edge where possible; a face alone is paired with
+// none. Faces of colliders are mostly too large for their neighbours' points to be theirs.
+std::vector<std::uint32_t> pairedFaces(const Request& request, float edge) {
+    std::map<Edge, std::vector<std::uint32_t>> around;
+    std::vector<bool> isLeft(request.faces.size());
+    for (std::uint32_t f = 0; f < request.faces.size(); ++f) {
+        isLeft[f] = !(request.extents[f] > edge);
+        if (isLeft[f] && deforms(request, request.faces[f]))
+            for (const Edge& one : edgesOf(request.faces[f])) around[one].push_back(f);
+    }
+    std::vector<std::uint32_t> pairs;
+    for (std::uint32_t f = 0; f < request.faces.size(); ++f) {
+        if (!isLeft[f]) continue;
+        isLeft[f] = false;
+        std::uint32_t partner = none;
+        for (const Edge& one : edgesOf(request.faces[f]))
+            for (const std::uint32_t g : around[one])
+                if (isLeft[g]) partner = std::min(partner, g);
+        if (partner != none) isLeft[partner] = false;
+        pairs.insert(pairs.end(), {f, partner});
+    }
+    pairs.resize(2 * paddedCount(std::max<std::size_t>(pairs.size() / 2, 1)), none);
+    return pairs;
 }
 
 std::vector<BufferId> searchBuffers(const Lists& lists, const ParticleBuffers& particles) {
@@ -63,7 +109,8 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                 2 * hash_grid::largestInGrid(request.radii) + request.margin);
     const std::vector<float> points = pointsOf(request.radii);
     const std::vector<float> watched = watchedOf(request);
-    const std::vector<std::uint32_t> large = facesWhere(request.extents, edge, true);
+    const std::vector<std::uint32_t> large = largeFaces(request.extents, edge);
+    const std::vector<std::uint32_t> pairs = pairedFaces(request, edge);
     Lists lists{.grid = hash_grid::add(program, {.radii = points,
                                                  .margin = request.margin,
                                                  .edge = edge,
@@ -71,12 +118,13 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                  .bodies = request.bodies,
                                                  .watched = watched,
                                                  .reach = reachOf(request),
+                                                 .hasHeadings = deform(request),
                                                  .substeps = request.substeps,
                                                  .name = "faces.grid",
                                                  .radiiName = "faces.grid.radii"})};
     const layout::GridPush& grid = lists.grid.push;
     lists.push = {.points = grid.count,
-                  .searched = grid.others,
+                  .searched = static_cast<std::uint32_t>(pairs.size() / 2),
                   .cells = grid.cells,
                   .most = edge,
                   .margin = request.margin + request.beyond,
@@ -93,10 +141,9 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);
     lists.excluded = program.upload("faces.excluded", request.exclusions);
-    lists.points = program.scratch<layout::FacePoints>("faces.points", 1);
-    lists.apart = program.scratch<std::uint32_t>("faces.points.apart", count + faces);
+    lists.points = program.scratch<std::uint32_t>("faces.points", FACE_POINTS_FIRST + count + faces);
     lists.liveLinks = request.liveLinks;
-    lists.searched = program.upload("faces.searched", facesWhere(request.extents, edge, false));
+    lists.searched = program.upload("faces.searched", pairs);
     lists.large = program.upload("faces.large", large);
     lists.touching = program.scratch<std::uint32_t>("faces.groups", count / GROUP_ITEMS);
     lists.marks = program.scratch<std::uint32_t>("faces.groups.listed", count / GROUP_ITEMS);
@@ -108,28 +155,31 @@ void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& 
 }
 
 void addListCheck(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
-    hash_grid::addListCheckOfMembers(program, lists.grid,
-                                     {particles.positions, particles.velocities, particles.step});
-    hash_grid::addCells(program, lists.grid, particles.positions);
+    const hash_grid::Moved moved{particles.positions, particles.velocities, particles.step};
+    hash_grid::addListCheckOfMembers(program, lists.grid, moved);
+    hash_grid::addCells(program, lists.grid, particles.positions, moved, lists.points);
 }
 
 void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Grid& grid = lists.grid;
-    std::vector<BufferId> parting{particles.velocities, lists.radii, lists.points, lists.apart,
+    std::vector<BufferId> parting{particles.velocities, lists.radii, lists.points, grid.headings,
                                   particles.step};
     const std::vector<BufferId> keeping = pooled_lists::keepingBuffers(lists.pooled);
     parting.insert(parting.end(), keeping.begin(), keeping.end());
-    program.dispatchIndirect(k::listLargePoints, grid.particles, parting, lists.push);
+    parting.push_back(grid.bounds);
+    program.dispatchIndirect(k::listLargePoints, grid.particles, parting, lists.push,
+                             {{hasHeadingsId, grid.push.ahead > 0}, {limitsMotionId, grid.push.ahead > 0}});
     std::vector<BufferId> buffers = searchBuffers(lists, particles);
     const bool hasLinks = lists.liveLinks != BufferId{};
-    const ProgramBuilder::Constants constants{{hasLinksId, hasLinks}};
-    buffers.insert(buffers.end(), {grid.sorted, grid.starts, lists.points, lists.apart, lists.searched,
+    const bool hasHeadings = grid.push.ahead > 0;
+    const ProgramBuilder::Constants constants{{hasLinksId, hasLinks}, {hasHeadingsId, hasHeadings}};
+    buffers.insert(buffers.end(), {grid.sorted, grid.starts, lists.points, grid.headings, lists.searched,
                                    lists.inverseMasses});
     buffers.push_back(boundIf(hasLinks, lists.liveLinks));
     program.dispatchIndirect(k::findFaces, grid.others, buffers, lists.push, constants);
     buffers = searchBuffers(lists, particles);
     buffers.insert(buffers.end(),
-                   {lists.large, lists.apart, lists.points, program.program().status, lists.inverseMasses});
+                   {lists.large, lists.points, grid.headings, program.program().status, lists.inverseMasses});
     buffers.push_back(boundIf(hasLinks, lists.liveLinks));
     program.dispatchIndirect(k::findWideFaces, grid.particles, buffers, lists.push, constants);
     buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.radii);

@@ -42,8 +42,8 @@ struct Lists {
     layout::FaceFindPush push{};
     pooled_lists::Lists pooled;
     BufferId radii, inverseMasses, faces, excluded;
-    BufferId points, searched, large;
-    BufferId apart;           ///< points that the grid is too fine for, followed by such faces
+    BufferId points; ///< FACE_POINTS_...: the points that the grid is too fine for, such faces
+    BufferId searched, large;
     BufferId liveLinks;       ///< as in Request
     BufferId touching, marks; ///< work groups with a particle that is a point or corner in a list
 };

@@ -13,6 +13,8 @@ namespace sinew::sim::collision::hash_grid {
 
 namespace {
 
+constexpr std::uint32_t hasHeadingsId = 1; // constant_id in count_cells.comp
+
 // Slots of the table: with twice as many as particles, rows rarely share slots unless the grid is dense.
 // scan_sums needs whole groups of chunks.
 std::uint32_t cellsFor(std::size_t particles) {
@@ -34,6 +36,24 @@ void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step, bool isLa
                      {grid.bounds, grid.arguments, grid.frames.frames, step, grid.touching.arguments,
                       program.program().status},
                      push);
+}
+
+// Velocities change too much after that for lists to last longer.
+constexpr float substepsAhead = 8;
+
+// Two bodies are in lists of their own only while no particle can leave its body's box (fit_frames), which
+// limits headings. A body alone has no such limit. Items other than particles (edges) have no leeway.
+void addHeadings(ProgramBuilder& program, Grid& grid, const Request& request) {
+    const std::size_t count = request.particles > 0 ? request.particles : request.radii.size();
+    grid.headings = program.scratch<layout::vec4>(std::string(request.name) + ".headings", count);
+    const bool isAlone = grid.frames.push.bodies == 1;
+    grid.push.ahead = substepsAhead;
+    grid.push.pace = (isAlone ? 8.0f : 0.5f) * request.margin;
+    if (request.particles == 0) grid.push.leeway = 3 * request.margin;
+    layout::FramePush& frames = grid.frames.push;
+    frames.ahead = grid.push.ahead;
+    frames.pace = grid.push.pace;
+    frames.leeway = grid.push.leeway;
 }
 
 } // namespace
@@ -108,6 +128,8 @@ Grid add(ProgramBuilder& program, const Request& request) {
     grid.push.bodies = grid.frames.push.bodies;
     grid.push.reach = request.reach;
     grid.push.margin = request.margin;
+    grid.headings = unbound;
+    if (request.hasHeadings) addHeadings(program, grid, request);
     if (request.quiet >= 0) grid.fast = program.scratch<std::uint32_t>(name + ".fast", MOST_FAST);
     program.program().grids.push_back({.name = name,
                                        .bounds = grid.bounds,
@@ -131,13 +153,13 @@ void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved, boo
     program.dispatchIndirect(
         kernels::clampSpeeds, grid.slowed,
         {moved.positions, moved.velocities, grid.radii, program.program().status, moved.step}, grid.push);
-    addCells(program, grid, moved.positions);
+    addCells(program, grid, moved.positions, moved);
 }
 
 void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
-    body_frames::addFit(
-        program, grid.frames,
-        {moved.positions, moved.velocities, grid.detected, grid.watched, grid.bounds, moved.step});
+    body_frames::addFit(program, grid.frames,
+                        {moved.positions, moved.velocities, grid.detected, grid.headings, grid.watched,
+                         grid.bounds, moved.step});
 }
 
 void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
@@ -145,19 +167,23 @@ void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Move
     push.count = grid.frames.memberCount;
     program.dispatch(kernels::checkSurfaceLists, push.count,
                      {moved.positions, moved.velocities, grid.detected, grid.bounds, moved.step,
-                      grid.frames.frames, grid.frames.members},
+                      grid.frames.frames, grid.headings, grid.frames.members},
                      push, grid.frames.constants());
     addPlan(program, grid, moved.step);
 }
 
-void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions) {
+void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions, const Moved& moved,
+              BufferId points) {
     namespace k = kernels;
+    const bool hasHeadings = grid.push.ahead > 0 && positions == moved.positions;
     program.dispatchIndirect(k::measureBounds, grid.particleChunks, {positions, grid.radii, grid.bounds},
                              grid.push);
-    program.dispatchIndirect(k::countCells, grid.particles,
-                             {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.counted[0],
-                              grid.counted[1], grid.counted[2]},
-                             grid.push);
+    program.dispatchIndirect(
+        k::countCells, grid.particles,
+        {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.counted[0], grid.counted[1],
+         grid.counted[2], boundIf(hasHeadings, grid.headings), boundIf(hasHeadings, moved.velocities),
+         boundIf(hasHeadings, grid.frames.frames), moved.step, boundIf(hasHeadings, points)},
+        grid.push, {{hasHeadingsId, hasHeadings}});
     program.dispatchIndirect(k::sumCells, grid.cellChunks, {grid.counts, grid.sums}, grid.push);
     program.dispatchIndirect(k::scanSums, grid.oneGroup, {grid.sums}, grid.push);
     program.dispatchIndirect(k::startCells, grid.cellChunks, {grid.counts, grid.sums, grid.starts},

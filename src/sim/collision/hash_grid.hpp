@@ -29,8 +29,10 @@ struct Request {
     /// Slots of the state, if items of the grid are not particles. The requesting code then writes `detected`
     /// when the grid is built.
     std::size_t particles = 0;
-    std::span<const float> watched;           ///< by state slot: below 0 = not checked; empty = `radii`
-    float reach = 0;                          ///< the largest distance at which two touch [m]
+    std::span<const float> watched; ///< by state slot: below 0 = not checked; empty = `radii`
+    float reach = 0;                ///< the largest distance at which two touch [m]
+    /// Whether particles are expected to keep their velocities for some substeps (headings.glsl).
+    bool hasHeadings = false;
     std::uint32_t substeps = 1;               ///< of a step
     const char* name = "grid";                ///< of its buffers
     const char* radiiName = "contacts.radii"; ///< of the buffer of radii
@@ -53,6 +55,7 @@ constexpr std::size_t mostLarge = 64;
 struct Grid {
     layout::GridPush push{};
     BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
+    BufferId headings; ///< velocities of particles relative to frames when lists were made; unbound = none
     IndirectItems particles, particleChunks, cellChunks, oneGroup,
         others; ///< of passes that run with a build
     /// Items in work groups with a candidate: owners of lists, particles.
@@ -75,8 +78,11 @@ void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 /// Appends the check of all members of frames, which decides whether the grid is built.
 void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 
-/// Appends, after the check: builds the grid of items at `positions`, if it is needed.
-void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions);
+/// Appends, after the check: builds the grid of items at `positions`, if it is needed. Stores headings if
+/// items are particles; else the requesting code does. `points`: counters of motions (face_points.h), only
+/// with headings.
+void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions, const Moved& moved,
+              BufferId points = unbound);
 
 /// Appends the check of particles.
 void addListCheck(ProgramBuilder& program, const Grid& grid, const Moved& moved);
