@@ -24,19 +24,19 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Names as mangled by the compiler, up to the first difference from other names.
-const std::vector<std::string> exactFunctions{// math.glsl
-                                              "dot3(", "cross3(", "length3(", "sizeOf(",
-                                              // hash grids
-                                              "wayOf(f1;vf3", "frameOf(", "cellOf(", "isHurrying(",
-                                              // contacts, restitution, interlocked bodies
-                                              "isApart(", "touches(", "meetingOf(vf3", "axisFor(",
-                                              "directionOf(vf3", "passes(vf3", "passedDirection(",
-                                              "bounceFrom(", "partingOf(",
-                                              // blades
-                                              "volumeOf(", "edgeHit(", "rayHit(", "hitOf(", "isNearBlade(",
-                                              // forms of `split`
-                                              "linkImpulse(", "latticeLink(", "pressCell(", "ofCorner(",
-                                              "pressCells(", "advance(", "rebound(", "projectOntoPlane("};
+const std::vector<std::string> exactFunctions{
+    // math.glsl
+    "dot3(", "cross3(", "length3(", "sizeOf(",
+    // hash grids
+    "wayOf(f1;vf3", "frameOf(", "cellOf(", "isHurrying(", "motionOf(vf3", "mostMotion(",
+    // contacts, restitution, interlocked bodies
+    "isApart(", "touches(", "meetingOf(vf3", "axisFor(", "directionOf(vf3", "passes(vf3", "passedDirection(",
+    "bounceFrom(", "partingOf(",
+    // blades
+    "volumeOf(", "edgeHit(", "rayHit(", "hitOf(", "isNearBlade(",
+    // forms of `split`
+    "linkImpulse(", "latticeLink(", "pressCell(", "ofCorner(", "pressCells(", "advance(", "rebound(",
+    "projectOntoPlane("};
 
 /// Functions that decide in several kernels and are not exact, with the reason why this is harmless.
 const std::map<std::string, std::string> looseDecisions{

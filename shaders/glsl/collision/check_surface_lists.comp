@@ -19,7 +19,8 @@ layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
 #define FRAMES_BINDING 5
 FETCHED_VEC4(6, Headings, headingAt)
-#define HEADING(i) headingAt(i)
+layout(constant_id = 1) const bool hasHeadings = false;
+#define HEADING(i) (hasHeadings ? headingAt(i) : vec4(0.0))
 #include "collision/strays.glsl"
 
 void main() {

@@ -25,6 +25,7 @@ bool hasStrayedFrom(BodyFrame frame, vec3 x, vec3 v, vec3 r, vec4 w, out float f
     const vec3 stray = x - mapped(frame.map, r + bounds.age * w.xyz);
     const vec3 start = x - step.h * v - mapped(frame.before, r + bounds.ageBefore * w.xyz);
     farthest = sqrt(max(dot3(stray, stray), dot3(start, start)));
+    if (frame.speed.w < 0.0) return true;                      // no leeway makes up for a frame that shortens distances
     return !(farthest <= frame.speed.w + LEAST_STRETCH * w.w); // true for NaN too
 }
 

@@ -13,7 +13,7 @@ namespace sinew::sim::collision::hash_grid {
 
 namespace {
 
-constexpr std::uint32_t hasHeadingsId = 1; // constant_id in count_cells.comp
+constexpr std::uint32_t hasHeadingsId = 1; // constant_id in count_cells.comp and check_surface_lists.comp
 
 // Slots of the table: with twice as many as particles, rows rarely share slots unless the grid is dense.
 // scan_sums needs whole groups of chunks.
@@ -42,13 +42,14 @@ void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step, bool isLa
 constexpr float substepsAhead = 8;
 
 // Two bodies are in lists of their own only while no particle can leave its body's box (fit_frames), which
-// limits headings. A body alone has no such limit. Items other than particles (edges) have no leeway.
+// limits headings. Those of a body alone are limited to half a cell until the horizon, so that its points
+// stay in the grid. Items other than particles (edges) have no leeway.
 void addHeadings(ProgramBuilder& program, Grid& grid, const Request& request) {
     const std::size_t count = request.particles > 0 ? request.particles : request.radii.size();
     grid.headings = program.scratch<layout::vec4>(std::string(request.name) + ".headings", count);
     const bool isAlone = grid.frames.push.bodies == 1;
     grid.push.ahead = substepsAhead;
-    grid.push.pace = (isAlone ? 8.0f : 0.5f) * request.margin;
+    grid.push.pace = std::max(0.5f * request.margin, isAlone ? 0.5f * grid.push.edge / substepsAhead : 0.0f);
     if (request.particles == 0) grid.push.leeway = 3 * request.margin;
     layout::FramePush& frames = grid.frames.push;
     frames.ahead = grid.push.ahead;
@@ -165,10 +166,12 @@ void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
 void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     layout::GridPush push = pushOf(program, grid);
     push.count = grid.frames.memberCount;
+    ProgramBuilder::Constants constants = grid.frames.constants();
+    constants.insert({hasHeadingsId, grid.push.ahead > 0});
     program.dispatch(kernels::checkSurfaceLists, push.count,
                      {moved.positions, moved.velocities, grid.detected, grid.bounds, moved.step,
                       grid.frames.frames, grid.headings, grid.frames.members},
-                     push, grid.frames.constants());
+                     push, constants);
     addPlan(program, grid, moved.step);
 }
 
