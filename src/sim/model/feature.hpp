@@ -1,5 +1,5 @@
 // Features of a step, and the stages at which they add their passes. compile/features.cpp lists the features;
-// compile() and the solvers order the stages and name no feature.
+// compile() orders the stages and names no feature; the solvers name forces, contacts and colliders alone.
 #pragma once
 
 #include "sim/model/scene_model.hpp"
