@@ -173,7 +173,7 @@ struct Inspected {
         test::queue().wait(test::queue().submit(commands));
     }
 
-    // Of the map.
+    // Range of the color map.
     MapReading values() const { return inspection.reading(indexOf(layer::colors), 0).values; }
 
     Layers layers;

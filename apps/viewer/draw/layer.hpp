@@ -38,7 +38,7 @@ struct LayerDrawing {
     }
 };
 
-/// What a layer says about a state.
+/// The statements of a layer about a state.
 struct LayerReading {
     MapReading values; ///< of its colours, if it has a range
     std::vector<LegendLine> legend;
@@ -54,7 +54,7 @@ public:
     /// Runs the kernels of a look (index into Layer::looks) on the state for which recordSkin() was recorded.
     /// `slot` < slots; the slot's previous commands must have finished.
     virtual void record(VkCommandBuffer, std::size_t /*look*/, std::uint32_t /*slot*/) const noexcept {}
-    /// What it says, once the commands of that slot have finished.
+    /// Its statements, once the commands of that slot have finished.
     virtual LayerReading reading(std::uint32_t /*slot*/) const { return {}; }
     /// Adds the buffers of a look that the renderer draws bodies with.
     virtual void addTo(LayerBuffers&, std::size_t /*look*/) const noexcept {}

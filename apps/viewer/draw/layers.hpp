@@ -42,7 +42,7 @@ namespace layer {
 extern const Layer skin, wires, particles, colors;
 } // namespace layer
 
-/// What is on.
+/// The layers that are on.
 struct Layers {
     /// The look of each layer of the table: 0 = off, else 1 + index into Layer::looks.
     std::array<std::uint8_t, mostLayers> looks{};

@@ -1,4 +1,4 @@
-// Tables of the scene are made once. Which buffers a ray is cast at depends on the simulation.
+// Tables of the scene are made once. The buffers that a ray is cast at depend on the simulation.
 #include "viewer/hands/picker.hpp"
 
 #include "common/layout.h"

@@ -37,7 +37,7 @@ public:
     /// and meet the opened inside. `slot` < slots; the slot's previous commands must have finished.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Casts& casts,
                 const std::optional<Section>& section = {}) const noexcept;
-    /// What a ray of a slot met, once its commands have finished; empty if it met no body, or only particles
+    /// The result of a ray of a slot, once its commands have finished; empty if it met no body, or only particles
     /// not asked for. The particle is the nearest to the point of those that hold what is met there, on its
     /// side of a cut. Removed fragments are not met.
     std::optional<Pick> answer(std::uint32_t slot, std::size_t ray) const noexcept;
@@ -55,7 +55,7 @@ private:
     const Document& document_;
     std::shared_ptr<const vk::Kernel> skinCaster_, ballCaster_, cutCaster_,
         resolver_; // from the device's store
-    // Of the scene.
+    // Tables of the scene.
     vk::Buffer holders_, sheetIndices_, skins_, radii_, inverseMasses_;
     layout::PickPush push_{};
     vk::Buffer nothing_; // stands for buffers that a scene lacks

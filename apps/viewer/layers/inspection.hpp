@@ -46,7 +46,7 @@ public:
     /// `slot` < slots; the slot's previous commands must have finished.
     void record(VkCommandBuffer commands, const Layers& layers, std::uint32_t slot) const noexcept;
 
-    /// What a layer that is ready says about the state of that slot, whose commands have finished.
+    /// The statements of a layer that is ready about the state of that slot, whose commands have finished.
     LayerReading reading(std::size_t layer, std::uint32_t slot) const {
         return parts_.of[layer]->reading(slot);
     }

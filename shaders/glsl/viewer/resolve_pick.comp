@@ -1,5 +1,5 @@
 #version 460
-// Chooses, of the particles that hold what the ray has met, the one nearest to the point. One work group. Where the
+// Chooses, of the particles that hold what the ray has met, the one nearest to the point. One work group. If the
 // ray enters a closed skin at a section plane (its winding number there is not 0), all particles of the body hold it.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"

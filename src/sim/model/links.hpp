@@ -1,5 +1,5 @@
 // The kinds of links of a scene, as rows of traits. Links are constraints with
-// an energy that act between particles only. What needs no more of a link than
+// an energy that act between particles only. Code that needs no more of a link than
 // its traits walks all kinds and names none.
 #pragma once
 
