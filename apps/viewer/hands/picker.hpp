@@ -37,9 +37,9 @@ public:
     /// and meet the opened inside. `slot` < slots; the slot's previous commands must have finished.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Casts& casts,
                 const std::optional<Section>& section = {}) const noexcept;
-    /// The result of a ray of a slot, once its commands have finished; empty if it met no body, or only particles
-    /// not asked for. The particle is the nearest to the point of those that hold what is met there, on its
-    /// side of a cut. Removed fragments are not met.
+    /// The result of a ray of a slot, once its commands have finished; empty if it met no body, or only
+    /// particles not asked for. The particle is the nearest to the point of those that hold what is met
+    /// there, on its side of a cut. Removed fragments are not met.
     std::optional<Pick> answer(std::uint32_t slot, std::size_t ray) const noexcept;
 
 private:
