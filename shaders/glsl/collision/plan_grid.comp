@@ -72,10 +72,12 @@ void planPasses(bool isBuilt, bool isComplete) {
 void planHeadings(bool isBuilt) {
     if (isBuilt) {
         bounds.lasted = bounds.age;
+        bounds.substep = step.h;
         bounds.horizon = (1.0 + bounds.aheadShare) * push.ahead * step.h;
     }
     bounds.ageBefore = isBuilt ? 0.0 : bounds.age;
-    bounds.age = min(bounds.ageBefore + step.h, bounds.horizon);
+    // A longer substep takes no more of a heading than that: any age below the horizon is valid.
+    bounds.age = min(bounds.ageBefore + min(step.h, bounds.substep), bounds.horizon);
 }
 
 // Bodies far from each other have frames of their own while no particle strays; after that, all frames stand still

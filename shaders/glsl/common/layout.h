@@ -286,6 +286,7 @@ struct GridBounds {
     // [s]: as long as particles are expected to follow their headings.
     float age, ageBefore, horizon;
     float lasted; // `age` when the lists before these were given up [s]
+    float substep; // length of the substep in which lists were made, for which headings are limited [s]
     float aheadShare; // share of GridPush::ahead that the next lists use, less 1
 };
 
