@@ -292,6 +292,7 @@ struct SheetSkinPush {
     vec4 right, down; // from a node to the next in x, in z, at rest in the scene [m]
     uint firstVertex, vertexRoom;
     uint sliceStride;
+    uint unused0;
 };
 
 // A contact face that is half of a cell of a sheet, and its place in the search list.
