@@ -38,8 +38,7 @@ void addPass(Build& build, const Substep& substep) {
     if (!attachments) return;
     const ParticleBuffers& particles = substep.particles;
     std::vector<BufferId> buffers{attachments->particles, attachments->anchors, particles.positions,
-                                  substep.isOpen() ? substep.corrections : particles.velocities,
-                                  particles.step};
+                                  substep.changed(), particles.step};
     ProgramBuilder::Constants constants;
     forces::bindTo(particles, &forces::Forces::ofAttachments, buffers, constants);
     const auto substeps = static_cast<float>(build.model.settings.substeps);

@@ -64,8 +64,7 @@ void addPass(Build& build, const Substep& substep) {
     if (!tethers) return;
     const ParticleBuffers& particles = substep.particles;
     std::vector<BufferId> buffers{tethers->particles, tethers->tethers, particles.positions,
-                                  substep.isOpen() ? substep.corrections : particles.velocities,
-                                  particles.step};
+                                  substep.changed(), particles.step};
     ProgramBuilder::Constants constants;
     forces::bindTo(particles, &forces::Forces::ofTethers, buffers, constants);
     build.program.dispatch(substep.isOpen() ? kernels::solveTethersOpen : kernels::solveTethers,

@@ -60,6 +60,8 @@ struct Substep {
     /// Particles before contacts with each other; null if they touch nothing but colliders and planes.
     const ParticleBuffers* predicted = nullptr;
     bool isOpen() const { return corrections != BufferId{}; }
+    /// The buffer that passes change beside positions.
+    BufferId changed() const { return isOpen() ? corrections : particles.velocities; }
 };
 
 /// A feature: a function for each stage at which it adds buffers or passes, in the order of the device. One
