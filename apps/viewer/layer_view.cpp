@@ -94,6 +94,7 @@ void LayerView::settle(std::uint32_t slot) {
 void LayerView::restart() {
     layerLoader_.forget();
     drawn_ = {};
+    for (auto& reading : readings_) reading.legend.clear(); // of the simulation before
 }
 
 void LayerView::addTo(Facts& facts) const {
