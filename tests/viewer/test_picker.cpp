@@ -116,6 +116,62 @@ TEST(Picker, MeetsAMeshLikeTheHostBeforeAndAfterItIsCut) {
     expectAsOnHost(picked, 100);
 }
 
+// Rays from above over the body.
+std::vector<Ray> raysDown(const Picked& picked, float halfWidth) {
+    const Vector3 middle = boundsOf(picked).center();
+    std::vector<Ray> rays;
+    for (float x = -halfWidth; x < halfWidth + 0.01f; x += 0.03f)
+        for (float z = -0.2f; z < 0.21f; z += 0.03f) rays.push_back({middle + Vector3(x, 5, z), {0, -1, 0}});
+    return rays;
+}
+
+// Expects hits where all parts of the skin are at present, and that those in `wrong` are often elsewhere.
+void expectWhereAllPartsAre(Picked& picked, const std::vector<Ray>& rays, const Picked::Found& wrong,
+                            std::size_t leastWrong) {
+    const Picked::Found met = picked.at(rays);
+    picked.run([&](VkCommandBuffer commands) {
+        picked.document.simulation().recordSkin(commands, sim::SkinDetail::all);
+    });
+    const StateCopy copy(picked.scene, picked.document.simulation());
+    SeenState all = copy.seen();
+    all.isWhole = false;
+    std::size_t count = 0, others = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto expected = pickOnHost(picked.scene, picked.light.balls, rays[i], all);
+        ASSERT_EQ(met[i].has_value(), expected.has_value()) << "ray " << i;
+        if (!expected) continue;
+        ++count;
+        EXPECT_LT((met[i]->point - expected->point).norm(), 1e-4f) << "ray " << i;
+        others += !wrong[i] || std::abs(wrong[i]->distance - met[i]->distance) > 1e-3f ? 1 : 0;
+    }
+    EXPECT_GT(count, 20u);
+    EXPECT_GT(others, leastWrong) << "all parts are where they are anyway: this shows nothing";
+}
+
+TEST(Picker, MeetsAMeshWhereItIsDrawnUntilItIsCut) {
+    Picked picked(organ(0, 14));
+    picked.step(12);
+    ASSERT_TRUE(picked.document.simulation().drawnSkins().areWhole);
+    const std::vector<Ray> rays = raysDown(picked, 0.2f);
+    const StateCopy copy(picked.scene, picked.document.simulation());
+    SeenState unmoved = copy.seen(); // vertices that only a cut needs are where they were
+    unmoved.isWhole = false;
+    Picked::Found wrong;
+    for (const Ray& ray : rays) wrong.push_back(pickOnHost(picked.scene, picked.light.balls, ray, unmoved));
+    expectWhereAllPartsAre(picked, rays, wrong, 20);
+}
+
+// Three steps later the halves are elsewhere.
+TEST(Picker, MeetsAMeshWhereItIsDrawnOnceItIsCut) {
+    Picked picked(organ(3, 20), {.substeps = 16});
+    picked.step(1, blade);
+    const std::vector<Ray> rays = raysDown(picked, 0.5f);
+    const Picked::Found early = picked.at(rays);
+    picked.step(3);
+    ASSERT_FALSE(picked.document.simulation().drawnSkins().areWhole);
+    expectWhereAllPartsAre(picked, rays, early, 10);
+}
+
 // Rays towards a cut without a gap, beside which the nearest particle is often one of the other half.
 TEST(Picker, KeepsToItsSideOfACutLikeTheHost) {
     Picked picked(organ(0, 14));

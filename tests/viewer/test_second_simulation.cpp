@@ -81,9 +81,8 @@ TEST(SecondSimulation, OfAnotherSolverFallsAlikeAndIsMeasured) {
     EXPECT_EQ(pair.beside.facts().phases.front().ms.count(), 10u);
 }
 
-TEST(SecondSimulation, IsHeldByTheSameHandAndPulledByTheSameGravity) {
-    Pair pair({sim::Solver::jacobi, 8});
-    pair.document.setGravity(2);
+// Grabs the first particle.
+StepHands holding() {
     StepHands hands;
     hands.grabs[0] = {.particle = 0,
                       .radius = 0.2f,
@@ -91,6 +90,13 @@ TEST(SecondSimulation, IsHeldByTheSameHandAndPulledByTheSameGravity) {
                       .stiffness = 2000,
                       .damping = 90,
                       .maxAcceleration = 400};
+    return hands;
+}
+
+TEST(SecondSimulation, IsHeldByTheSameHandAndPulledByTheSameGravity) {
+    Pair pair({sim::Solver::jacobi, 8});
+    pair.document.setGravity(2);
+    StepHands hands = holding();
     const auto before = pair.placesOf(pair.beside.simulation());
     ASSERT_FALSE(pair.play(1, hands)); // grabs at the current position
     hands.grabs[0].target.y += 0.3f;
@@ -104,13 +110,7 @@ TEST(SecondSimulation, IsHeldByTheSameHandAndPulledByTheSameGravity) {
 
 TEST(SecondSimulation, GoesOnWhereTheFirstStands) {
     Pair pair({sim::Solver::gaussSeidel, 6});
-    StepHands hands;
-    hands.grabs[0] = {.particle = 0,
-                      .radius = 0.2f,
-                      .target = {0.3f, 1.2f, 0},
-                      .stiffness = 2000,
-                      .damping = 90,
-                      .maxAcceleration = 400};
+    StepHands hands = holding();
     ASSERT_FALSE(pair.play(12, hands));
     ASSERT_GT(pair.apart(), 0);
     pair.run([&](VkCommandBuffer commands) { pair.beside.recordTakeOver(commands, pair.document); });
