@@ -35,8 +35,8 @@ float squaredNorm(mat3 a) { return dot(a[0], a[0]) + dot(a[1], a[1]) + dot(a[2],
 // Slack: the distance from their expected positions that two particles of bodies with a common frame may have before
 // a pair that is missing in the lists can touch. The pair was farther apart than reach + margin; A makes d no shorter
 // than s |d|, where s^2 >= 1 - |A^T A - 1|; on the straight path from one position to the next, a rotation by the
-// angle a shortens it by a^2 / 8. Where d changes in the substep, by up to twice the pace of headings, the path is off
-// the expected one by up to a quarter of the product of both changes.
+// angle a shortens it by a^2 / 8. Headings change d in the substep, by up to twice their pace: the path is then off the
+// expected one by up to a quarter of the product of both changes.
 float slackOf(mat3 a, mat3 turnOfSubstep, float reach, float margin, float pace) {
     const mat3 strain = transpose(a) * a - mat3(1.0);
     const float turn2 = squaredNorm(turnOfSubstep), s = sqrt(max(0.0, 1.0 - sqrt(squaredNorm(strain)))) - turn2 / 8.0;

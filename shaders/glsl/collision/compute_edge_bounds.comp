@@ -1,7 +1,7 @@
 #version 460
-// Runs before lists of edges are made: computes the midpoints of edges, and the speed of each edge's faster end, as
-// far as it gets in this substep or along its heading. Also stores the positions, bodies and headings of the ends: lists stay complete until ends have moved from there by more than the
-// slack.
+// Runs before lists of edges are made: computes the midpoints of edges, and the speed of each edge's faster end in
+// this substep or, as a way until the horizon, along its heading. Also stores the positions, bodies and headings of the
+// ends: lists stay complete until ends have strayed from where these lead by more than the slack.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 #include "common/math.glsl"

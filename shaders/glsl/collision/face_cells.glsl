@@ -1,4 +1,5 @@
-// The block of cells around one or two faces in which find_faces searches for points. Requires the names of that kernel.
+// The block of cells around one or two faces in which find_faces searches for points. Requires the names of that
+// kernel.
 const float mostCells = 1000.0; // around a face
 
 #include "collision/cell_points.glsl"

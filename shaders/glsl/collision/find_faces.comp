@@ -22,6 +22,9 @@ layout(std430, binding = 14) readonly buffer SearchedFaces { uint searchedFaces[
 #include "collision/face_cells.glsl"
 #include "collision/grid_rows.glsl"
 
+// Particles have headings if some face deforms; only then are faces in pairs (face_lists.cpp).
+bool arePaired(uint f, uint g) { return hasHeadings && g != f; }
+
 float most = hasHeadings ? mostMotion() : 1e30; // of a point that is not apart [m]
 
 bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
@@ -63,7 +66,8 @@ void searchRows(Searched one, Searched other, Box box, float range, Rows rows, F
     for (uint from = 0u; from < rows.all && !isFull(); from += 32u) {
         const uint visits = around(box, range, rows, from, total);
         listNear(one, nearOf(one, visits, rows, from, frame, total), rows, from, total);
-        if (hasHeadings && other.index != one.index) listNear(other, nearOf(other, visits, rows, from, frame, total), rows, from, total);
+        if (arePaired(one.index, other.index))
+            listNear(other, nearOf(other, visits, rows, from, frame, total), rows, from, total);
     }
 }
 
@@ -76,8 +80,10 @@ void searchGrid(Searched one, Searched other, Box box, Cells cells, Frame frame,
 }
 
 void searchApart(Searched face) {
-    for (uint k = 0u; k < apart[FACE_POINTS_APART] && !isFull(); ++k)
-        if (isNearby(face, apart[FACE_POINTS_FIRST + k], POSITION(apart[FACE_POINTS_FIRST + k]).xyz, true)) listUnlessExcluded(face, apart[FACE_POINTS_FIRST + k]);
+    for (uint k = 0u; k < apart[FACE_POINTS_APART] && !isFull(); ++k) {
+        const uint i = apart[FACE_POINTS_FIRST + k];
+        if (isNearby(face, i, POSITION(i).xyz, true)) listUnlessExcluded(face, i);
+    }
 }
 
 void leaveToWide(uint f) { apart[FACE_POINTS_FIRST + push.points + atomicAdd(apart[FACE_POINTS_WIDE], 1u)] = f; }
@@ -90,7 +96,7 @@ void main() {
     if (f == ~0u) return;
     const Searched one = searchedOf(f);
     Searched other = one;
-    if (hasHeadings && g != f) other = searchedOf(g);
+    if (arePaired(f, g)) other = searchedOf(g);
     const Box box = hasHeadings ? boxOf(one, other) : Box(one.low, one.high, one.reach);
     const uint total = START(push.cells);
     const Frame frame = frameOf(bounds, push.cells);
@@ -98,10 +104,10 @@ void main() {
     if (total > 0u) cells = cellsAround(box, frame);
     if (max(cells.points, apart[FACE_POINTS_APART]) > FACE_MOST_POINTS) {
         leaveToWide(f);
-        if (hasHeadings && g != f) leaveToWide(g);
+        if (arePaired(f, g)) leaveToWide(g);
         return;
     }
     searchGrid(one, other, box, cells, frame, total);
     searchApart(one);
-    if (hasHeadings && g != f) searchApart(other);
+    if (arePaired(f, g)) searchApart(other);
 }

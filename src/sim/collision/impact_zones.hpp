@@ -3,7 +3,7 @@
 // pass cloth whose particles are held by others. A search finds each loose point whose path leads through a
 // face. The point and the corners of the face join one zone, which moves on like one rigid body that does
 // not turn: momentum is exact, and nothing passes within the zone. A zone may then pass other faces, so
-// searches and solutions alternate, ZONE_ROUNDS times at most. Where nothing is fast or deep enough to pass,
+// searches and solutions alternate, ZONE_ROUNDS times at most. If nothing is fast or deep enough to pass,
 // all passes are empty.
 #pragma once
 
