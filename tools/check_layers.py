@@ -26,7 +26,7 @@ GPU_MAY_USE_SIM = MESH_MAY_USE_SIM | {"sim/program/program.hpp"}  # passes and t
 # Rooms of the shader files: those of the core, below them what all share, above them those of mesh and viewer.
 SHADER_ROOMS = ["common"] + ROOMS[:-1] + ["mesh", "viewer"]
 # Folders of the viewer: each may include itself and those before it; files outside the folders may include all.
-VIEWER_ROOMS = ["draw", "document", "layers", "hands", "panels", "window", "pictures"]
+VIEWER_ROOMS = ["draw", "document", "layers", "hands", "tools", "panels", "window", "pictures"]
 LIMITS = {".cpp": 600, ".hpp": 600, ".h": 600, ".comp": 150, ".glsl": 150, ".vert": 150, ".frag": 150}
 # Uniform blocks that are allowed. Lavapipe recompiles a shader when a uniform word used in a condition changes, so data that change with
 # every step are in storage buffers. Planes never change.

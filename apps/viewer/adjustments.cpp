@@ -4,6 +4,7 @@
 #include "sim/compile/compile.hpp"
 #include "viewer/gauges.hpp"
 #include "viewer/panels/knob_keys.hpp"
+#include "viewer/tools/cut_tool.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ Adjustments::Adjustments(const PlayerContext& player, SceneLoader& sceneLoader, 
 
 Knobs Adjustments::shown() const {
     Knobs knobs = knobs_;
-    knobs.bladeDepth = player_.tools.depth();
+    knobs.bladeDepth = player_.tools.setting(tool::blade);
     knobs.pace = static_cast<float>(player_.controller.playback.pace());
     return knobs;
 }
@@ -49,7 +50,8 @@ ReloadRequest Adjustments::reloadRequest() const {
 void Adjustments::turn(const Knobs& knobs) {
     if (knobs.gravity != knobs_.gravity) player_.tools.pull(player_.document, knobs.gravity);
     player_.controller.playback.setPace(double{knobs.pace});
-    if (knobs.bladeDepth != player_.tools.depth()) player_.tools.setDepth(knobs.bladeDepth);
+    if (knobs.bladeDepth != player_.tools.setting(tool::blade))
+        player_.tools.set(tool::blade, knobs.bladeDepth);
     knobs_.gravity = knobs.gravity;
     knobs_.pace = knobs.pace;
     knobs_.substeps = knobs.substeps;

@@ -165,15 +165,12 @@ bool Journal::takes(Action action) {
     case Action::drop:
         isDropped_ = true;
         return true;
-    case Action::blade:
-    case Action::poke:
-    case Action::pin:
     case Action::undo:
     case Action::redo:
     case Action::stepBack:
         break;
     default:
-        if (!turnedBy(action, {})) return false;
+        if (!toolOf(action) && !turnedBy(action, {})) return false;
     }
     player_.session.tell(howToEnd());
     return true;

@@ -88,7 +88,7 @@ void Observer::record(const Presenter::Frame& frame) {
     }
     if (!asked.hasRay()) return;
     Picker::Casts casts;
-    if (asked.question) casts[ofTools] = {asked.question->ray, asked.question->among()};
+    if (asked.question) casts[ofTools] = {asked.question->ray, asked.question->among};
     if (asked.look) casts[ofLook] = {asked.look->ray, Among::all};
     if (asked.isInspected) casts[ofInspector] = {pointerRay(), Among::all};
     player_.prepared.picker.record(frame.commands, frame.slot, casts, layers_.section());

@@ -32,8 +32,7 @@ struct Player {
     void operator()(const Pulled& event) const { tools.pull(document, event.gravity); }
     void operator()(const Turned& event) const { tools.turn(document, event.material); }
     void operator()(const Shaped& event) const { tools.shape(document, event); }
-    void operator()(const Sized& event) const { tools.resize(event.radius); }
-    void operator()(const Deepened& event) const { tools.setDepth(event.depth); }
+    void operator()(const ToolSet& event) const { tools.set(*toolTable()[event.tool], event.setting); }
     void operator()(const Forgot& event) const { event.areOfSteps ? tools.forgetSteps() : tools.forget(); }
     void operator()(const Answered& event) const {
         if (event.pick && event.pick->particle >= document.scene().particles.size())
@@ -41,7 +40,8 @@ struct Player {
                                "cannot play input: particle " + std::to_string(event.pick->particle) +
                                    ": the scene has no such particle: open the scene of the log");
         const std::optional<Question> question = tools.question();
-        if (question && question->asker == event.asker) tools.answer(*question, event.pick, event.radius);
+        if (question && question->tool == event.tool && !question->isPreview)
+            tools.answer(*question, event.pick, event.radius);
     }
     void operator()(const Stepped&) const {}
 };

@@ -3,6 +3,7 @@
 
 #include "app/guard.hpp"
 #include "sinew/vk/check.hpp"
+#include "viewer/tools/cut_tool.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -107,9 +108,9 @@ void ScenePlayer::turn() {
     const bool hasMoved = observer_.take(input);
     const bool isUsed = hasMoved || !input.presses.empty();
     // Changes of panels over a still scene keep its quality.
-    const bool isBladeLent = !journal_.isReplaying() && tools_.lendBlade(input.held == Action::blade, isUsed);
-    if (isBladeLent) input.needsRedraw = true;
-    const bool areAsked = !input.actions.empty() || !input.presses.empty() || isBladeLent;
+    const bool isLent = !journal_.isReplaying() && tools_.lend(input.held, isUsed);
+    if (isLent) input.needsRedraw = true;
+    const bool areAsked = !input.actions.empty() || !input.presses.empty() || isLent;
     if (input.panels.isTouched || areAsked || (hasMoved && observer_.isInspecting()))
         panelsDue_ = picturesOfATouch;
     grant(std::exchange(wishes_, {}), input);
@@ -130,8 +131,8 @@ void ScenePlayer::turn() {
 // A button has the pointer over the panel: what is to be pinned or looked at is pointed at next.
 void ScenePlayer::grant(const Wishes& wishes, Input& input) {
     for (const Action action : wishes.actions)
-        if (action == Action::pin && !journal_.isReplaying())
-            tools_.armPin();
+        if (Tools::actsAtPointer(action) && !journal_.isReplaying())
+            tools_.arm(action);
         else if (action == Action::frameBody || action == Action::center)
             observer_.lookAtPress(action == Action::center ? Observer::Target::point
                                                            : Observer::Target::body);
@@ -167,7 +168,7 @@ void ScenePlayer::handle(Input& input) {
     session_.feed(input.panels);
     status_.setTool(tools_.name());
     layers_.slideSection(input.slide);
-    const float notches = input.notches + (tools_.isPokeOn() || tools_.isBladeOn() ? 0 : input.growth);
+    const float notches = input.notches + (tools_.takesWheel() ? 0 : input.growth);
     if (notches != 0 && !journal_.isReplaying()) controller_.wheel(notches, input.pointer);
 }
 
@@ -358,10 +359,8 @@ Facts ScenePlayer::facts(std::optional<float> reduced) const {
     facts.isPaused = controller_.playback.isPaused();
     facts.isDiverged = isDiverged_;
     facts.reduced = reduced;
-    facts.isHolding = tools_.isHolding();
-    facts.isBladeOn = tools_.isBladeOn();
-    facts.isPokeOn = tools_.isPokeOn();
-    facts.pins = tools_.pins();
+    facts.toolsOn = tools_.shownOn();
+    facts.hint = tools_.hintFacts();
     for (const std::uint64_t steps : tools_.history().times()) {
         char time[40];
         std::snprintf(time, sizeof time, "at %.2f s",
@@ -378,7 +377,7 @@ Facts ScenePlayer::facts(std::optional<float> reduced) const {
     facts.beside = comparison_.facts();
     facts.isRecording = capture_.isFilming();
     facts.knobs = adjustments_.shown();
-    facts.bladeDepths = {tools_.depths().least, tools_.depths().most};
+    facts.bladeDepths = tools_.settingRange(tool::blade);
     facts.pace = controller_.playback.pace();
     return facts;
 }

@@ -1,10 +1,10 @@
-// Three tools for one pointer: the left button belongs to the active one.
+// Several tools for one pointer: the left button belongs to the one in hand.
 #include "viewer/tools.hpp"
 
-#include "sim/compile/compile.hpp"
 #include "sinew/vk/check.hpp"
 #include "viewer/hands/controller.hpp"
 #include "viewer/opened_scene.hpp"
+#include "viewer/tools/cut_tool.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -20,13 +20,22 @@ constexpr const char* lost = "warning: earlier cuts can no longer be undone: the
 } // namespace
 
 Tools::Tools(const vk::Device& device, const OpenedScene& opening)
-    : blade_(opening.light.bounds), poke_(opening.light.radius(), opening.loaded.scene.planes),
-      history_(device, History::mostCuts), steps_(device, History::mostSteps), holds_(opening.loaded.holds),
-      pinReach_(0.04f * opening.light.radius()),
-      canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)) {
-    setDepth(opening.bladeDepth);
-    for (const float inverseMass : sim::inverseMasses(opening.loaded.scene))
-        isFixed_.push_back(inverseMass == 0);
+    : history_(device, History::mostCuts), steps_(device, History::mostSteps) {
+    const ToolContext of{opening.light, opening.loaded.scene, opening.loaded.holds};
+    for (std::size_t i = 0; i < toolTable().size(); ++i) {
+        states_.push_back(toolTable()[i]->make(of));
+        canUse_[i] = fits(*toolTable()[i], of.scene);
+    }
+    set(tool::blade, opening.bladeDepth);
+}
+
+std::size_t Tools::indexInHand() const {
+    std::size_t index = 0;
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+        if (states_[i]->isOn()) return i;
+        if (toolTable()[i]->key == 0) index = i;
+    }
+    return index;
 }
 
 void Tools::handle(const Input& input, Controller& controller) {
@@ -36,8 +45,7 @@ void Tools::handle(const Input& input, Controller& controller) {
     for (const Input::Drag& drag : input.drags) {
         if (drag.action != Action::grab)
             controller.drag(drag.action, drag.heights);
-        else if (const Vector2 turn = hand_.drag(drag.heights);
-                 !blade_.isOn() && !poke_.isOn() && !turn.isZero())
+        else if (const Vector2 turn = inHand().drag(drag.heights); !turn.isZero())
             controller.drag(Action::orbit, turn);
     }
     look(controller.camera);
@@ -46,93 +54,86 @@ void Tools::handle(const Input& input, Controller& controller) {
 }
 
 void Tools::turnWheel(float notches) {
-    if (poke_.isOn()) {
-        poke_.grow(notches);
-        log_.size(poke_.radius());
-    }
-    if (!blade_.isOn()) return;
-    blade_.deepen(notches);
-    log_.deepen(blade_.depth());
-    note_ = "the blade goes " + depthText(blade_.depth());
+    const Tool& tool = recordInHand();
+    if (tool.setting.empty()) return;
+    inHand().turnWheel(notches);
+    logSetting(indexInHand());
+    if (tool.settingNote != nullptr) note_ = tool.settingNote(inHand().setting());
+}
+
+void Tools::logSetting(std::size_t tool) {
+    if (!toolTable()[tool]->setting.empty()) log_.set(tool, states_[tool]->setting());
 }
 
 void Tools::move(const Camera& camera, const Vector2& pointer) {
-    if (hand_.isHolding() || blade_.isOn() || poke_.isDown() || wantsPin_) log_.point(pointer);
-    hand_.move(camera, pointer);
-    blade_.move(camera, pointer);
-    poke_.move(camera, pointer);
-    if (std::exchange(wantsPin_, false)) pinAt(rayThrough(camera, pointer));
-}
-
-// Pins the held point, or asks for the point under the pointer.
-void Tools::pinAt(const Ray& ray) {
-    if (const std::optional<Hand> held = hand_.hand()) {
-        pin(*held, hand_.radius());
-        return hand_.release();
+    if (wants_.any() || std::ranges::any_of(states_, [](const auto& one) { return one->followsPointer(); }))
+        log_.point(pointer);
+    for (const auto& state : states_) state->move(camera, pointer);
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+        if (!wants_[i]) continue;
+        if (states_[i]->use(rayThrough(camera, pointer), inHand().held())) inHand().release();
+        takeNoteOf(i);
     }
-    if (!pins_.takeOut(ray, pinReach_)) pinned_ = ray;
+    wants_.reset();
 }
 
-void Tools::pin(const Hand& hand, float radius) {
-    if (!pins_.add(hand, radius)) note_ = "at most " + std::to_string(Pins::most) + " pins are possible";
+void Tools::takeNoteOf(std::size_t tool) {
+    if (std::string note = states_[tool]->takeNote(); !note.empty()) note_ = std::move(note);
 }
 
-const char* Tools::name() const {
-    return hand_.isHolding() ? " - holding"
-           : isPinArmed_     ? " - pin"
-           : blade_.isOn()   ? " - blade"
-           : poke_.isOn()    ? " - poke"
-                             : "";
+std::string Tools::name() const {
+    if (armed_) return " - " + std::string(toolTable()[*armed_]->title);
+    const bool isUsed = inHand().isOn() || isHolding();
+    return isUsed ? " - " + std::string(recordInHand().title) : "";
+}
+
+std::array<bool, mostTools> Tools::shownOn() const {
+    std::array<bool, mostTools> shown{};
+    for (std::size_t i = 0; i < states_.size(); ++i) shown[i] = states_[i]->isShownOn();
+    return shown;
+}
+
+HintFacts Tools::hintFacts() const {
+    HintFacts facts{.canUse = canUse_};
+    if (inHand().isOn() || isHolding()) facts.inUse = indexInHand();
+    facts.setting = inHand().setting();
+    return facts;
+}
+
+Overlay Tools::overlay() const {
+    Overlay overlay;
+    for (const auto& state : states_) state->addTo(overlay);
+    return overlay;
 }
 
 std::optional<Question> Tools::question() const {
-    if (hand_.question()) return Question{Question::Asker::hand, *hand_.question()};
-    if (poke_.question()) return Question{Question::Asker::poke, *poke_.question()};
-    if (pinned_) return Question{Question::Asker::pin, *pinned_};
-    if (blade_.question()) return Question{Question::Asker::blade, *blade_.question()};
-    if (blade_.preview()) return Question{Question::Asker::preview, *blade_.preview()};
+    for (const bool areMany : {false, true})
+        for (std::size_t i = 0; i < states_.size(); ++i)
+            if (const Tool& tool = *toolTable()[i]; states_[i]->question() && tool.asksMuch == areMany)
+                return Question{i, *states_[i]->question(), tool.among};
+    for (std::size_t i = 0; i < states_.size(); ++i)
+        if (states_[i]->preview()) return Question{i, *states_[i]->preview(), toolTable()[i]->among, true};
     return std::nullopt;
 }
 
 void Tools::answer(const Question& question, const std::optional<Pick>& pick, float radius) {
     if (question != this->question()) return;
-    if (question.asker == Question::Asker::preview) return blade_.answerPreview(pick);
-    log_.answer({question.asker, pick, radius});
-    if (question.asker == Question::Asker::blade) return blade_.answer(pick);
-    if (question.asker == Question::Asker::hand) return hand_.answer(pick, radius);
-    if (question.asker == Question::Asker::poke) return poke_.answer(pick);
-    pinned_.reset();
-    if (pick && isFixed_[pick->particle])
-        sayHeld(pick->particle);
-    else if (pick)
-        pin({pick->particle, pick->offset, pick->point}, radius);
-    else
-        note_ = "no body to pin under the pointer";
-}
-
-void Tools::sayHeld(std::uint32_t particle) {
-    const sim::NamedHold* hold = sim::holdOf(holds_, particle);
-    note_ = (hold != nullptr ? "hold \"" + hold->name + "\" of the scene holds this"
-                             : std::string("the scene holds this")) +
-            ": it needs no pin, and N does not release it";
+    ToolState& state = *states_[question.tool];
+    if (question.isPreview) return state.answerPreview(pick);
+    log_.answer({question.tool, pick, radius});
+    state.answer(pick, radius);
+    takeNoteOf(question.tool);
 }
 
 void Tools::press(const Camera& camera, bool isDown, const Vector2& at) {
-    if (isDown && std::exchange(isPinArmed_, false)) {
-        act(Action::pin);
+    if (isDown && armed_) {
+        act(actionOf(*toolTable()[*std::exchange(armed_, std::nullopt)]));
         return;
     }
     log_.press(isDown, at);
-    if (blade_.isOn()) {
-        if (isDown) return blade_.press(camera, at);
-        blade_.move(camera, at);
-        return blade_.release();
-    }
-    if (poke_.isOn()) return isDown ? poke_.press(camera, at) : poke_.release();
-    if (isDown)
-        hand_.press(camera, at);
-    else
-        hand_.release();
+    if (isDown) return inHand().press(camera, at);
+    inHand().move(camera, at);
+    inHand().release();
 }
 
 void Tools::pull(Document& document, float gravity) {
@@ -182,15 +183,11 @@ app::Bring Tools::bringOf(const Tools& before) {
 }
 
 void Tools::goOn(const Tools& before, const Document& document) {
-    hand_ = before.hand_;
-    pins_ = before.pins_;
-    blade_ = before.blade_;
-    poke_ = before.poke_;
-    pinned_ = before.pinned_;
-    wantsPin_ = before.wantsPin_;
-    isPinArmed_ = before.isPinArmed_;
-    isLent_ = before.isLent_;
-    wasPokeOn_ = before.wasPokeOn_;
+    for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = before.states_[i]->clone();
+    wants_ = before.wants_;
+    armed_ = before.armed_;
+    lent_ = before.lent_;
+    before_ = before.before_;
     gravity_ = before.gravity_;
     wantsUndo_ = before.wantsUndo_;
     wantsRedo_ = before.wantsRedo_;
@@ -203,59 +200,60 @@ void Tools::goOn(const Tools& before, const Document& document) {
     if (isLost) log_.forget();
 }
 
-void Tools::resize(float radius) {
-    poke_.setRadius(radius);
-    log_.size(poke_.radius());
+void Tools::set(const Tool& tool, const std::optional<float>& setting) {
+    const std::size_t index = indexOf(tool);
+    states_[index]->set(setting);
+    logSetting(index);
 }
 
-void Tools::setDepth(const std::optional<float>& depth) {
-    blade_.setDepth(depth);
-    log_.deepen(blade_.depth());
+// Takes a tool up or puts it away; one is in hand at a time.
+void Tools::take(std::size_t tool) {
+    if (!inHand().isOn()) inHand().release();
+    if (!canUse_[tool]) return say("note: " + std::string(toolTable()[tool]->refusal));
+    for (std::size_t i = 0; i < states_.size(); ++i)
+        if (i != tool && states_[i]->isOn()) states_[i]->toggle();
+    states_[tool]->toggle();
+    if (states_[tool]->isOn()) logSetting(tool);
 }
 
-// Turns the blade on or off; one tool is active at a time.
-void Tools::takeBlade() {
-    if (!canCut_) return say("note: no body of this scene can be cut: cuttable = true allows it");
-    if (poke_.isOn()) poke_.toggle();
-    blade_.toggle();
+bool Tools::actsAtPointer(Action action) {
+    const std::optional<std::size_t> tool = toolOf(action);
+    return tool && toolTable()[*tool]->isMomentary;
 }
 
-bool Tools::lendBlade(bool isHeld, bool isUsed) {
-    isLent_ = isLent_ && blade_.isOn(); // or the user put it away
-    if (isHeld == isLent_) return false;
-    if (isHeld) {
-        if (!isUsed || !canCut_ || blade_.isOn() || poke_.isDown() || hand_.isDown()) return false;
-        wasPokeOn_ = poke_.isOn();
-    } else if (blade_.isDown()) {
+void Tools::useKey(std::size_t tool) {
+    if (toolTable()[tool]->isMomentary)
+        wants_.set(tool);
+    else
+        take(tool);
+}
+
+bool Tools::lend(std::optional<Action> held, bool isUsed) {
+    if (lent_ && !states_[*lent_]->isOn()) lent_.reset(); // the user put it away
+    const std::optional<std::size_t> wanted = held ? toolOf(*held) : std::nullopt;
+    if (wanted.has_value() == lent_.has_value()) return false;
+    const std::size_t tool = wanted ? *wanted : *lent_;
+    if (wanted) {
+        if (!isUsed || !canUse_[tool] || states_[tool]->isOn() || inHand().isDown()) return false;
+        before_ = inHand().isOn() ? std::optional(indexInHand()) : std::nullopt;
+    } else if (states_[tool]->isDown()) {
         return false;
     }
-    isLent_ = isHeld;
-    act(Action::blade);
-    if (!isHeld && std::exchange(wasPokeOn_, false)) act(Action::poke);
+    lent_ = wanted;
+    act(actionOf(*toolTable()[tool]));
+    if (!wanted && before_) act(actionOf(*toolTable()[*std::exchange(before_, std::nullopt)]));
     return true;
 }
 
-void Tools::takePoke() {
-    if (blade_.isOn()) blade_.toggle();
-    poke_.toggle();
-    if (poke_.isOn()) log_.size(poke_.radius());
-}
-
 bool Tools::act(Action action) {
+    if (const std::optional<std::size_t> tool = toolOf(action)) {
+        useKey(*tool);
+        log_.key(action);
+        return true;
+    }
     switch (action) {
-    case Action::blade:
-        hand_.release();
-        takeBlade();
-        break;
-    case Action::poke:
-        hand_.release();
-        takePoke();
-        break;
     case Action::drop:
         drop();
-        break;
-    case Action::pin:
-        wantsPin_ = true;
         break;
     case Action::undo:
         wantsUndo_ = true;
@@ -279,18 +277,16 @@ void Tools::say(const std::string& note) {
 }
 
 void Tools::drop() {
-    isPinArmed_ = false;
-    hand_.release();
-    blade_.drop();
-    poke_.release();
+    armed_.reset();
+    for (const auto& state : states_) state->drop();
 }
 
 void Tools::clear() {
-    drop();
-    pins_.clear();
-    pinned_.reset();
+    armed_.reset();
+    for (const auto& state : states_) state->clear();
 }
 
+// The log begins with the tool in hand and with the settings that a new log does not imply.
 void Tools::reset() {
     clear();
     history_.recycle();
@@ -298,21 +294,17 @@ void Tools::reset() {
     wantsUndo_ = wantsRedo_ = false;
     stepsBack_ = 0;
     log_.restart();
-    log_.deepen(blade_.depth());
-    if (blade_.isOn()) log_.key(Action::blade);
-    if (poke_.isOn()) {
-        log_.size(poke_.radius());
-        log_.key(Action::poke);
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+        const bool isOn = states_[i]->isOn();
+        if (isOn || toolTable()[i]->isSettingOptional) logSetting(i);
+        if (isOn) log_.key(actionOf(*toolTable()[i]));
     }
     if (gravity_) log_.pull(*gravity_);
     log_.turn(material_);
 }
 
 void Tools::putAway(Document& document) {
-    if (blade_.isOn()) blade_.toggle();
-    blade_.drop();
-    blade_.setDepth(std::nullopt);
-    poke_.putAway();
+    for (const auto& state : states_) state->putAway();
     gravity_.reset();
     document.setGravity(document.scene().gravity);
     if (material_ != sim::Material{}) document.turnNow({});

@@ -1,17 +1,14 @@
-// The tools of the pointer: the grab, the blade, the sphere and the pins, with their log and their undo
-// history.
+// The tools of the pointer, as toolTable() lists them, with their log and their undo history.
 #pragma once
 
-#include "sinew/holds.hpp"
 #include "viewer/document/document.hpp"
 #include "viewer/document/history.hpp"
-#include "viewer/hands/cut_tool.hpp"
-#include "viewer/hands/grab_tool.hpp"
 #include "viewer/hands/input_log.hpp"
-#include "viewer/hands/pins.hpp"
-#include "viewer/hands/poke_tool.hpp"
+#include "viewer/hands/tool.hpp"
 #include "viewer/window/window.hpp"
 
+#include <bitset>
+#include <memory>
 #include <utility>
 
 namespace sinew::viewer {
@@ -19,13 +16,6 @@ namespace sinew::viewer {
 class Controller;
 struct OpenedScene;
 
-/// Input of the tools for one step.
-struct StepHands {
-    StepHands() { grabs.fill(emptyHand()); }
-    std::array<sim::Grab, sim::ranges::mostGrabs> grabs; ///< the pointer's, then pins; others hold nothing
-    std::optional<Sweep> sweep;                          ///< of the blade
-    std::optional<sim::HostCollider> poke;
-};
 void recordStep(VkCommandBuffer commands, Document& document, const StepHands& hands,
                 vk::Timestamps* timestamps = nullptr) noexcept;
 
@@ -58,23 +48,22 @@ public:
     void begin(const Document& document);
     /// Takes over the tools of `before` and its log, for a document that has taken over that of `before`.
     void goOn(const Tools& before, const Document& document);
-    /// Sets the radius of the sphere [m].
-    void resize(float radius);
-    /// Sets the depth of the blade (see CutTool::setDepth).
-    void setDepth(const std::optional<float>& depth);
-    const std::optional<float>& depth() const { return blade_.depth(); }
-    CutTool::Depths depths() const { return blade_.depths(); }
+    /// The number of a tool (Tool::setting). set() clamps and logs it.
+    void set(const Tool& tool, const std::optional<float>& setting);
+    std::optional<float> setting(const Tool& tool) const { return of(tool).setting(); }
+    std::array<float, 2> settingRange(const Tool& tool) const { return of(tool).settingRange(); }
     /// False for an action of others.
     bool act(Action action);
-    /// Lends the blade while `isHeld`, from the next use of the pointer on; the tool before it returns when
-    /// the stroke has ended. True if the tool changed.
-    bool lendBlade(bool isHeld, bool isUsed);
-    /// The next press of the left button places a pin; for a button of a panel.
-    void armPin() { isPinArmed_ = true; }
+    /// Lends a tool while its modifier is `held`, from the next use of the pointer on; the tool before it
+    /// returns when the stroke has ended. True if the tool changed.
+    bool lend(std::optional<Action> held, bool isUsed);
+    /// Whether the action is the key of a tool that acts at the pointer. A button of a panel calls arm()
+    /// instead of act(): the next press of the left button is then the key.
+    static bool actsAtPointer(Action action);
+    void arm(Action action) { armed_ = toolOf(action); }
     /// Releases grabs and pins and drops strokes, whose places are no longer valid.
     void clear();
-    /// Call at a reset. Only the tool in hand, the depth of the blade, the radius of the sphere and gravity
-    /// stay.
+    /// Call at a reset. Only the tool in hand, settings of tools and gravity stay.
     void reset();
     /// Drops the states to undo, or those of single steps.
     void forget();
@@ -86,7 +75,7 @@ public:
     void answer(const Question& question, const std::optional<Pick>& pick, float radius);
 
     /// Whether commands must be recorded even without a step.
-    bool isWaiting() const { return question() || wantsPin_ || wantsHistory(); }
+    bool isWaiting() const { return question() || wants_.any() || wantsHistory(); }
     bool wantsHistory() const { return wantsUndo_ || wantsRedo_ || stepsBack_ > 0; }
     /// Records a requested undo or redo; true if there was a state for it.
     bool recordHistory(VkCommandBuffer commands, Document& document);
@@ -109,33 +98,42 @@ public:
     /// The log since the reset.
     const InputLog& log() const { return log_; }
 
-    bool isHolding() const { return hand_.isHolding(); }
-    bool isBladeOn() const { return blade_.isOn(); }
-    bool isPokeOn() const { return poke_.isOn(); }
+    bool isOn(const Tool& tool) const { return of(tool).isOn(); }
+    bool isHolding() const { return inHand().held().has_value(); }
+    /// Whether Shift and the wheel change the tool in hand.
+    bool takesWheel() const { return !recordInHand().setting.empty(); }
+    /// Tools whose buttons are lit, by index into toolTable().
+    std::array<bool, mostTools> shownOn() const;
+    HintFacts hintFacts() const;
     const History& history() const { return history_; }
     /// Number of single steps that can be undone.
     std::size_t stepsBack() const { return std::min(steps_.undos(), keptSteps_); }
-    std::size_t pins() const { return pins_.count(); }
-    Overlay overlay() const { return {hand_.hand(), pins_.shown(), blade_.path(), blade_.gauge()}; }
+    Overlay overlay() const;
     /// Takes the newest message, which also goes to stderr.
     std::string takeNote() { return std::exchange(note_, {}); }
     /// Text for the title: " - holding".
-    const char* name() const;
+    std::string name() const;
 
 private:
-    void takeBlade();
-    void takePoke();
+    const ToolState& of(const Tool& tool) const { return *states_[indexOf(tool)]; }
+    /// The tool that the left button belongs to: index into toolTable().
+    std::size_t indexInHand() const;
+    const Tool& recordInHand() const { return *toolTable()[indexInHand()]; }
+    ToolState& inHand() { return *states_[indexInHand()]; }
+    const ToolState& inHand() const { return *states_[indexInHand()]; }
+    void take(std::size_t tool);
+    void useKey(std::size_t tool);
     void turnWheel(float notches);
-    void pinAt(const Ray& ray);
-    void pin(const Hand& hand, float radius);
-    void sayHeld(std::uint32_t particle);
+    void logSetting(std::size_t tool);
+    void takeNoteOf(std::size_t tool);
     void drop();
     void say(const std::string& note);
 
-    GrabTool hand_;
-    Pins pins_;
-    CutTool blade_;
-    PokeTool poke_;
+    std::vector<std::unique_ptr<ToolState>> states_; // in the order of toolTable()
+    std::array<bool, mostTools> canUse_{};           // in this scene, by that order
+    std::bitset<mostTools> wants_;                   // keys pressed, to be used at the pointer
+    std::optional<std::size_t> armed_, lent_;
+    std::optional<std::size_t> before_; // in hand before the lent one
     // Most steps that may be taken back at once.
     static constexpr std::size_t mostTakenBack = sim::Simulation::framesInFlight;
     History history_, steps_;   // of cuts; of all steps
@@ -144,17 +142,12 @@ private:
     void rememberStep(VkCommandBuffer commands, const Document& document);
     bool goBack(VkCommandBuffer commands, Document& document);
 
-    std::vector<sim::NamedHold> holds_; // of the scene
-    std::vector<bool> isFixed_;         // for every particle
-    float pinReach_;                    // largest distance of the pointer's ray from a pin [m]
-    std::optional<Ray> pinned_;         // a question
-    std::optional<float> gravity_;      // set by the user
-    sim::Material material_;            // set by the user
+    std::optional<float> gravity_; // set by the user
+    sim::Material material_;       // set by the user
     InputLog log_;
     std::uint32_t stepsBack_ = 0; // requested
     bool isLost_ = false;         // states to undo were lost in bring()
-    bool canCut_ = false, isForgetful_ = false, isForgetfulOfSteps_ = false, wantsPin_ = false,
-         isPinArmed_ = false, wantsUndo_ = false, wantsRedo_ = false, isLent_ = false, wasPokeOn_ = false;
+    bool isForgetful_ = false, isForgetfulOfSteps_ = false, wantsUndo_ = false, wantsRedo_ = false;
 };
 
 } // namespace sinew::viewer

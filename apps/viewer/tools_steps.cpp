@@ -14,7 +14,7 @@ void recordStep(VkCommandBuffer commands, Document& document, const StepHands& h
     if (hands.sweep)
         blade = {.from = hands.sweep->from, .to = hands.sweep->to, .isCarried = hands.sweep->isCarried};
     const std::span<const sim::HostCollider> hostColliders =
-        hands.poke ? std::span(&*hands.poke, 1) : std::span<const sim::HostCollider>();
+        hands.collider ? std::span(&*hands.collider, 1) : std::span<const sim::HostCollider>();
     document.recordStep(commands, timestamps, hands.grabs, blade, hostColliders);
 }
 
@@ -69,14 +69,11 @@ void Tools::rememberStep(VkCommandBuffer commands, const Document& document) {
 
 StepHands Tools::takeStep(VkCommandBuffer commands, const Document& document) {
     log_.step();
-    blade_.stepTaken();
     rememberStep(commands, document);
-    if (blade_.beginsStroke()) remember(commands, document);
+    if (std::ranges::any_of(states_, [](const auto& one) { return one->beginsStroke(); }))
+        remember(commands, document);
     StepHands hands;
-    hands.sweep = blade_.next();
-    hands.poke = poke_.poke();
-    hands.grabs[0] = hand_.isHolding() ? hand_.grabs()[0] : emptyHand();
-    std::ranges::copy(pins_.grabs(), hands.grabs.begin() + 1);
+    for (const auto& state : states_) state->addTo(hands);
     return hands;
 }
 
@@ -89,14 +86,14 @@ void Tools::restart(const Document& document, std::span<const Sweep> undone, std
     log_.takeBack(steps);
     moveOn();
     forgetUndone(document, undone);
-    blade_.putBack(undone);
+    for (const auto& state : states_) state->putBack(undone);
 }
 
 void Tools::takeBack(const Document& document, std::span<const Sweep> undone, std::uint64_t steps) {
     log_.takeBack(steps);
     steps_.forgetFrom(document.played());
     forgetUndone(document, undone);
-    blade_.putBack(undone);
+    for (const auto& state : states_) state->putBack(undone);
 }
 
 void Tools::forgetUndone(const Document& document, std::span<const Sweep> undone) {

@@ -87,7 +87,7 @@ private:
     bool isWhole_ = true;
 };
 
-// The same order both ways. A grab lets go of what it holds, and a sphere that pokes is not there.
+// The same order both ways. Grabs and colliders of tools are not saved.
 template <typename Run, typename Visit> void visit(Run& run, Visit& each) {
     each(run.scene);
     each(run.settings.solver);

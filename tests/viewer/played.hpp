@@ -9,6 +9,9 @@
 #include "viewer/opened_scene.hpp"
 #include "viewer/replay.hpp"
 #include "viewer/tools.hpp"
+#include "viewer/tools/cut_tool.hpp"
+#include "viewer/tools/pins.hpp"
+#include "viewer/tools/poke_tool.hpp"
 
 #include <gtest/gtest.h>
 
@@ -96,7 +99,7 @@ struct Played : Scene {
         if (asked && asked == tools.question()) { // from the previous turn
             picker.restart();                     // the document may have another simulation
             run([&](VkCommandBuffer commands) {
-                picker.record(commands, 0, {Picker::Cast{asked->ray, asked->among()}});
+                picker.record(commands, 0, {Picker::Cast{asked->ray, asked->among}});
             });
             const auto found = picker.answer(0, 0);
             tools.answer(*asked, found, found ? holdRadius(document.scene(), found->particle) : 0);

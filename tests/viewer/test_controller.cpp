@@ -1,6 +1,9 @@
 // Tests of the table of bindings and of actions, without a window.
 #include "viewer/hands/controller.hpp"
 #include "viewer/hands/picture_budget.hpp"
+#include "viewer/tools/cut_tool.hpp"
+#include "viewer/tools/grab_tool.hpp"
+#include "viewer/tools/poke_tool.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -67,17 +70,43 @@ TEST(Bindings, AreThoseOfTheDocs) {
 }
 
 TEST(Bindings, HintAtWhatHandsCanDoNow) {
-    const std::string empty = hintText(Hands::empty, true), blade = hintText(Hands::blade, true);
+    const auto hintWith = [](const Tool& tool, const std::optional<float>& setting = {}) {
+        return hintText({.inUse = indexOf(tool), .canUse = {true, true, true, true}, .setting = setting});
+    };
+    const std::string empty = hintText({.canUse = {true, true, true, true}}), blade = hintWith(tool::blade);
     EXPECT_NE(empty.find("C cuts"), std::string::npos);
-    EXPECT_EQ(hintText(Hands::empty, false).find("cuts"), std::string::npos);
+    EXPECT_EQ(hintText({.canUse = {false, true, true, true}}).find("cuts"), std::string::npos);
     EXPECT_NE(blade.find("Ctrl + Z"), std::string::npos);
     EXPECT_NE(blade.find("cuts through"), std::string::npos);
-    EXPECT_NE(hintText(Hands::blade, true, 0.012f).find("cuts 0.012 m deep"), std::string::npos);
-    const std::string poke = hintText(Hands::poke, true);
+    EXPECT_NE(hintWith(tool::blade, 0.012f).find("cuts 0.012 m deep"), std::string::npos);
+    const std::string poke = hintWith(tool::poke);
     EXPECT_NE(empty.find("O pokes"), std::string::npos);
     EXPECT_NE(poke.find("Shift + wheel"), std::string::npos);
-    for (const std::string& hint : {empty, blade, poke, hintText(Hands::holding, true)})
+    for (const std::string& hint : {empty, blade, poke, hintWith(tool::hand)})
         EXPECT_NE(hint.find("H help"), std::string::npos) << hint;
+}
+
+TEST(Tools, HaveKeysAndNamesOfTheirOwn) {
+    std::set<std::string_view> names;
+    std::size_t count = 0, withoutKey = 0, lent = 0;
+    for (const Tool* tool : toolTable()) {
+        for (const std::string_view name : {tool->name, tool->setting}) {
+            names.insert(name);
+            count += name.empty() ? 0 : 1;
+        }
+        lent += tool->isLent ? 1 : 0;
+        if (tool->key == 0)
+            ++withoutKey;
+        else
+            EXPECT_EQ(actionFor({Trigger::Kind::key, tool->key, 0}), actionOf(*tool)) << tool->name;
+    }
+    names.erase("");
+    EXPECT_EQ(names.size(), count) << "lines of logs begin with them";
+    EXPECT_EQ(withoutKey, 1u) << "the one in hand while no other is";
+    EXPECT_EQ(lent, 1u);
+    EXPECT_EQ(toolOf(actionOf(tool::poke)), indexOf(tool::poke));
+    EXPECT_FALSE(toolOf(Action::drop));
+    EXPECT_FALSE(toolOf(actionOfLayer(0)));
 }
 
 TEST(Bindings, EscapeDropsWhatIsHeldAndControlQQuits) {

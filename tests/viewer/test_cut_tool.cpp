@@ -1,5 +1,5 @@
 // Tests of the conversion of pointer strokes to blade sweeps, without a device.
-#include "viewer/hands/cut_tool.hpp"
+#include "viewer/tools/cut_tool.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include "viewer/document/document.hpp"
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/hands/inspector.hpp"
-#include "viewer/hands/pins.hpp"
 #include "viewer/hands/state_probe.hpp"
+#include "viewer/tools/pins.hpp"
 
 #include "sinew/bodies.hpp"
 #include "support/device.hpp"
@@ -187,10 +187,10 @@ TEST(HeldParticle, IsFoundByTheInspectorWithItsHold) {
 TEST(HeldParticle, IsNoPinAndNSaysSo) {
     Played played(heldFront);
     played.turn({});
-    played.turn({.actions = {Action::pin}, .pointer = {0, 0}});
+    played.turn({.actions = {actionOf(tool::pins)}, .pointer = {0, 0}});
     played.turn({.pointer = {0, 0}});
     played.turn({.pointer = {0, 0}});
-    EXPECT_EQ(played.tools.pins(), 0u);
+    EXPECT_EQ(played.tools.overlay().pins.size(), 0u);
     EXPECT_EQ(played.tools.takeNote(),
               "hold \"clamp\" of the scene holds this: it needs no pin, and N does not release it");
 }
@@ -208,7 +208,7 @@ TEST(HeldParticle, StaysHeldAfterACutAndItsUndo) {
         return largest;
     };
     played.turn({}, 4);
-    played.turn({.actions = {Action::blade}}, 0);
+    played.turn({.actions = {actionOf(tool::blade)}}, 0);
     played.dragFrom({-0.5f, 0.1f}, {1, 0}, 6);
     played.pressAt({0.5f, 0.1f}, false);
     played.turn({}, 10);

@@ -2,8 +2,8 @@
 // picture.
 #include "viewer/document/document.hpp"
 #include "viewer/draw/offscreen.hpp"
-#include "viewer/hands/poke_tool.hpp"
 #include "viewer/hands/state_probe.hpp"
+#include "viewer/tools/poke_tool.hpp"
 
 #include "sinew/bodies.hpp"
 #include "support/device.hpp"

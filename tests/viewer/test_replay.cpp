@@ -14,11 +14,11 @@ void play(Played& played) {
     played.dragFrom({0, 0}, {0.2f, -0.3f}, 8);
     played.turn({.notches = 1, .pointer = {0.2f, -0.3f}});
     EXPECT_TRUE(played.tools.isHolding());
-    played.turn({.actions = {Action::pin}, .pointer = {0.2f, -0.2f}});
-    EXPECT_EQ(played.tools.pins(), 1u);
+    played.turn({.actions = {actionOf(tool::pins)}, .pointer = {0.2f, -0.2f}});
+    EXPECT_EQ(played.tools.overlay().pins.size(), 1u);
     played.turn({.drags = {{Action::orbit, {0.05f, 0.02f}}}}, 6);
     played.tools.pull(played.document, 3);
-    played.turn({.actions = {Action::blade}});
+    played.turn({.actions = {actionOf(tool::blade)}});
     played.dragFrom({0.1f, -0.45f}, {0.05f, 0.9f}, 5);
     played.pressAt({0.15f, 0.45f}, false);
     played.turn({}, 5);
@@ -44,7 +44,7 @@ void soften(Played& played) {
     played.turn({}, 1);
     EXPECT_EQ(played.document.material().stiffness, 0.2f);
     played.turn({}, 9);
-    played.turn({.actions = {Action::blade}});
+    played.turn({.actions = {actionOf(tool::blade)}});
     played.dragFrom({0.1f, -0.45f}, {0.05f, 0.9f}, 5);
     played.pressAt({0.15f, 0.45f}, false);
     played.document.turn({.stiffness = 9});
@@ -61,9 +61,9 @@ void soften(Played& played) {
 // Pushes the block with a growing sphere from beside it and then on it, and removes the sphere each time.
 void poke(Played& played) {
     played.turn({}, 20);
-    played.turn({.actions = {Action::blade}});
-    played.turn({.actions = {Action::poke}});
-    EXPECT_TRUE(played.tools.isPokeOn() && !played.tools.isBladeOn()) << "one tool at a time";
+    played.turn({.actions = {actionOf(tool::blade)}});
+    played.turn({.actions = {actionOf(tool::poke)}});
+    EXPECT_TRUE(played.tools.isOn(tool::poke) && !played.tools.isOn(tool::blade)) << "one tool at a time";
     played.dragFrom({-0.35f, -0.1f}, {0.4f, 0}, 12);
     EXPECT_TRUE(played.isPoking());
     played.turn({.growth = 2, .pointer = {0.05f, -0.1f}}, 2);
@@ -73,9 +73,9 @@ void poke(Played& played) {
     played.dragFrom({0.05f, 0.1f}, {-0.1f, -0.1f}, 5);
     played.turn({.actions = {Action::drop}, .pointer = {-0.05f, 0}}, 2);
     EXPECT_FALSE(played.isPoking()) << "Esc lifts it";
-    EXPECT_TRUE(played.tools.isPokeOn());
-    played.turn({.actions = {Action::blade}}, 2);
-    EXPECT_FALSE(played.tools.isPokeOn());
+    EXPECT_TRUE(played.tools.isOn(tool::poke));
+    played.turn({.actions = {actionOf(tool::blade)}}, 2);
+    EXPECT_FALSE(played.tools.isOn(tool::poke));
 }
 
 void expectTheSameBitsOf(void (*hands)(Played&)) {
@@ -134,7 +134,7 @@ TEST(Replay, PushesWithTheSameSphere) {
 // The poke tool is active, with an enlarged sphere.
 TEST(Replay, OfASphereBeginsAtTheReset) {
     Played played;
-    played.turn({.actions = {Action::poke}});
+    played.turn({.actions = {actionOf(tool::poke)}});
     played.turn({.growth = 4});
     played.tools.reset();
     played.run([&](VkCommandBuffer commands) { played.document.recordReset(commands); });
@@ -158,15 +158,15 @@ void stroke(Played& played) {
 // A cut with a limited depth, enlarged by the wheel half way, and a cut that changes to a through cut.
 void incise(Played& played) {
     played.turn({}, 5);
-    played.tools.setDepth(0.12f);
-    played.turn({.actions = {Action::blade}});
+    played.tools.set(tool::blade, 0.12f);
+    played.turn({.actions = {actionOf(tool::blade)}});
     stroke(played);
     EXPECT_GT(played.tools.history().undos(), 0u);
     played.dragFrom({-0.3f, 0.02f}, {0.3f, 0}, 8);
     played.turn({.growth = 2, .pointer = {0, 0.02f}});
-    EXPECT_GT(played.tools.depth().value(), 0.12f);
+    EXPECT_GT(played.tools.setting(tool::blade).value(), 0.12f);
     played.dragFrom({0, 0.02f}, {0.3f, 0}, 8);
-    played.tools.setDepth(std::nullopt);
+    played.tools.set(tool::blade, std::nullopt);
     played.turn({.pointer = {0.32f, 0.1f}}, 3);
     played.pressAt({0.35f, 0.2f}, false);
     played.turn({}, 10);
@@ -178,8 +178,8 @@ TEST(Replay, CutsAsDeep) {
 
 TEST(Replay, OfADepthBeginsAtTheReset) {
     Played played;
-    played.tools.setDepth(0.12f);
-    played.turn({.actions = {Action::blade}});
+    played.tools.set(tool::blade, 0.12f);
+    played.turn({.actions = {actionOf(tool::blade)}});
     played.tools.reset();
     played.run([&](VkCommandBuffer commands) { played.document.recordReset(commands); });
     stroke(played);
@@ -187,17 +187,17 @@ TEST(Replay, OfADepthBeginsAtTheReset) {
     Replay replay(parseInput(toText(played.file()), "test"));
     replayAll(again, replay);
     EXPECT_EQ(again.hash(), played.hash());
-    EXPECT_EQ(again.tools.depth(), 0.12f);
+    EXPECT_EQ(again.tools.setting(tool::blade), 0.12f);
     again.tools.putAway(again.document);
-    EXPECT_FALSE(again.tools.depth());
+    EXPECT_FALSE(again.tools.setting(tool::blade));
 }
 
 // Status of the block after a stroke without gravity.
 sim::Status afterStroke(const std::optional<float>& depth) {
     Played played;
     played.tools.pull(played.document, 0);
-    played.tools.setDepth(depth);
-    played.turn({.actions = {Action::blade}});
+    played.tools.set(tool::blade, depth);
+    played.turn({.actions = {actionOf(tool::blade)}});
     stroke(played);
     EXPECT_FALSE(played.tools.question());
     return played.document.simulation().status(played.document.steps());
@@ -216,47 +216,47 @@ TEST(BladeDepth, LeavesWhatLiesDeeperInOnePiece) {
 TEST(Tools, LendTheBladeWhileAKeyIsHeldAndThePointerUsed) {
     Played scene;
     Tools& tools = scene.tools;
-    EXPECT_FALSE(tools.lendBlade(true, false)) << "for Ctrl + S nobody needs a blade";
-    EXPECT_FALSE(tools.isBladeOn());
-    EXPECT_TRUE(tools.lendBlade(true, true));
-    EXPECT_FALSE(tools.lendBlade(true, true)) << "once";
-    EXPECT_TRUE(tools.isBladeOn());
+    EXPECT_FALSE(tools.lend(actionOf(tool::blade), false)) << "for Ctrl + S nobody needs a blade";
+    EXPECT_FALSE(tools.isOn(tool::blade));
+    EXPECT_TRUE(tools.lend(actionOf(tool::blade), true));
+    EXPECT_FALSE(tools.lend(actionOf(tool::blade), true)) << "once";
+    EXPECT_TRUE(tools.isOn(tool::blade));
     scene.pressAt({0, 0}, true);
-    EXPECT_FALSE(tools.lendBlade(false, true)) << "in the middle of a stroke";
-    EXPECT_TRUE(tools.isBladeOn());
+    EXPECT_FALSE(tools.lend({}, true)) << "in the middle of a stroke";
+    EXPECT_TRUE(tools.isOn(tool::blade));
     scene.pressAt({0, 0}, false);
     for (int i = 0; i < 5; ++i) scene.turn({});
-    EXPECT_TRUE(tools.lendBlade(false, false));
-    EXPECT_FALSE(tools.isBladeOn());
+    EXPECT_TRUE(tools.lend({}, false));
+    EXPECT_FALSE(tools.isOn(tool::blade));
 
-    tools.act(Action::poke);
-    EXPECT_TRUE(tools.lendBlade(true, true));
-    EXPECT_TRUE(tools.isBladeOn() && !tools.isPokeOn());
-    EXPECT_TRUE(tools.lendBlade(false, false));
-    EXPECT_TRUE(tools.isPokeOn() && !tools.isBladeOn()) << "back in hand";
-    tools.act(Action::blade); // until the end
-    EXPECT_FALSE(tools.lendBlade(true, true));
-    EXPECT_FALSE(tools.lendBlade(false, true));
-    EXPECT_TRUE(tools.isBladeOn());
+    tools.act(actionOf(tool::poke));
+    EXPECT_TRUE(tools.lend(actionOf(tool::blade), true));
+    EXPECT_TRUE(tools.isOn(tool::blade) && !tools.isOn(tool::poke));
+    EXPECT_TRUE(tools.lend({}, false));
+    EXPECT_TRUE(tools.isOn(tool::poke) && !tools.isOn(tool::blade)) << "back in hand";
+    tools.act(actionOf(tool::blade)); // until the end
+    EXPECT_FALSE(tools.lend(actionOf(tool::blade), true));
+    EXPECT_FALSE(tools.lend({}, true));
+    EXPECT_TRUE(tools.isOn(tool::blade));
     InputFile file = scene.file();
     Scene again;
     Replay replay(file);
     EXPECT_EQ(replayAll(again, replay), Replay::Due::nothing);
     EXPECT_EQ(again.hash(), file.hash);
-    EXPECT_TRUE(again.tools.isBladeOn());
+    EXPECT_TRUE(again.tools.isOn(tool::blade));
 }
 
 // While time is paused, no step makes the cut.
 TEST(Tools, TakeTheBladeBackWhileItsStrokeWaitsForAStep) {
     Played scene;
     const auto paused = [&](Input input) { scene.turn(input, 0); };
-    ASSERT_TRUE(scene.tools.lendBlade(true, true));
+    ASSERT_TRUE(scene.tools.lend(actionOf(tool::blade), true));
     paused({.presses = {{Action::grab, true, {-0.6f, 0}}}, .pointer = {-0.6f, 0}});
     for (const float x : {-0.3f, 0.0f, 0.3f, 0.6f}) paused({.pointer = {x, 0}});
-    EXPECT_FALSE(scene.tools.lendBlade(false, true)) << "the button is down";
+    EXPECT_FALSE(scene.tools.lend({}, true)) << "the button is down";
     paused({.presses = {{Action::grab, false, {0.6f, 0}}}, .pointer = {0.6f, 0}});
-    EXPECT_TRUE(scene.tools.lendBlade(false, true));
-    EXPECT_FALSE(scene.tools.isBladeOn());
+    EXPECT_TRUE(scene.tools.lend({}, true));
+    EXPECT_FALSE(scene.tools.isOn(tool::blade));
     for (int i = 0; i < 6; ++i) scene.turn({});
     EXPECT_GT(scene.document.simulation().status(scene.document.steps() - 1).linksCutInAll, 0u);
     InputFile file = scene.file();
@@ -269,7 +269,7 @@ TEST(Tools, TakeTheBladeBackWhileItsStrokeWaitsForAStep) {
 TEST(Replay, BeginsAtTheReset) {
     Played played;
     played.tools.pull(played.document, 3);
-    played.turn({.actions = {Action::blade}});
+    played.turn({.actions = {actionOf(tool::blade)}});
     played.dragFrom({0.1f, -0.45f}, {0, 0.9f}, 2);
     played.tools.reset();
     played.run([&](VkCommandBuffer commands) { played.document.recordReset(commands); });
@@ -315,15 +315,23 @@ TEST(InputFile, BringsEveryBitBack) {
                          .room = 64,
                          .surface = 5000,
                          .events = {camera, Pointed{{odd, 3e8f}}, Action::undo, Answered{},
-                                    Answered{Question::Asker::pin, Pick{3, {odd, 0, 0}, {0, odd, 0}}, odd},
-                                    Pulled{odd}, Turned{{odd, {odd, 2}, {}, 0.0f}}, Turned{}, Deepened{odd},
-                                    Deepened{}, Answered{Question::Asker::blade},
-                                    Shaped{sim::Solver::gaussSeidel, 1000}, Forgot{}, Stepped{3}},
+                                    Answered{indexOf(tool::pins), Pick{3, {odd, 0, 0}, {0, odd, 0}}, odd},
+                                    Pulled{odd}, Turned{{odd, {odd, 2}, {}, 0.0f}}, Turned{},
+                                    ToolSet{indexOf(tool::blade), odd}, ToolSet{indexOf(tool::blade), {}},
+                                    Answered{indexOf(tool::blade)}, Shaped{sim::Solver::gaussSeidel, 1000},
+                                    Forgot{}, Stepped{3}},
                          .hash = 0xfedcba9876543210u};
     const InputFile read = parseInput(toText(file), "test");
     EXPECT_EQ(read.events, file.events);
     EXPECT_EQ(read.from, file.from);
     EXPECT_EQ(toText(read), toText(file));
+}
+
+TEST(InputFile, HasTheLinesThatToolsHadBefore) {
+    const std::string text = "sinew input 2\nkey C\ndepth 0.25\nkey O\nradius 0.5\npress 0.5 0.25\n"
+                             "poke 7 1 2 3 4 5 6 0.125\nrelease 0 0\nkey N\npin nothing\nhand nothing\n"
+                             "blade 1 0 0 0 0 0 0 2\nkey Esc\ndepth -\nsteps 4\n";
+    EXPECT_EQ(toText(parseInput(text, "test")), text);
 }
 
 std::string complaintAbout(const std::string& text) {
@@ -422,7 +430,7 @@ TEST(StepBack, BringsBackWhatWasCutAndForgetsTheWayToIt) {
     Walk walk;
     walk.turn({}, 5);
     const std::uint64_t before = walk.hash();
-    walk.tools.act(Action::blade);
+    walk.tools.act(actionOf(tool::blade));
     walk.dragFrom({0, -0.4f}, {0, 0.8f}, 6);
     walk.pressAt({0, 0.4f}, false);
     ASSERT_EQ(walk.tools.history().undos(), 1u);
@@ -430,7 +438,7 @@ TEST(StepBack, BringsBackWhatWasCutAndForgetsTheWayToIt) {
     const auto steps = static_cast<int>(walk.document.played()) - 5;
     EXPECT_EQ(walk.backAndHash(steps), before);
     EXPECT_EQ(walk.tools.history().undos(), 0u) << "there is no cut yet";
-    walk.tools.act(Action::blade);
+    walk.tools.act(actionOf(tool::blade));
     walk.turn({});
     EXPECT_EQ(walk.document.simulation().status(walk.document.steps()).linksCutInAll, 0u);
 }

@@ -54,7 +54,7 @@ TEST_F(ReplayOfState, LeadsToTheSameBits) {
     played.turn({}, 5);
     played.tools.turn(played.document, {.stiffness = 0.5f});
     played.tools.pull(played.document, 5);
-    played.turn({.actions = {Action::blade}});
+    played.turn({.actions = {actionOf(tool::blade)}});
     played.dragFrom({0.1f, -0.45f}, {0.05f, 0.9f}, 5);
     played.pressAt({0.15f, 0.45f}, false);
     played.turn({}, 5);
@@ -64,10 +64,10 @@ TEST_F(ReplayOfState, LeadsToTheSameBits) {
     EXPECT_EQ(on.document.material().stiffness, 0.5f);
     on.turn({}, 3);
     const std::uint64_t untouched = on.hash();
-    on.turn({.actions = {Action::blade}});
+    on.turn({.actions = {actionOf(tool::blade)}});
     on.dragFrom({-0.45f, 0.05f}, {0.9f, 0}, 6);
     on.pressAt({0.45f, 0.05f}, false);
-    on.turn({.actions = {Action::blade}}, 4);
+    on.turn({.actions = {actionOf(tool::blade)}}, 4);
     on.dragFrom({0, 0.1f}, {0.1f, -0.2f}, 4);
     on.tools.turn(on.document, {.stiffness = 2});
     on.turn({}, 5);

@@ -63,13 +63,13 @@ void pinCutAndHold(Played& played) {
     played.turn({}, 5);
     played.tools.pull(played.document, 3);
     played.dragFrom({0, 0}, {0.1f, -0.1f}, 3);
-    played.turn({.actions = {Action::pin}, .pointer = {0.1f, -0.1f}});
-    ASSERT_EQ(played.tools.pins(), 1u);
+    played.turn({.actions = {actionOf(tool::pins)}, .pointer = {0.1f, -0.1f}});
+    ASSERT_EQ(played.tools.overlay().pins.size(), 1u);
     played.pressAt({0.1f, -0.1f}, false);
-    played.turn({.actions = {Action::blade}});
+    played.turn({.actions = {actionOf(tool::blade)}});
     played.dragFrom({-0.5f, 0.1f}, {1, 0}, 6);
     played.pressAt({0.5f, 0.1f}, false);
-    played.turn({.actions = {Action::blade}}, 4);
+    played.turn({.actions = {actionOf(tool::blade)}}, 4);
     played.dragFrom({-0.1f, 0}, {0, -0.1f}, 3);
 }
 
@@ -89,7 +89,7 @@ TEST(StageTakeOver, KeepsPlacesCutsPinsGravityAndTime) {
     EXPECT_EQ(next.document.steps(), before.document.steps());
     EXPECT_EQ(next.document.played(), before.document.played());
     EXPECT_EQ(next.document.gravity().y, -3);
-    EXPECT_EQ(next.tools.pins(), 1u);
+    EXPECT_EQ(next.tools.overlay().pins.size(), 1u);
     EXPECT_TRUE(next.tools.isHolding());
     EXPECT_EQ(next.tools.history().times(), before.tools.history().times());
     EXPECT_EQ(next.tools.stepsBack(), 0u) << "of single steps there is no way back";
@@ -108,10 +108,10 @@ TEST(StageTakeOver, KeepsPlacesCutsPinsGravityAndTime) {
 
 // A cut across the block at this height.
 void cutAt(Played& played, float height) {
-    played.turn({.actions = {Action::blade}});
+    played.turn({.actions = {actionOf(tool::blade)}});
     played.dragFrom({-0.5f, height}, {1, 0}, 6);
     played.pressAt({0.5f, height}, false);
-    played.turn({.actions = {Action::blade}}, 4);
+    played.turn({.actions = {actionOf(tool::blade)}}, 4);
 }
 
 // Two cuts, the second of which is undone, and the hashes of all states: before both, after the first, after

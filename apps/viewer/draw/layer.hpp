@@ -1,5 +1,5 @@
 // A layer as one record: its key, its names, how its buffers are made, how it is drawn, and its legend. To
-// add a layer, write a file in viewer/layers and a row of the table there (docs/extending.md).
+// add a layer, write a file in viewer/layers and a row of the table there (docs/extending-viewer.md).
 #pragma once
 
 #include "sinew/simulation.hpp"

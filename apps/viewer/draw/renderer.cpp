@@ -57,8 +57,8 @@ bool isSoftware(const vk::Device& device) {
 Renderer::Renderer(const vk::Device& device, const Target& target, const Quality& quality,
                    const SceneLight& light)
     : device_(device), light_(light), colliders_(device, light.colliders),
-      poke_(device, {{.radius = 1, .color = handColor}}), format_{target.color, canvasDepthFormat(device),
-                                                                  quality.samples},
+      sphere_(device, {{.radius = 1, .color = handColor}}), format_{target.color, canvasDepthFormat(device),
+                                                                    quality.samples},
       finalLayout_(target.finalLayout), quality_(quality), drawsEdges_(viewer::drawsEdges(device)),
       maps_(device, quality.shadowSize, quality.floorSize),
       pass_(RenderPass::picture(device, {.color = format_.color,

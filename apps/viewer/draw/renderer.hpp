@@ -216,7 +216,7 @@ private:
 
     const vk::Device& device_;
     SceneLight light_;
-    ColliderMeshes colliders_, poke_; // the second: a sphere of radius 1
+    ColliderMeshes colliders_, sphere_; // the second: of radius 1, for colliders of tools
     CanvasFormat format_;
     VkImageLayout finalLayout_;
     Quality quality_;

@@ -91,11 +91,11 @@ void Renderer::drawColliders(VkCommandBuffer commands, std::size_t pipeline,
 // Draws the spheres at the simulation's positions, which may lag behind the pointer.
 void Renderer::drawHostColliders(VkCommandBuffer commands, std::size_t pipeline,
                                  const sim::Simulation& simulation) const noexcept {
-    const ColliderMeshes::Range& sphere = poke_.ranges().front();
+    const ColliderMeshes::Range& sphere = sphere_.ranges().front();
     for (const sim::HostColliderState& state : simulation.hostColliders()) {
         if (!state.isThere || state.hostCollider.shape != sim::ColliderShape::sphere) continue;
         bind(commands, pipeline);
-        bindMesh(commands, poke_.vertices(), poke_.indices());
+        bindMesh(commands, sphere_.vertices(), sphere_.indices());
         push(commands, sphere.color, colliderGloss, state.hostCollider.pose, state.hostCollider.radius);
         device_.functions().vkCmdDrawIndexed(commands, sphere.indexCount, 1, sphere.firstIndex,
                                              sphere.firstVertex, 0);

@@ -2,13 +2,13 @@
 #include "viewer/hands/bindings.hpp"
 
 #include "viewer/draw/layer.hpp"
+#include "viewer/hands/tool.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 namespace sinew::viewer {
 
@@ -19,7 +19,19 @@ constexpr auto key = Trigger::Kind::key, drag = Trigger::Kind::drag, wheel = Tri
                doubleClick = Trigger::Kind::doubleClick, held = Trigger::Kind::held;
 
 // Bindings of one action are adjacent; the help shows the text of the first one.
-constexpr std::array beforeLayers{
+// A phrase for each tool that has one, such as Tool::letGo.
+std::string phrases(std::string_view Tool::*phrase, std::string_view between) {
+    std::string all;
+    for (const Tool* tool : toolTable()) {
+        const std::string_view words = tool->*phrase;
+        if (!words.empty()) all.append(all.empty() ? "" : between).append(words);
+    }
+    return all;
+}
+
+const std::string settingsHelp = phrases(&Tool::settingHelp, "; "), letGoHelp = phrases(&Tool::letGo, ", ");
+
+const std::array beforeTools{
     Binding{{drag, GLFW_MOUSE_BUTTON_LEFT}, grab, "left drag", "on a body: grab and pull; elsewhere: orbit"},
     Binding{{drag, GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_CONTROL},
             grab,
@@ -29,8 +41,7 @@ constexpr std::array beforeLayers{
     Binding{{drag, GLFW_MOUSE_BUTTON_MIDDLE}, pan, "middle drag", "pan"},
     Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOD_SHIFT}, pan, "Shift + right drag", "pan"},
     Binding{{wheel}, zoom, "wheel", "zoom to the pointer"},
-    Binding{
-        {wheel, 0, GLFW_MOD_SHIFT}, toolSize, "Shift + wheel", "depth of the blade; radius of the sphere"},
+    Binding{{wheel, 0, GLFW_MOD_SHIFT}, toolSize, "Shift + wheel", settingsHelp},
     Binding{{wheel, 0, GLFW_MOD_ALT}, moveSection, "Alt + wheel", "move the section plane"},
     Binding{{doubleClick, GLFW_MOUSE_BUTTON_LEFT},
             center,
@@ -44,22 +55,10 @@ constexpr std::array beforeLayers{
     Binding{{key, GLFW_KEY_PERIOD}, step, ".", "pause and take one step", "Step"},
     Binding{{key, GLFW_KEY_COMMA}, stepBack, ",", "pause and undo one step", "Back"},
     Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
-    Binding{{key, GLFW_KEY_C}, blade, "C", "blade: left drag cuts, through or to the set depth", "Blade"},
-    Binding{{held, 0, GLFW_MOD_CONTROL},
-            blade,
-            "Ctrl held",
-            "blade: left drag cuts, through or to the set depth"},
-    Binding{{key, GLFW_KEY_O}, poke, "O", "poke: left drag pushes with a sphere", "Poke"},
-    Binding{{key, GLFW_KEY_ESCAPE},
-            drop,
-            "Esc",
-            "put the blade away, lift the sphere, release the body",
-            "Let go"},
-    Binding{{key, GLFW_KEY_N},
-            pin,
-            "N",
-            "pin the held body, or the one under the pointer; on a pin: remove it",
-            "Pin"},
+};
+
+const std::array afterTools{
+    Binding{{key, GLFW_KEY_ESCAPE}, drop, "Esc", letGoHelp, "Let go"},
     Binding{{key, GLFW_KEY_Z, GLFW_MOD_CONTROL}, undo, "Ctrl + Z", "undo a cut", "Undo"},
     Binding{
         {key, GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, redo, "Shift + Ctrl + Z", "redo a cut", "Redo"},
@@ -135,7 +134,15 @@ constexpr std::array afterLayers{
 
 // GLFW's codes of digits and letters are their characters.
 std::vector<Binding> allBindings() {
-    std::vector<Binding> all(beforeLayers.begin(), beforeLayers.end());
+    std::vector<Binding> all(beforeTools.begin(), beforeTools.end());
+    for (const Tool* tool : toolTable()) {
+        if (tool->key == 0) continue;
+        const Action action = actionOf(*tool);
+        all.push_back({{key, tool->key}, action, {&tool->key, 1}, tool->help, tool->button});
+        if (tool->isLent)
+            all.push_back({{held, 0, GLFW_MOD_CONTROL}, action, "Ctrl held", tool->help, tool->button});
+    }
+    all.insert(all.end(), afterTools.begin(), afterTools.end());
     for (std::size_t i = 0; i < layerTable().size(); ++i) {
         const Layer& layer = *layerTable()[i];
         all.push_back({{key, layer.key}, actionOfLayer(i), {&layer.key, 1}, layer.help, layer.button});
@@ -147,6 +154,15 @@ std::vector<Binding> allBindings() {
 const std::vector<Binding> table = allBindings();
 
 } // namespace
+
+std::optional<std::size_t> toolOf(Action action) {
+    const auto index = static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::firstTool);
+    return index < toolTable().size() ? std::optional(index) : std::nullopt;
+}
+
+Action actionOf(const Tool& tool) {
+    return static_cast<Action>(static_cast<std::size_t>(Action::firstTool) + indexOf(tool));
+}
 
 std::optional<std::size_t> layerOf(Action action) {
     const auto index = static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::firstLayer);
@@ -196,48 +212,45 @@ std::string_view keyOf(Action action) {
     return found == table.end() ? std::string_view() : found->shown;
 }
 
-std::string depthText(const std::optional<float>& depth) {
-    if (!depth) return "through";
-    char text[40];
-    std::snprintf(text, sizeof text, "%.3g m deep", double{*depth});
-    return text;
+void HintLine::add(std::string_view words, std::initializer_list<Action> keys) {
+    if (!text_.empty()) text_.append("   \u00b7   ");
+    const char* between = "";
+    for (const Action action : keys) {
+        text_.append(between).append(keyOf(action));
+        between = " or ";
+    }
+    text_.append(keys.size() > 0 ? " " : "").append(words);
 }
 
-std::string hintText(Hands hands, bool canCut, const std::optional<float>& depth) {
-    constexpr std::string_view apart = "   \u00b7   ";
-    std::string text;
-    const auto add = [&](std::string_view words, std::initializer_list<Action> keys = {}) {
-        if (!text.empty()) text.append(apart);
-        const char* between = "";
-        for (const Action action : keys) {
-            text.append(between).append(keyOf(action));
-            between = " or ";
-        }
-        text.append(keys.size() > 0 ? " " : "").append(words);
-    };
-    if (hands == Hands::holding) {
-        add("pull; release the button to let go");
-        add("pins it there", {pin});
-    } else if (hands == Hands::blade) {
-        add("left drag cuts " + depthText(depth));
-        add("changes its depth", {toolSize});
-        add("puts the blade away", {blade});
-        add("undoes a cut", {undo});
-    } else if (hands == Hands::poke) {
-        add("left drag pushes");
-        add("changes its size", {toolSize});
-        add("puts the sphere away", {Action::poke});
-    } else {
-        add("left drag grabs");
-        if (canCut) add("cuts", {blade});
-        add("pokes", {Action::poke});
-        add("orbits", {orbit});
-        add("pauses", {pause});
-        add("resets", {reset});
+namespace {
+
+// The offers of all tools: first that of the one without a key.
+void addOffers(HintLine& line, std::string_view Tool::*offer, const std::array<bool, mostTools>& canUse) {
+    for (const Tool* tool : toolTable())
+        if (tool->key == 0 && !(tool->*offer).empty()) line.add(tool->*offer);
+    for (std::size_t i = 0; i < toolTable().size(); ++i) {
+        const Tool& tool = *toolTable()[i];
+        if (tool.key != 0 && canUse[i] && !(tool.*offer).empty()) line.add(tool.*offer, {actionOf(tool)});
     }
-    add("panels", {Action::panels});
-    add("help", {help});
-    return text;
+}
+
+} // namespace
+
+std::string hintText(const HintFacts& facts) {
+    HintLine line;
+    if (facts.inUse) {
+        const Tool& tool = *toolTable()[*facts.inUse];
+        if (tool.addHints != nullptr) tool.addHints(line, facts.setting);
+        if (tool.key == 0) addOffers(line, &Tool::offerHeld, facts.canUse);
+    } else {
+        addOffers(line, &Tool::offer, facts.canUse);
+        line.add("orbits", {orbit});
+        line.add("pauses", {pause});
+        line.add("resets", {reset});
+    }
+    line.add("panels", {Action::panels});
+    line.add("help", {help});
+    return line.text();
 }
 
 std::string shortHintText() {

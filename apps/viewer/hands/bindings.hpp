@@ -2,6 +2,9 @@
 // are made.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +12,14 @@
 #include <vector>
 
 namespace sinew::viewer {
+
+struct Tool;
+
+/// All tools of the pointer, in the order of keys and buttons (hands/tool.hpp). At most mostTools.
+std::span<const Tool* const> toolTable();
+constexpr std::size_t mostTools = 8;
+/// Index into toolTable().
+std::size_t indexOf(const Tool& tool);
 
 enum class Action {
     grab,
@@ -24,10 +35,7 @@ enum class Action {
     step,
     stepBack,
     reset,
-    blade,
-    poke,
     drop,
-    pin,
     undo,
     redo,
     slowMotion,
@@ -59,12 +67,19 @@ enum class Action {
     panels,
     help,
     quit,
-    firstLayer ///< turns the first row of layerTable() to its next look; those of further rows follow
+    firstTool, ///< the key of the first row of toolTable(); those of further rows follow
+    firstLayer =
+        firstTool +
+        mostTools ///< turns the first row of layerTable() to its next look; those of further rows follow
 };
 
 /// The layer that an action turns to its next look: index into layerTable().
 std::optional<std::size_t> layerOf(Action action);
 Action actionOfLayer(std::size_t layer);
+
+/// The tool whose key an action is: index into toolTable().
+std::optional<std::size_t> toolOf(Action action);
+Action actionOf(const Tool& tool);
 
 /// A user input. `code` and `modifiers` are GLFW's: a key, a mouse button, or 0 for the wheel and for
 /// modifiers that are held.
@@ -98,12 +113,23 @@ std::string helpText();
 
 /// Name of the first key of an action: "Space".
 std::string_view keyOf(Action action);
-/// One line on the possible actions: with the blade or the sphere, while a body is held, or without a tool.
-/// `depth` of the blade [m], empty = through.
-enum class Hands { empty, holding, blade, poke };
-std::string hintText(Hands hands, bool canCut, const std::optional<float>& depth = {});
-/// Depth of a blade: "0.012 m deep", "through".
-std::string depthText(const std::optional<float>& depth);
+/// Hints one after the other, each with the keys that it is about.
+class HintLine {
+public:
+    void add(std::string_view words, std::initializer_list<Action> keys = {});
+    const std::string& text() const { return text_; }
+
+private:
+    std::string text_;
+};
+/// Facts about the tools for their hints.
+struct HintFacts {
+    std::optional<std::size_t> inUse;     ///< index into toolTable(); empty = none
+    std::array<bool, mostTools> canUse{}; ///< in this scene, by that index
+    std::optional<float> setting;         ///< of the one in use
+};
+/// One line on the possible actions.
+std::string hintText(const HintFacts& facts);
 /// For windows without room for hintText(): only how to get help.
 std::string shortHintText();
 

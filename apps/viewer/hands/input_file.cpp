@@ -4,6 +4,7 @@
 #include "app/guard.hpp"
 #include "sim/compile/compile.hpp"
 #include "sinew/ranges.hpp"
+#include "viewer/hands/tool.hpp"
 
 #include <algorithm>
 #include <array>
@@ -72,13 +73,11 @@ std::string text(Action action) {
     return "key " + std::string(keyOf(action)) + "\n";
 }
 
-constexpr std::array<std::string_view, 4> askers{"hand", "pin", "poke", "blade"};
-
 std::string text(const Answered& answered) {
-    const std::string asker(askers[static_cast<std::size_t>(answered.asker)]);
-    if (!answered.pick) return asker + " nothing\n";
+    const std::string_view tool = toolTable()[answered.tool]->name;
+    if (!answered.pick) return Line(tool).addWord("nothing").end();
     const Pick& pick = *answered.pick;
-    return Line(asker).add(pick.particle).addAll(pick.point).addAll(pick.offset).add(answered.radius).end();
+    return Line(tool).add(pick.particle).addAll(pick.point).addAll(pick.offset).add(answered.radius).end();
 }
 
 std::string text(const Pulled& pulled) {
@@ -102,12 +101,9 @@ std::string text(const Shaped& shaped) {
     return Line("solve").addWord(sim::solverName(shaped.solver)).add(shaped.substeps).end();
 }
 
-std::string text(const Sized& sized) {
-    return Line("radius").add(sized.radius).end();
-}
-
-std::string text(const Deepened& deepened) {
-    return deepened.depth ? Line("depth").add(*deepened.depth).end() : "depth -\n";
+std::string text(const ToolSet& set) {
+    Line line(toolTable()[set.tool]->setting);
+    return set.setting ? line.add(*set.setting).end() : line.addWord("-").end();
 }
 
 std::string text(const Forgot& forgot) {
@@ -196,16 +192,32 @@ Action readKey(Words& words) {
     return known->action;
 }
 
-template <Question::Asker asker> void readAnswer(InputFile& to, Words& words) {
+Answered readAnswer(std::size_t tool, Words& words) {
     const std::string first = words.word();
-    if (first == "nothing") {
-        to.events.emplace_back(Answered{.asker = asker});
-        return;
-    }
+    if (first == "nothing") return {.tool = tool};
     Pick pick{.particle = Words(first).number<std::uint32_t>()};
     pick.point = words.triple();
     pick.offset = words.triple();
-    to.events.emplace_back(Answered{asker, pick, words.finite()});
+    return {tool, pick, words.finite()};
+}
+
+ToolSet readSetting(std::size_t tool, Words& words) {
+    return {tool, toolTable()[tool]->isSettingOptional ? words.finiteOrNone() : words.finite()};
+}
+
+// An answer to the question of a tool, or its setting; false if no tool has lines of this name.
+bool readTool(const std::string& name, InputFile& to, Words& words) {
+    for (std::size_t i = 0; i < toolTable().size(); ++i) {
+        const Tool& tool = *toolTable()[i];
+        if (name == tool.name)
+            to.events.emplace_back(readAnswer(i, words));
+        else if (name == tool.setting)
+            to.events.emplace_back(readSetting(i, words));
+        else
+            continue;
+        return true;
+    }
+    return false;
 }
 
 sim::Material readMaterial(Words& words) {
@@ -260,13 +272,6 @@ const std::array readers{
     Reader{"press", readPress<true>},
     Reader{"release", readPress<false>},
     Reader{"key", [](InputFile& to, Words& words) { to.events.emplace_back(readKey(words)); }},
-    Reader{"hand", readAnswer<Question::Asker::hand>},
-    Reader{"pin", readAnswer<Question::Asker::pin>},
-    Reader{"poke", readAnswer<Question::Asker::poke>},
-    Reader{"blade", readAnswer<Question::Asker::blade>},
-    Reader{"depth",
-           [](InputFile& to, Words& words) { to.events.emplace_back(Deepened{words.finiteOrNone()}); }},
-    Reader{"radius", [](InputFile& to, Words& words) { to.events.emplace_back(Sized{words.finite()}); }},
     Reader{"gravity", [](InputFile& to, Words& words) { to.events.emplace_back(Pulled{words.finite()}); }},
     Reader{"material",
            [](InputFile& to, Words& words) { to.events.emplace_back(Turned{readMaterial(words)}); }},
@@ -281,8 +286,10 @@ void readLine(const std::string& line, InputFile& file) {
     Words words(line);
     const std::string name = words.word();
     const auto* reader = std::ranges::find(readers, name, &Reader::name);
-    if (reader == readers.end()) throw std::runtime_error("unknown event: " + name);
-    reader->read(file, words);
+    if (reader != readers.end())
+        reader->read(file, words);
+    else if (!readTool(name, file, words))
+        throw std::runtime_error("unknown event: " + name);
     words.end();
 }
 

@@ -11,8 +11,7 @@ void InputLog::restart() {
     camera_.reset();
     pointed_.reset();
     gravity_.reset();
-    radius_.reset();
-    depth_.reset();
+    settings_.fill(std::nullopt);
     material_ = {};
 }
 
@@ -63,16 +62,10 @@ void InputLog::shape(const Shaped& shaped) {
     pointed_.reset();
 }
 
-void InputLog::size(float radius) {
-    if (radius_ == radius) return;
-    radius_ = radius;
-    events_.emplace_back(Sized{radius});
-}
-
-void InputLog::deepen(const std::optional<float>& depth) {
-    if (depth_ == depth) return;
-    depth_ = depth;
-    events_.emplace_back(Deepened{depth});
+void InputLog::set(std::size_t tool, const std::optional<float>& setting) {
+    if (settings_[tool] == setting) return;
+    settings_[tool] = setting;
+    events_.emplace_back(ToolSet{tool, setting});
 }
 
 void InputLog::forget(const Forgot& forgot) {

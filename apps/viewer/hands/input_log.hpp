@@ -7,6 +7,7 @@
 #include "viewer/hands/bindings.hpp"
 #include "viewer/hands/pick.hpp"
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <variant>
@@ -19,7 +20,7 @@ struct Pointed {
     Vector2 at = Vector2::Zero();
     bool operator==(const Pointed&) const = default;
 };
-/// Press or release of the button that grabs, cuts or pokes.
+/// Press or release of the button of the tools.
 struct Pressed {
     bool isDown = false;
     Vector2 at = Vector2::Zero();
@@ -27,7 +28,7 @@ struct Pressed {
 };
 /// The answer to a tool's question (see Tools::answer).
 struct Answered {
-    Question::Asker asker = Question::Asker::hand;
+    std::size_t tool = 0; ///< index into toolTable()
     std::optional<Pick> pick;
     float radius = 0;
     bool operator==(const Answered&) const = default;
@@ -49,15 +50,11 @@ struct Shaped {
     std::uint32_t substeps = 0;
     bool operator==(const Shaped&) const = default;
 };
-/// Radius of the sphere that pokes, from here on [m].
-struct Sized {
-    float radius = 0;
-    bool operator==(const Sized&) const = default;
-};
-/// Depth of the blade, from here on [m]; empty = through.
-struct Deepened {
-    std::optional<float> depth;
-    bool operator==(const Deepened&) const = default;
+/// The setting of a tool, from here on (Tool::setting).
+struct ToolSet {
+    std::size_t tool = 0; ///< index into toolTable()
+    std::optional<float> setting;
+    bool operator==(const ToolSet&) const = default;
 };
 /// Loss of all states to undo, or only of those of single steps.
 struct Forgot {
@@ -69,8 +66,8 @@ struct Stepped {
     std::uint32_t count = 0;
     bool operator==(const Stepped&) const = default;
 };
-using InputEvent = std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Turned, Shaped, Sized,
-                                Deepened, Forgot, Stepped>;
+using InputEvent = std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Turned, Shaped, ToolSet,
+                                Forgot, Stepped>;
 
 /// Collects events; skips those that change nothing.
 class InputLog {
@@ -88,8 +85,7 @@ public:
     void pull(float gravity);
     void turn(const sim::Material& material);
     void shape(const Shaped& shaped);
-    void size(float radius);
-    void deepen(const std::optional<float>& depth);
+    void set(std::size_t tool, const std::optional<float>& setting);
     void forget(const Forgot& forgot = {});
     /// Call after a step was recorded.
     void step();
@@ -106,8 +102,9 @@ private:
     std::vector<InputEvent> events_;
     std::optional<Camera> camera_;
     std::optional<Pointed> pointed_; // empty: the next position counts in any case
-    std::optional<float> gravity_, radius_, depth_;
-    sim::Material material_; // the scene's own after a reset
+    std::optional<float> gravity_;
+    std::array<std::optional<float>, mostTools> settings_; // of tools, as far as they are known
+    sim::Material material_;                               // the scene's own after a reset
 };
 
 /// The saved state from which a log starts.

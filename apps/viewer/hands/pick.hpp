@@ -19,12 +19,12 @@ struct Pick {
 /// Whether fixed particles may be picked.
 enum class Among { moving, all };
 
-/// A pick that a tool asks for. A preview is only drawn.
+/// A pick that a tool asks for.
 struct Question {
-    enum class Asker { hand, pin, poke, blade, preview } asker = Asker::hand;
+    std::size_t tool = 0; ///< index into toolTable()
     Ray ray;
-    /// Fixed particles can be cut or pinned, not grabbed or poked; the key N reports that they are held.
-    Among among() const { return asker == Asker::hand || asker == Asker::poke ? Among::moving : Among::all; }
+    Among among = Among::all;
+    bool isPreview = false; ///< its answer is only drawn
     bool operator==(const Question&) const = default;
 };
 

@@ -117,12 +117,12 @@ struct SceneFacts {
 
 /// Facts that change.
 struct Facts {
-    bool isPaused = false, isDiverged = false, isVsync = true, isBladeOn = false, isPokeOn = false,
-         isHolding = false, isRecording = false;
+    bool isPaused = false, isDiverged = false, isVsync = true, isRecording = false;
+    std::array<bool, mostTools> toolsOn{}; ///< whose buttons are lit, by index into toolTable()
+    HintFacts hint;
     /// Set if pictures have plain shadows and no antialiasing, on a software device while something moves:
     /// the ratio of sides of the drawn image. Empty = full quality.
     std::optional<float> reduced;
-    std::size_t pins = 0; ///< number of pins that hold something
     double framesPerSecond = 0;
     double pace = 1;     ///< requested seconds of the scene per second of the clock
     double keptPace = 1; ///< achieved pace

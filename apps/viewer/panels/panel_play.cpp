@@ -1,4 +1,5 @@
 // Buttons for the actions of keys.
+#include "viewer/hands/tool.hpp"
 #include "viewer/panels/panel_parts.hpp"
 
 #include <cstdio>
@@ -15,6 +16,19 @@ std::string timeText(const Facts& facts) {
     return text;
 }
 
+// Four buttons a line; the last one is that of Esc.
+void tools(const Facts& facts, Wishes& wishes) {
+    constexpr std::size_t inALine = 4;
+    const float width = buttonWidth(inALine);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < toolTable().size(); ++i) {
+        if (toolTable()[i]->key == 0) continue;
+        button(actionOf(*toolTable()[i]), wishes, width, facts.toolsOn[i]);
+        if (++count % inALine != 0) ImGui::SameLine();
+    }
+    button(Action::drop, wishes, width);
+}
+
 } // namespace
 
 void play(const Facts& facts, Wishes& wishes) {
@@ -29,14 +43,7 @@ void play(const Facts& facts, Wishes& wishes) {
     button(Action::reset, wishes, width);
     ImGui::SameLine();
     button(Action::slowMotion, wishes, width, facts.knobs.pace < 1);
-    width = buttonWidth(4);
-    button(Action::blade, wishes, width, facts.isBladeOn);
-    ImGui::SameLine();
-    button(Action::poke, wishes, width, facts.isPokeOn);
-    ImGui::SameLine();
-    button(Action::pin, wishes, width, facts.pins > 0);
-    ImGui::SameLine();
-    button(Action::drop, wishes, width);
+    tools(facts, wishes);
     width = buttonWidth(3);
     button(Action::frame, wishes, width);
     ImGui::SameLine();

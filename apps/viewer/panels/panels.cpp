@@ -267,7 +267,7 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     wishes.previews.emplace();
     ImGui::NewFrame();
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
-    buildHint(scene, facts, extent);
+    buildHint(facts, extent);
     buildNotice(facts, extent);
     const float side = isShown(extent) ? (sidePanel + gap) * scale_ : 0;
     parts::probe(facts, scale_, static_cast<float>(extent.width) - side);
@@ -332,15 +332,11 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     ImGui::End();
 }
 
-void Panels::buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D extent) {
-    const Hands hands = facts.isHolding   ? Hands::holding
-                        : facts.isBladeOn ? Hands::blade
-                        : facts.isPokeOn  ? Hands::poke
-                                          : Hands::empty;
+void Panels::buildHint(const Facts& facts, VkExtent2D extent) {
     const float edge = gap * scale_, pad = 10 * scale_;
     const float room =
         static_cast<float>(extent.width) - 2 * edge - (isShown(extent) ? sidePanel * scale_ + edge : 0);
-    std::string text = hintText(hands, scene.canCut, facts.knobs.bladeDepth);
+    std::string text = hintText(facts.hint);
     if (ImGui::CalcTextSize(text.c_str()).x + 2 * pad > room) text = shortHintText();
     ImGui::SetNextWindowPos({edge, static_cast<float>(extent.height) - edge}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowBgAlpha(0.85f);

@@ -72,7 +72,7 @@ private:
     void feedKeys(const PanelInput& input);
     bool isAsking() const;
     void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
-    void buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D extent);
+    void buildHint(const Facts& facts, VkExtent2D extent);
     void buildNotice(const Facts& facts, VkExtent2D extent);
     void remember();
 

@@ -21,7 +21,7 @@ public:
     /// Number of pieces of cut bodies with a surface.
     void setPieces(const app::PieceCount& pieces);
     /// Sets the text for the tool in hand, such as " - holding".
-    void setTool(const char* tool) { tool_ = tool; }
+    void setTool(std::string tool) { tool_ = std::move(tool); }
 
     /// A new title, twice a second or when the state of playing has changed; otherwise empty.
     std::optional<std::string> title(bool isPaused, bool isDiverged);

@@ -1,6 +1,6 @@
 // Asks for the first point of a stroke, and then for the newest one. If that one misses, bisection finds
 // where the stroke has left or met a body. A body crossed entirely between two such points is missed.
-#include "viewer/hands/waiting_stroke.hpp"
+#include "viewer/tools/waiting_stroke.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,9 +1,19 @@
 // States of a grab: pressed, asked, answered, released.
-#include "viewer/hands/grab_tool.hpp"
+#include "viewer/tools/grab_tool.hpp"
 
 #include <utility>
 
 namespace sinew::viewer {
+
+constinit const Tool tool::hand{
+    .name = "hand",
+    .title = "holding",
+    .letGo = "release the body",
+    .offer = "left drag grabs",
+    .addHints = [](HintLine& line,
+                   const std::optional<float>&) { line.add("pull; release the button to let go"); },
+    .among = Among::moving,
+    .make = [](const ToolContext&) -> std::unique_ptr<ToolState> { return std::make_unique<GrabTool>(); }};
 
 void GrabTool::press(const Camera& camera, const Vector2& pointer) {
     release();
@@ -46,6 +56,15 @@ std::optional<Hand> GrabTool::hand() const {
     if (grabs_.empty()) return std::nullopt;
     const sim::Vec3& target = grabs_[0].target;
     return Hand{grabs_[0].particle, offset_, {target.x, target.y, target.z}};
+}
+
+std::optional<Held> GrabTool::held() const {
+    const std::optional<Hand> held = hand();
+    return held ? std::optional(Held{*held, radius()}) : std::nullopt;
+}
+
+void GrabTool::addTo(StepHands& hands) {
+    if (isHolding()) hands.grabs[0] = grabs_[0];
 }
 
 } // namespace sinew::viewer

@@ -1,5 +1,5 @@
 // States of a poke: pressed, asked, answered, released.
-#include "viewer/hands/poke_tool.hpp"
+#include "viewer/tools/poke_tool.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -16,6 +16,26 @@ Vector3 toVector(const sim::Vec3& v) {
 }
 
 } // namespace
+
+constinit const Tool tool::poke{.name = "poke",
+                                .title = "poke",
+                                .key = 'O',
+                                .help = "poke: left drag pushes with a sphere",
+                                .button = "Poke",
+                                .letGo = "lift the sphere",
+                                .offer = "pokes",
+                                .addHints =
+                                    [](HintLine& line, const std::optional<float>&) {
+                                        line.add("left drag pushes");
+                                        line.add("changes its size", {Action::toolSize});
+                                        line.add("puts the sphere away", {actionOf(tool::poke)});
+                                    },
+                                .setting = "radius",
+                                .settingHelp = "radius of the sphere",
+                                .among = Among::moving,
+                                .make = [](const ToolContext& of) -> std::unique_ptr<ToolState> {
+                                    return std::make_unique<PokeTool>(of.light.radius(), of.scene.planes);
+                                }};
 
 PokeTool::PokeTool(float size, std::vector<sim::Plane> planes)
     : size_(std::max(size, 1e-3f)), radius_(ofSize * size_), planes_(std::move(planes)) {}
@@ -45,7 +65,7 @@ void PokeTool::release() {
     center_.reset();
 }
 
-void PokeTool::answer(const std::optional<Pick>& pick) {
+void PokeTool::answer(const std::optional<Pick>& pick, float) {
     if (!question_) return;
     const Ray ray = *std::exchange(question_, std::nullopt);
     if (pick) planePoint_ = pick->point;

@@ -1,9 +1,10 @@
 // Moves shorter than a pixel or two are collected; if steps cannot keep up with a stroke, its pieces get
 // longer.
-#include "viewer/hands/cut_tool.hpp"
+#include "viewer/tools/cut_tool.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace sinew::viewer {
@@ -20,7 +21,42 @@ sim::Vec3 toVec3(const Vector3& v) {
     return {v.x(), v.y(), v.z()};
 }
 
+// "0.012 m deep", "through".
+std::string depthText(const std::optional<float>& depth) {
+    if (!depth) return "through";
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3g m deep", double{*depth});
+    return text;
+}
+
 } // namespace
+
+constinit const Tool tool::blade{
+    .name = "blade",
+    .title = "blade",
+    .key = 'C',
+    .help = "blade: left drag cuts, through or to the set depth",
+    .button = "Blade",
+    .letGo = "put the blade away",
+    .offer = "cuts",
+    .addHints =
+        [](HintLine& line, const std::optional<float>& depth) {
+            line.add("left drag cuts " + depthText(depth));
+            line.add("changes its depth", {Action::toolSize});
+            line.add("puts the blade away", {actionOf(tool::blade)});
+            line.add("undoes a cut", {Action::undo});
+        },
+    .setting = "depth",
+    .settingHelp = "depth of the blade",
+    .isSettingOptional = true,
+    .settingNote = [](const std::optional<float>& depth) { return "the blade goes " + depthText(depth); },
+    .isLent = true,
+    .asksMuch = true,
+    .fits = [](const sim::Scene& scene) { return std::ranges::any_of(scene.grids, &sim::Grid::isCuttable); },
+    .refusal = "no body of this scene can be cut: cuttable = true allows it",
+    .make = [](const ToolContext& of) -> std::unique_ptr<ToolState> {
+        return std::make_unique<CutTool>(of.light.bounds);
+    }};
 
 CutTool::CutTool(const Box& scene)
     : center_(scene.center()), radius_(0.75f * std::max(scene.diagonal().norm(), 1e-3f)) {}
@@ -128,7 +164,7 @@ void CutTool::cutSettled() {
     }
 }
 
-void CutTool::answer(const std::optional<Pick>& pick) {
+void CutTool::answer(const std::optional<Pick>& pick, float) {
     if (!waiting_.question()) return;
     const Ray ray = *waiting_.question();
     std::optional<float> surface;
@@ -179,6 +215,22 @@ void CutTool::drop() {
     waiting_.clear();
     sweeps_.clear();
     path_.clear();
+}
+
+void CutTool::putAway() {
+    if (isOn_) toggle();
+    drop();
+    setDepth(std::nullopt);
+}
+
+void CutTool::addTo(StepHands& hands) {
+    stepTaken();
+    hands.sweep = next();
+}
+
+void CutTool::addTo(Overlay& overlay) const {
+    overlay.stroke = path_;
+    overlay.gauge = gauge_;
 }
 
 std::optional<Sweep> CutTool::next() {

@@ -4,31 +4,27 @@
 // later.
 #pragma once
 
-#include "sinew/simulation.hpp"
-#include "viewer/draw/camera.hpp"
-#include "viewer/draw/hand_mesh.hpp"
-#include "viewer/hands/pick.hpp"
-#include "viewer/hands/waiting_stroke.hpp"
+#include "viewer/hands/tool.hpp"
+#include "viewer/tools/waiting_stroke.hpp"
 
 #include <array>
 #include <deque>
 
 namespace sinew::viewer {
 
-/// The piece of a stroke for one step (sim::Blade).
-struct Sweep {
-    std::array<sim::Vec3, 2> from, to; ///< ends of the blade at start and end of the sweep [m]
-    bool isCarried = false;            ///< false for the first piece of a stroke
-};
+namespace tool {
+extern const Tool blade;
+} // namespace tool
 
-class CutTool {
+class CutTool final : public ToolState {
 public:
     /// `scene` is the box of the bodies; the blade spans the ball around it.
     explicit CutTool(const Box& scene);
 
-    bool isOn() const { return isOn_; }
+    std::unique_ptr<ToolState> clone() const override { return std::make_unique<CutTool>(*this); }
+    bool isOn() const override { return isOn_; }
     /// Turning it off ends the stroke; swept pieces are still cut in the next steps.
-    void toggle();
+    void toggle() override;
 
     /// Limits of the depth of a blade that does not go through [m].
     struct Depths {
@@ -41,30 +37,39 @@ public:
     const std::optional<float>& depth() const { return depth_; }
     /// Changes the depth by wheel notches: forwards is deeper, and in the end through.
     void deepen(float notches);
+    std::optional<float> setting() const override { return depth_; }
+    void set(const std::optional<float>& depth) override { setDepth(depth); }
+    std::array<float, 2> settingRange() const override { return {depths().least, depths().most}; }
+    void turnWheel(float notches) override { deepen(notches); }
 
-    void press(const Camera& camera, const Vector2& pointer);
-    void move(const Camera& camera, const Vector2& pointer);
-    void release();
+    void press(const Camera& camera, const Vector2& pointer) override;
+    void move(const Camera& camera, const Vector2& pointer) override;
+    void release() override;
+    bool followsPointer() const override { return isOn_; }
     /// Ends the stroke and drops its pieces that are not cut yet.
-    void drop();
+    void drop() override;
+    /// The same, turns the tool off and lets the blade go through.
+    void putAway() override;
 
     /// Takes the next piece; empty if there is none.
     std::optional<Sweep> next();
     /// Puts pieces of undone steps back in front, in their order.
-    void putBack(std::span<const Sweep> sweeps);
+    void putBack(std::span<const Sweep> sweeps) override;
     /// Whether the piece that next() returns begins a stroke.
-    bool beginsStroke() const { return !sweeps_.empty() && !sweeps_.front().isCarried; }
-    bool isDown() const { return isDown_; }
+    bool beginsStroke() const override { return !sweeps_.empty() && !sweeps_.front().isCarried; }
+    bool isDown() const override { return isDown_; }
     bool isCutting() const { return isDown_ || !sweeps_.empty() || !waiting_.isEmpty(); }
 
     /// A ray of the stroke whose hit is needed; the cut waits for the answer.
-    const std::optional<Ray>& question() const { return waiting_.question(); }
-    void answer(const std::optional<Pick>& pick);
+    const std::optional<Ray>& question() const override { return waiting_.question(); }
+    void answer(const std::optional<Pick>& pick, float radiusOfGrab = 0) override;
     /// The ray for the depth gauge, which is drawn only.
-    const std::optional<Ray>& preview() const { return preview_; }
-    void answerPreview(const std::optional<Pick>& pick);
+    const std::optional<Ray>& preview() const override { return preview_; }
+    void answerPreview(const std::optional<Pick>& pick) override;
     /// The surface under the pointer may have moved.
     void stepTaken();
+    void addTo(StepHands& hands) override;
+    void addTo(Overlay& overlay) const override;
 
     /// The stroke as drawn, near the eye [m]: pieces cut and pieces still to be cut.
     std::span<const Vector3> path() const { return path_; }
