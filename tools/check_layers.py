@@ -25,8 +25,9 @@ MESH_ON_DEVICE = "src/mesh/gpu/"  # the only part of mesh that sees Vulkan
 GPU_MAY_USE_SIM = MESH_MAY_USE_SIM | {"sim/program/program.hpp"}  # passes and their barriers
 # Rooms of the shader files: those of the core, below them what all share, above them those of mesh and viewer.
 SHADER_ROOMS = ["common"] + ROOMS[:-1] + ["mesh", "viewer"]
-# Folders of the viewer: each may include itself and those before it; files outside the folders may include all.
-VIEWER_ROOMS = ["draw", "document", "layers", "hands", "tools", "panels", "window", "pictures"]
+# Folders of the viewer: each may include itself and those before it. The files beside them may include all.
+VIEWER_ROOMS = ["render", "document", "layers", "input", "tools", "ui", "capture", "jobs", "player"]
+VIEWER_TOP = {"main", "interactive", "headless", "headless_times"}
 LIMITS = {".cpp": 600, ".hpp": 600, ".h": 600, ".comp": 150, ".glsl": 150, ".vert": 150, ".frag": 150}
 # Uniform blocks that are allowed. Lavapipe recompiles a shader when a uniform word used in a condition changes, so data that change with
 # every step are in storage buffers. Planes never change.
@@ -92,7 +93,9 @@ def complaints(path, text):
         for block in UNIFORM.findall(text):
             if block not in UNIFORMS:
                 yield f"{name}: {block} belongs in a storage buffer"
-    if name.startswith("apps/viewer/") and name.split("/")[2] in VIEWER_ROOMS:
+    if name.startswith("apps/viewer/") and path.stem not in VIEWER_TOP and name.split("/")[2] not in VIEWER_ROOMS:
+        yield f"{name}: stands in no folder of the viewer"
+    elif name.startswith("apps/viewer/") and name.count("/") > 2:
         room = VIEWER_ROOMS.index(name.split("/")[2])
         for include in INCLUDE.findall(text):
             parts = include.split("/")

@@ -9,16 +9,16 @@
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/loader.hpp"
 #include "sinew/vk/queue.hpp"
+#include "viewer/capture/picture_writer.hpp"
+#include "viewer/capture/video.hpp"
 #include "viewer/document/document.hpp"
-#include "viewer/draw/offscreen.hpp"
 #include "viewer/headless_times.hpp"
+#include "viewer/jobs/opened_scene.hpp"
+#include "viewer/jobs/replay.hpp"
+#include "viewer/jobs/second_simulation.hpp"
 #include "viewer/layers/inspection.hpp"
-#include "viewer/opened_scene.hpp"
-#include "viewer/pictures/picture_writer.hpp"
-#include "viewer/pictures/video.hpp"
-#include "viewer/replay.hpp"
-#include "viewer/second_simulation.hpp"
-#include "viewer/tools.hpp"
+#include "viewer/render/offscreen.hpp"
+#include "viewer/tools/tools.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -114,7 +114,7 @@ public:
         if (options.isTimed) times_.emplace(device, document_);
         if (input) {
             replay_.emplace(std::move(*input));
-            tools_.emplace(device, opening);
+            tools_.emplace(device, toolContext(opening));
         }
         if (opening.run) load();
         besideShape_ = parseBeside(options.beside);

@@ -1,7 +1,7 @@
 // Headless runs: pictures without a window, by steps instead of time, so that they do not depend on speed.
 #pragma once
 
-#include "viewer/options.hpp"
+#include "viewer/jobs/options.hpp"
 
 #include <atomic>
 

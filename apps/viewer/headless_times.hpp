@@ -3,7 +3,7 @@
 
 #include "sinew/vk/timestamps.hpp"
 #include "viewer/document/document.hpp"
-#include "viewer/window/frame_times.hpp"
+#include "viewer/ui/frame_times.hpp"
 
 #include <chrono>
 #include <optional>

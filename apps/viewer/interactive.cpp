@@ -4,10 +4,10 @@
 #include "app/guard.hpp"
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/loader.hpp"
-#include "viewer/devices.hpp"
-#include "viewer/prepared_player.hpp"
-#include "viewer/replay.hpp"
-#include "viewer/scene_player.hpp"
+#include "viewer/jobs/devices.hpp"
+#include "viewer/jobs/prepared_player.hpp"
+#include "viewer/jobs/replay.hpp"
+#include "viewer/player/scene_player.hpp"
 
 #include <chrono>
 #include <cstdio>

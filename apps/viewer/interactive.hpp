@@ -1,7 +1,7 @@
 // The interactive viewer: the scene in a window.
 #pragma once
 
-#include "viewer/options.hpp"
+#include "viewer/jobs/options.hpp"
 
 #include <atomic>
 

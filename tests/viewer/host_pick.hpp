@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sinew/simulation.hpp"
-#include "viewer/hands/pick.hpp"
+#include "viewer/input/pick.hpp"
 
 #include <array>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "host_pick.hpp"
 #include "support/device.hpp"
 #include "viewer/document/document.hpp"
-#include "viewer/hands/picker.hpp"
+#include "viewer/input/picker.hpp"
 
 #include <gtest/gtest.h>
 

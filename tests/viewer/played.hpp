@@ -3,15 +3,15 @@
 #pragma once
 
 #include "support/device.hpp"
-#include "viewer/hands/controller.hpp"
-#include "viewer/hands/picker.hpp"
-#include "viewer/hands/state_probe.hpp"
-#include "viewer/opened_scene.hpp"
-#include "viewer/replay.hpp"
-#include "viewer/tools.hpp"
+#include "viewer/input/controller.hpp"
+#include "viewer/input/picker.hpp"
+#include "viewer/input/state_probe.hpp"
+#include "viewer/jobs/opened_scene.hpp"
+#include "viewer/jobs/replay.hpp"
 #include "viewer/tools/cut_tool.hpp"
 #include "viewer/tools/pins.hpp"
 #include "viewer/tools/poke_tool.hpp"
+#include "viewer/tools/tools.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ struct Scene {
     OpenedScene opening;
     Controller controller{opening.camera, opening.loaded.scene.dt};
     Document document;
-    Tools tools{test::device(), opening};
+    Tools tools{test::device(), toolContext(opening)};
     Picker picker{test::device(), document, opening.light, 1};
     StateProbe probe{test::device(), document.scene(), document.settings(), document.simulation()};
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "viewer/document/document.hpp"
-#include "viewer/draw/offscreen.hpp"
+#include "viewer/render/offscreen.hpp"
 
 #include "sinew/bodies.hpp"
 #include "support/device.hpp"

@@ -1,8 +1,8 @@
 // Tests of the selection of bodies without a skin, which are drawn as balls. No device is needed.
-#include "viewer/draw/balls.hpp"
+#include "viewer/render/balls.hpp"
 
 #include "sinew/bodies.hpp"
-#include "viewer/draw/geometry.hpp"
+#include "viewer/render/geometry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of camera motions through the matrix that the shaders use.
-#include "viewer/draw/camera.hpp"
+#include "viewer/render/camera.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Tests of the table of bindings and of actions, without a window.
-#include "viewer/hands/controller.hpp"
-#include "viewer/hands/picture_budget.hpp"
+#include "viewer/input/controller.hpp"
+#include "viewer/render/picture_budget.hpp"
 #include "viewer/tools/cut_tool.hpp"
 #include "viewer/tools/grab_tool.hpp"
 #include "viewer/tools/poke_tool.hpp"

@@ -2,10 +2,10 @@
 #include "played.hpp"
 
 #include "app/drawn.hpp"
-#include "viewer/gauges.hpp"
-#include "viewer/hands/inspector.hpp"
-#include "viewer/hands/piece_probe.hpp"
-#include "viewer/window/status_line.hpp"
+#include "viewer/input/inspector.hpp"
+#include "viewer/input/piece_probe.hpp"
+#include "viewer/jobs/gauges.hpp"
+#include "viewer/ui/status_line.hpp"
 
 #include <map>
 

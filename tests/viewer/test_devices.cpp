@@ -1,5 +1,5 @@
 // Tests of the device selection from the window's list.
-#include "viewer/devices.hpp"
+#include "viewer/jobs/devices.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include "played.hpp"
 
 #include "sinew/vk/kernel_store.hpp"
-#include "viewer/draw/shot.hpp"
-#include "viewer/layer_loader.hpp"
+#include "viewer/jobs/layer_loader.hpp"
+#include "viewer/render/shot.hpp"
 
 #include <chrono>
 #include <thread>

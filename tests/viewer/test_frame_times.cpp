@@ -1,5 +1,5 @@
 // Tests of the table of frame times: its numbers are those of the input and consistent.
-#include "viewer/window/frame_times.hpp"
+#include "viewer/ui/frame_times.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include "sinew/vk/kernel_store.hpp"
 #include "support/full.hpp"
 #include "support/null_hardware.hpp"
-#include "viewer/draw/renderer.hpp"
-#include "viewer/panels/panel_painter.hpp"
+#include "viewer/render/renderer.hpp"
+#include "viewer/ui/panel_painter.hpp"
 
 #include <gtest/gtest.h>
 

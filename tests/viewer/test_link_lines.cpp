@@ -1,9 +1,9 @@
 // Tests of links drawn in the colors of their classes: the classes that the solver corrects together, and the
 // drawing on the device, under validation.
 #include "viewer/document/document.hpp"
-#include "viewer/draw/offscreen.hpp"
 #include "viewer/layers/inspection.hpp"
 #include "viewer/layers/link_lines.hpp"
+#include "viewer/render/offscreen.hpp"
 
 #include "sim/compile/compile.hpp"
 #include "sinew/bodies.hpp"

@@ -1,5 +1,5 @@
 // Tests of the window's notices, which appear one after the other.
-#include "viewer/window/notices.hpp"
+#include "viewer/ui/notices.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Tests of the command line: accepted and refused options, and the frames that become pictures.
-#include "viewer/draw/layer.hpp"
-#include "viewer/options.hpp"
+#include "viewer/jobs/options.hpp"
+#include "viewer/render/layer.hpp"
 
 #include "app/guard.hpp"
 

@@ -1,7 +1,7 @@
 // Tests of panels drawn over a picture, under core, synchronisation and queue-submit validation.
 #include "viewer/document/document.hpp"
-#include "viewer/draw/offscreen.hpp"
-#include "viewer/panels/panels.hpp"
+#include "viewer/render/offscreen.hpp"
+#include "viewer/ui/panels.hpp"
 
 #include "sinew/bodies.hpp"
 #include "support/device.hpp"

@@ -1,7 +1,7 @@
 // Tests of panels without a device: reactions to the pointer, and their contents.
-#include "viewer/panels/knob_keys.hpp"
-#include "viewer/panels/panel_parts.hpp"
-#include "viewer/panels/panels.hpp"
+#include "viewer/ui/knob_keys.hpp"
+#include "viewer/ui/panel_parts.hpp"
+#include "viewer/ui/panels.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

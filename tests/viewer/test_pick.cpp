@@ -1,6 +1,6 @@
 // Tests of picking under the pointer, and of grabs from it.
 #include "picked.hpp"
-#include "viewer/hands/inspector.hpp"
+#include "viewer/input/inspector.hpp"
 #include "viewer/tools/grab_tool.hpp"
 
 #include "sinew/bodies.hpp"

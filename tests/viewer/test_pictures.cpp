@@ -1,8 +1,8 @@
 // Tests of pictures of small scenes, drawn under core, synchronisation and queue-submit validation
 // (support/device.hpp turns every message into a failure).
 #include "scene_shot.hpp"
-#include "viewer/draw/collider_meshes.hpp"
-#include "viewer/hands/state_probe.hpp"
+#include "viewer/input/state_probe.hpp"
+#include "viewer/render/collider_meshes.hpp"
 
 #include "sinew/colliders.hpp"
 

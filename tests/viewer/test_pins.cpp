@@ -1,9 +1,9 @@
 // Tests of pins: pinned particles stay in place while the rest falls, and removed pins release them.
 #include "played.hpp"
 #include "viewer/document/document.hpp"
-#include "viewer/draw/offscreen.hpp"
-#include "viewer/hands/inspector.hpp"
-#include "viewer/hands/state_probe.hpp"
+#include "viewer/input/inspector.hpp"
+#include "viewer/input/state_probe.hpp"
+#include "viewer/render/offscreen.hpp"
 #include "viewer/tools/pins.hpp"
 
 #include "sinew/bodies.hpp"

@@ -1,7 +1,7 @@
 // Tests that PNG files are read back as written, with their text, and that videos need ffmpeg and leave no
 // partial files.
-#include "viewer/pictures/picture_writer.hpp"
-#include "viewer/pictures/video.hpp"
+#include "viewer/capture/picture_writer.hpp"
+#include "viewer/capture/video.hpp"
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"

@@ -1,8 +1,8 @@
 // Tests of the pointer's sphere (poke): its path, without a device, its push on a body below it, and its
 // picture.
 #include "viewer/document/document.hpp"
-#include "viewer/draw/offscreen.hpp"
-#include "viewer/hands/state_probe.hpp"
+#include "viewer/input/state_probe.hpp"
+#include "viewer/render/offscreen.hpp"
 #include "viewer/tools/poke_tool.hpp"
 
 #include "sinew/bodies.hpp"

@@ -1,5 +1,5 @@
 // Tests of settings kept between runs: they are read back as written, and unknown lines are harmless.
-#include "viewer/window/preferences.hpp"
+#include "viewer/ui/preferences.hpp"
 
 #include <gtest/gtest.h>
 

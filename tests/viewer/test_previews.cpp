@@ -1,8 +1,8 @@
 // Tests of small pictures of scenes: the thread that makes them, and their contents.
-#include "viewer/previews.hpp"
+#include "viewer/jobs/previews.hpp"
 
 #include "support/device.hpp"
-#include "viewer/panels/picture_sheet.hpp"
+#include "viewer/ui/picture_sheet.hpp"
 
 #include <gtest/gtest.h>
 

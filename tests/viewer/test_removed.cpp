@@ -1,11 +1,11 @@
 // Tests that removed fragments are invisible everywhere: balls, lines, marks, values, picking and the lines
 // of grabs, under validation.
 #include "viewer/document/document.hpp"
-#include "viewer/draw/offscreen.hpp"
-#include "viewer/hands/picker.hpp"
-#include "viewer/hands/state_probe.hpp"
+#include "viewer/input/picker.hpp"
+#include "viewer/input/state_probe.hpp"
 #include "viewer/layers/inspection.hpp"
 #include "viewer/layers/link_lines.hpp"
+#include "viewer/render/offscreen.hpp"
 
 #include "sim/compile/compile.hpp"
 #include "sinew/bodies.hpp"

@@ -6,8 +6,8 @@
 #include "sim/device/gpu_compile.hpp"
 #include "support/device.hpp"
 #include "viewer/document/document.hpp"
-#include "viewer/opened_scene.hpp"
-#include "viewer/replay.hpp"
+#include "viewer/jobs/opened_scene.hpp"
+#include "viewer/jobs/replay.hpp"
 
 #include <gtest/gtest.h>
 

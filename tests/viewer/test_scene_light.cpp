@@ -1,5 +1,5 @@
 // Tests of the scene's bounds, and of the volume that the shadow maps cover.
-#include "viewer/draw/scene_light.hpp"
+#include "viewer/render/scene_light.hpp"
 
 #include "sinew/bodies.hpp"
 

@@ -1,8 +1,8 @@
 // Tests of opening scenes while the window continues: lists, dropped files, and files that are no scenes.
-#include "viewer/scene_loader.hpp"
+#include "viewer/jobs/scene_loader.hpp"
 
 #include "mesh/import.hpp"
-#include "viewer/pictures/recording.hpp"
+#include "viewer/capture/recording.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #include "played.hpp"
 
 #include "sim/compile/compile.hpp"
-#include "viewer/draw/offscreen.hpp"
-#include "viewer/second_simulation.hpp"
+#include "viewer/jobs/second_simulation.hpp"
+#include "viewer/render/offscreen.hpp"
 
 #include <cmath>
 

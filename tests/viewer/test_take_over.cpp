@@ -203,7 +203,7 @@ TEST(Undo, GoesOnOnAnotherDevice) {
     const Cuts cuts(here);
     {
         Document there(device, here.opening.loaded.scene, here.opening.loaded.settings);
-        Tools tools(device, here.opening);
+        Tools tools(device, toolContext(here.opening));
         there.takeOver(here.document, tools.bringOf(here.tools));
         tools.goOn(here.tools, there);
         vk::Queue queue(device);

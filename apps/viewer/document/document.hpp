@@ -9,7 +9,7 @@
 #include "sinew/rooms.hpp"
 #include "sinew/substeps.hpp"
 #include "sinew/successor.hpp"
-#include "viewer/draw/camera.hpp"
+#include "viewer/render/camera.hpp"
 
 #include <deque>
 #include <future>

@@ -4,10 +4,10 @@
 
 #include "common/layout.h"
 #include "sim/compile/compile.hpp"
-#include "viewer/draw/balls.hpp"
-#include "viewer/draw/mesh_buffer.hpp"
-#include "viewer/draw/removed.hpp"
 #include "viewer/layers/value_maps.hpp"
+#include "viewer/render/balls.hpp"
+#include "viewer/render/mesh_buffer.hpp"
+#include "viewer/render/removed.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 #include "sim/compile/compile.hpp"
 #include "sim/lattice/link_bits.hpp"
 #include "sim/model/coloring.hpp"
-#include "viewer/draw/mesh_buffer.hpp"
-#include "viewer/draw/removed.hpp"
 #include "viewer/layers/value_maps.hpp"
+#include "viewer/render/mesh_buffer.hpp"
+#include "viewer/render/removed.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>

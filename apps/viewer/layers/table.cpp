@@ -1,6 +1,6 @@
 // The table of layers, and those that need no file of their own.
-#include "viewer/draw/balls.hpp"
-#include "viewer/draw/layer.hpp"
+#include "viewer/render/balls.hpp"
+#include "viewer/render/layer.hpp"
 
 #include <array>
 

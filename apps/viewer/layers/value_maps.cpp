@@ -4,8 +4,8 @@
 #include "common/layout.h"
 #include "sim/compile/compile.hpp"
 #include "sim/lattice/link_bits.hpp"
-#include "viewer/draw/mesh_buffer.hpp"
-#include "viewer/draw/removed.hpp"
+#include "viewer/render/mesh_buffer.hpp"
+#include "viewer/render/removed.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "sinew/simulation.hpp"
 #include "sinew/vk/commands.hpp"
 #include "sinew/vk/kernel_store.hpp"
-#include "viewer/draw/layer.hpp"
+#include "viewer/render/layer.hpp"
 #include "viewer/values.h"
 
 namespace sinew::sim {

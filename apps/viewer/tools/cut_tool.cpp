@@ -55,7 +55,9 @@ constinit const Tool tool::blade{
     .fits = [](const sim::Scene& scene) { return std::ranges::any_of(scene.grids, &sim::Grid::isCuttable); },
     .refusal = "no body of this scene can be cut: cuttable = true allows it",
     .make = [](const ToolContext& of) -> std::unique_ptr<ToolState> {
-        return std::make_unique<CutTool>(of.light.bounds);
+        auto state = std::make_unique<CutTool>(of.light.bounds);
+        state->setDepth(of.bladeDepth);
+        return state;
     }};
 
 CutTool::CutTool(const Box& scene)

@@ -4,7 +4,7 @@
 // later.
 #pragma once
 
-#include "viewer/hands/tool.hpp"
+#include "viewer/input/tool.hpp"
 #include "viewer/tools/waiting_stroke.hpp"
 
 #include <array>

@@ -2,7 +2,7 @@
 // device finds the particle under the pointer, so the answer comes one or two frames after the press.
 #pragma once
 
-#include "viewer/hands/tool.hpp"
+#include "viewer/input/tool.hpp"
 
 namespace sinew::viewer {
 

@@ -1,7 +1,7 @@
 // Pins: grabs that stay where they were placed, and the tool that places and removes them.
 #pragma once
 
-#include "viewer/hands/tool.hpp"
+#include "viewer/input/tool.hpp"
 
 #include <array>
 #include <utility>

@@ -3,7 +3,7 @@
 // press.
 #pragma once
 
-#include "viewer/hands/tool.hpp"
+#include "viewer/input/tool.hpp"
 
 #include <cmath>
 

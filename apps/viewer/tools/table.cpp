@@ -1,5 +1,5 @@
 // The table of tools.
-#include "viewer/hands/tool.hpp"
+#include "viewer/input/tool.hpp"
 
 #include <algorithm>
 #include <array>

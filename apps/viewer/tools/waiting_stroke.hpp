@@ -2,7 +2,7 @@
 // time, some pictures late; the depth of points between two answers is interpolated linearly.
 #pragma once
 
-#include "viewer/draw/camera.hpp"
+#include "viewer/render/camera.hpp"
 
 #include <deque>
 #include <optional>

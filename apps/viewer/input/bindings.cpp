@@ -1,0 +1,260 @@
+// The table of bindings.
+#include "viewer/input/bindings.hpp"
+
+#include "viewer/input/tool.hpp"
+#include "viewer/render/layer.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+
+namespace sinew::viewer {
+
+namespace {
+
+using enum Action;
+constexpr auto key = Trigger::Kind::key, drag = Trigger::Kind::drag, wheel = Trigger::Kind::wheel,
+               doubleClick = Trigger::Kind::doubleClick, held = Trigger::Kind::held;
+
+// Bindings of one action are adjacent; the help shows the text of the first one.
+// A phrase for each tool that has one, such as Tool::letGo.
+std::string phrases(std::string_view Tool::*phrase, std::string_view between) {
+    std::string all;
+    for (const Tool* tool : toolTable()) {
+        const std::string_view words = tool->*phrase;
+        if (!words.empty()) all.append(all.empty() ? "" : between).append(words);
+    }
+    return all;
+}
+
+const std::string settingsHelp = phrases(&Tool::settingHelp, "; "), letGoHelp = phrases(&Tool::letGo, ", ");
+
+const std::array beforeTools{
+    Binding{{drag, GLFW_MOUSE_BUTTON_LEFT}, grab, "left drag", "on a body: grab and pull; elsewhere: orbit"},
+    Binding{{drag, GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_CONTROL},
+            grab,
+            "",
+            "on a body: grab and pull; elsewhere: orbit"},
+    Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT}, orbit, "right drag", "orbit"},
+    Binding{{drag, GLFW_MOUSE_BUTTON_MIDDLE}, pan, "middle drag", "pan"},
+    Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOD_SHIFT}, pan, "Shift + right drag", "pan"},
+    Binding{{wheel}, zoom, "wheel", "zoom to the pointer"},
+    Binding{{wheel, 0, GLFW_MOD_SHIFT}, toolSize, "Shift + wheel", settingsHelp},
+    Binding{{wheel, 0, GLFW_MOD_ALT}, moveSection, "Alt + wheel", "move the section plane"},
+    Binding{{doubleClick, GLFW_MOUSE_BUTTON_LEFT},
+            center,
+            "double click",
+            "on a body: orbit around that point",
+            "Center"},
+    Binding{{key, GLFW_KEY_F}, frameBody, "F", "frame the body under the pointer", "Body"},
+    Binding{{key, GLFW_KEY_HOME}, frame, "Home", "frame everything", "Frame"},
+    Binding{{key, GLFW_KEY_SPACE}, pause, "Space", "pause or continue", "Pause"},
+    Binding{{key, GLFW_KEY_P}, pause, "P", "pause or continue"},
+    Binding{{key, GLFW_KEY_PERIOD}, step, ".", "pause and take one step", "Step"},
+    Binding{{key, GLFW_KEY_COMMA}, stepBack, ",", "pause and undo one step", "Back"},
+    Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
+};
+
+const std::array afterTools{
+    Binding{{key, GLFW_KEY_ESCAPE}, drop, "Esc", letGoHelp, "Let go"},
+    Binding{{key, GLFW_KEY_Z, GLFW_MOD_CONTROL}, undo, "Ctrl + Z", "undo a cut", "Undo"},
+    Binding{
+        {key, GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, redo, "Shift + Ctrl + Z", "redo a cut", "Redo"},
+    Binding{{key, GLFW_KEY_S}, slowMotion, "S", "slow motion: 1/2, 1/4, 1/8, full speed", "Slower"},
+    Binding{{key, GLFW_KEY_K}, stiffer, "K", "stiffer: all bodies, or the one in the panel"},
+    Binding{{key, GLFW_KEY_K, GLFW_MOD_SHIFT}, softer, "Shift + K", "softer"},
+    Binding{{key, GLFW_KEY_D}, moreDamping, "D", "more damping"},
+    Binding{{key, GLFW_KEY_D, GLFW_MOD_SHIFT}, lessDamping, "Shift + D", "less damping"},
+    Binding{{key, GLFW_KEY_T}, moreFriction, "T", "more friction"},
+    Binding{{key, GLFW_KEY_T, GLFW_MOD_SHIFT}, lessFriction, "Shift + T", "less friction"},
+    Binding{{key, GLFW_KEY_G}, moreGravity, "G", "more gravity"},
+    Binding{{key, GLFW_KEY_G, GLFW_MOD_SHIFT}, lessGravity, "Shift + G", "less gravity"},
+};
+
+constexpr std::array afterLayers{
+    Binding{{key, GLFW_KEY_I},
+            inspect,
+            "I",
+            "inspect under the pointer: body, particle, speed, strain, contacts",
+            "Inspect"},
+    Binding{{key, GLFW_KEY_B},
+            beside,
+            "B",
+            "compare with a second solver side by side: speed and error",
+            "Beside"},
+    Binding{
+        {key, GLFW_KEY_L}, section, "L", "section: a plane opens bodies and shows their inside", "Section"},
+    Binding{{key, GLFW_KEY_L, GLFW_MOD_SHIFT},
+            turnSection,
+            "Shift + L",
+            "turn the section plane to the next axis",
+            "Turn"},
+    Binding{{key, GLFW_KEY_L, GLFW_MOD_CONTROL},
+            faceSection,
+            "Ctrl + L",
+            "turn the section plane towards the eye",
+            "Face"},
+    Binding{{key, GLFW_KEY_PAGE_UP}, previousScene, "Page Up", "open the previous scene", "Previous"},
+    Binding{{key, GLFW_KEY_PAGE_DOWN}, nextScene, "Page Down", "open the next scene", "Next"},
+    Binding{{key, GLFW_KEY_O, GLFW_MOD_CONTROL},
+            open,
+            "Ctrl + O",
+            "open a scene, a mesh or a saved state by its path",
+            "Open"},
+    Binding{{key, GLFW_KEY_F9},
+            record,
+            "F9",
+            "record a video (or pictures, without ffmpeg) in the current folder; again: stop",
+            "Record"},
+    Binding{{key, GLFW_KEY_F12}, screenshot, "F12", "save a picture (PNG) in the current folder", "Picture"},
+    Binding{{key, GLFW_KEY_F8},
+            saveInput,
+            "F8",
+            "save the input since the reset, or since a state, in the current folder, for --replay",
+            "Input"},
+    Binding{{key, GLFW_KEY_S, GLFW_MOD_CONTROL},
+            saveState,
+            "Ctrl + S",
+            "save the state in the current folder; open it or drop it here to continue",
+            "Save"},
+    Binding{{key, GLFW_KEY_F7}, times, "F7", "print the frame times since the last print", "Times"},
+    Binding{{key, GLFW_KEY_F11}, fullScreen, "F11", "full screen", "Full"},
+    Binding{{key, GLFW_KEY_V}, vsync, "V", "turn vsync on or off", "Vsync"},
+    Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL}, largerTexts, "Ctrl + plus", "larger text", "Larger"},
+    Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, largerTexts, "", "larger text"},
+    Binding{{key, '+', GLFW_MOD_CONTROL}, largerTexts, "", "larger text"}, // on layouts with a key for +
+    Binding{{key, GLFW_KEY_MINUS, GLFW_MOD_CONTROL}, smallerTexts, "Ctrl + minus", "smaller text", "Smaller"},
+    Binding{{key, GLFW_KEY_TAB}, panels, "Tab", "show or hide the panels", "Hide"},
+    Binding{{key, GLFW_KEY_H}, help, "H", "show or hide this help", "Help"},
+    Binding{{key, GLFW_KEY_F1}, help, "F1", "show or hide this help"},
+    Binding{{key, GLFW_KEY_Q, GLFW_MOD_CONTROL}, quit, "Ctrl + Q", "quit", "Quit"},
+};
+
+// GLFW's codes of digits and letters are their characters.
+std::vector<Binding> allBindings() {
+    std::vector<Binding> all(beforeTools.begin(), beforeTools.end());
+    for (const Tool* tool : toolTable()) {
+        if (tool->key == 0) continue;
+        const Action action = actionOf(*tool);
+        all.push_back({{key, tool->key}, action, {&tool->key, 1}, tool->help, tool->button});
+        if (tool->isLent)
+            all.push_back({{held, 0, GLFW_MOD_CONTROL}, action, "Ctrl held", tool->help, tool->button});
+    }
+    all.insert(all.end(), afterTools.begin(), afterTools.end());
+    for (std::size_t i = 0; i < layerTable().size(); ++i) {
+        const Layer& layer = *layerTable()[i];
+        all.push_back({{key, layer.key}, actionOfLayer(i), {&layer.key, 1}, layer.help, layer.button});
+    }
+    all.insert(all.end(), afterLayers.begin(), afterLayers.end());
+    return all;
+}
+
+const std::vector<Binding> table = allBindings();
+
+} // namespace
+
+std::optional<std::size_t> toolOf(Action action) {
+    const auto index = static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::firstTool);
+    return index < toolTable().size() ? std::optional(index) : std::nullopt;
+}
+
+Action actionOf(const Tool& tool) {
+    return static_cast<Action>(static_cast<std::size_t>(Action::firstTool) + indexOf(tool));
+}
+
+std::optional<std::size_t> layerOf(Action action) {
+    const auto index = static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::firstLayer);
+    return index < layerTable().size() ? std::optional(index) : std::nullopt;
+}
+
+Action actionOfLayer(std::size_t layer) {
+    return static_cast<Action>(static_cast<std::size_t>(Action::firstLayer) + layer);
+}
+
+std::span<const Binding> bindings() {
+    return table;
+}
+
+std::optional<Action> actionFor(const Trigger& trigger) {
+    Trigger known = trigger;
+    const int ofWheel = trigger.kind == Trigger::Kind::wheel ? GLFW_MOD_ALT : 0;
+    known.modifiers &= GLFW_MOD_SHIFT | GLFW_MOD_CONTROL | ofWheel;
+    const auto found = std::ranges::find(table, known, &Binding::trigger);
+    return found == table.end() ? std::nullopt : std::optional(found->action);
+}
+
+std::vector<HelpLine> helpLines() {
+    std::vector<HelpLine> lines;
+    for (auto line = table.begin(); line != table.end();) {
+        std::string triggers(line->shown);
+        auto next = line + 1;
+        for (; next != table.end() && next->action == line->action; ++next)
+            if (!next->shown.empty()) triggers.append(", ").append(next->shown);
+        lines.push_back({std::move(triggers), line->help});
+        line = next;
+    }
+    return lines;
+}
+
+std::string helpText() {
+    std::string text;
+    for (HelpLine& line : helpLines()) {
+        line.triggers.resize(std::max<std::size_t>(line.triggers.size() + 2, 34), ' ');
+        text.append("  ").append(line.triggers).append(line.help).append("\n");
+    }
+    return text;
+}
+
+std::string_view keyOf(Action action) {
+    const auto found = std::ranges::find(table, action, &Binding::action);
+    return found == table.end() ? std::string_view() : found->shown;
+}
+
+void HintLine::add(std::string_view words, std::initializer_list<Action> keys) {
+    if (!text_.empty()) text_.append("   \u00b7   ");
+    const char* between = "";
+    for (const Action action : keys) {
+        text_.append(between).append(keyOf(action));
+        between = " or ";
+    }
+    text_.append(keys.size() > 0 ? " " : "").append(words);
+}
+
+namespace {
+
+// The offers of all tools: first that of the one without a key.
+void addOffers(HintLine& line, std::string_view Tool::*offer, const std::array<bool, mostTools>& canUse) {
+    for (const Tool* tool : toolTable())
+        if (tool->key == 0 && !(tool->*offer).empty()) line.add(tool->*offer);
+    for (std::size_t i = 0; i < toolTable().size(); ++i) {
+        const Tool& tool = *toolTable()[i];
+        if (tool.key != 0 && canUse[i] && !(tool.*offer).empty()) line.add(tool.*offer, {actionOf(tool)});
+    }
+}
+
+} // namespace
+
+std::string hintText(const HintFacts& facts) {
+    HintLine line;
+    if (facts.inUse) {
+        const Tool& tool = *toolTable()[*facts.inUse];
+        if (tool.addHints != nullptr) tool.addHints(line, facts.setting);
+        if (tool.key == 0) addOffers(line, &Tool::offerHeld, facts.canUse);
+    } else {
+        addOffers(line, &Tool::offer, facts.canUse);
+        line.add("orbits", {orbit});
+        line.add("pauses", {pause});
+        line.add("resets", {reset});
+    }
+    line.add("panels", {Action::panels});
+    line.add("help", {help});
+    return line.text();
+}
+
+std::string shortHintText() {
+    return std::string(keyOf(help)) + " help";
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,188 @@
+// Reads step programs and status words.
+#include "viewer/jobs/gauges.hpp"
+
+#include "sim/compile/compile.hpp"
+#include "viewer/render/renderer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace sinew::viewer {
+
+namespace {
+
+// Text such as "32 of 50,000 links are clamped (0.1 %); the softest has 87 % of its stiffness".
+std::string textOf(const sim::StiffnessReport& report) {
+    if (report.elastic == 0) return "";
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "%zu of %zu links are clamped (%.1f %%); the softest has %.0f %% of its stiffness",
+                  report.clamped, report.elastic,
+                  100.0 * static_cast<double>(report.clamped) / static_cast<double>(report.elastic),
+                  100 * report.softest);
+    return text;
+}
+
+Knobs knobsOf(const scenes::LoadedScene& loaded) {
+    const std::vector<std::string> solvers = sim::solverNames();
+    const auto solver = std::ranges::find(solvers, sim::solverName(loaded.settings.solver));
+    const sim::Vec3& g = loaded.scene.gravity;
+    const sim::Scene& scene = loaded.scene;
+    const bool hasColliders = scene.planes.empty() && !scene.colliders.empty();
+    return {.gravity = std::hypot(g.x, g.y, g.z),
+            .substeps = static_cast<int>(loaded.settings.substeps),
+            .solver = static_cast<int>(solver - solvers.begin()),
+            .damping = scene.damping,
+            .friction = !scene.planes.empty() ? scene.planes.front().friction
+                        : hasColliders        ? scene.colliders.front().friction
+                                              : scene.contacts.friction,
+            .bodies = std::vector<float>(scene.bodies.size(), 1)};
+}
+
+// Removes the index: passes such as "solve_distance[3]" differ only in their range.
+std::string withoutNumber(const std::string& label) {
+    return label.substr(0, label.find('['));
+}
+
+void add(std::vector<PassLine>& lines, const sim::StepProgram& program, const sim::Pass& pass) {
+    const bool isDispatch = pass.kind == sim::PassKind::dispatch;
+    PassLine line{.phase = program.phases[pass.phase],
+                  .label = withoutNumber(pass.label),
+                  .items = isDispatch ? pass.items : 0,
+                  .isOfCut = pass.isOfCut()};
+    const auto same = [&](const PassLine& other) {
+        return other.phase == line.phase && other.label == line.label && other.isOfCut == line.isOfCut &&
+               (other.items == 0) == (line.items == 0);
+    };
+    const auto found = std::ranges::find_if(lines, same);
+    if (found == lines.end()) return lines.push_back(std::move(line));
+    ++found->times;
+    found->items = std::max(found->items, line.items);
+}
+
+void addProgram(SceneFacts& facts, const sim::StepProgram& program) {
+    for (const sim::Pass& pass : program[sim::List::step]) add(facts.passes, program, pass);
+    const sim::PassCounts counts = sim::countPasses(program, sim::plainStep);
+    facts.dispatches += counts.dispatches;
+    facts.barriers += counts.barriers;
+    facts.skipped = program.skipped;
+}
+
+} // namespace
+
+std::string stiffnessText(const Document& document) {
+    return textOf(document.stiffness());
+}
+
+sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile) {
+    sim::Material material{.stiffness = knobs.stiffness, .bodies = knobs.bodies};
+    if (std::ranges::all_of(knobs.bodies, [](float factor) { return factor == 1; })) material.bodies.clear();
+    if (knobs.damping != fromFile.damping) material.damping = knobs.damping;
+    if (knobs.friction != fromFile.friction) material.friction = knobs.friction;
+    return material;
+}
+
+Knobs turnedTo(const sim::Material& material, Knobs knobs, const Knobs& fromFile) {
+    knobs.stiffness = material.stiffness;
+    knobs.bodies = material.bodies.empty() ? fromFile.bodies : material.bodies;
+    knobs.damping = material.damping.value_or(fromFile.damping);
+    knobs.friction = material.friction.value_or(fromFile.friction);
+    return knobs;
+}
+
+SceneFacts sceneFacts(const OpenedScene& opening, const Document& document, const vk::Device& device) {
+    const sim::Scene& scene = document.scene();
+    const scenes::LoadedScene& loaded = opening.loaded;
+    SceneFacts facts{.name = scene.name,
+                     .device = device.description().name,
+                     .driver = device.description().driver,
+                     .deviceIndex = device.description().index,
+                     .isSoftware = isSoftware(device),
+                     .particles = scene.particles.size(),
+                     .constraints = document.simulation().program().constraintCount,
+                     .substepsWhy = sim::toText(loaded.substeps, loaded.settings),
+                     .stiffness = stiffnessText(document),
+                     .canCut = std::ranges::any_of(scene.grids, &sim::Grid::isCuttable),
+                     .solvers = sim::solverNames(),
+                     .fromFile = knobsOf(loaded)};
+    for (const sim::Body& body : scene.bodies) facts.bodies.push_back(body.name);
+    addProgram(facts, document.simulation().program());
+    return facts;
+}
+
+Strain measureStrain(const sim::Scene& scene, StateProbe& probe) {
+    if (probe.positions().empty()) return {};
+    const std::span<const float> places(&probe.positions().front().x, 4 * probe.positions().size());
+    const app::LinkStrain strain = app::strainOf(scene, places, probe.liveLinks());
+    return {strain.rms, strain.largest};
+}
+
+Gauges::Gauges(const Document& document, double dt) : dt_(dt) {
+    for (const std::string& phase : document.simulation().phases()) facts_.phases.push_back({phase, {}});
+}
+
+void Gauges::frame(double seconds, std::uint32_t steps) {
+    facts_.frameMs.add(static_cast<float>(1000 * seconds));
+    seconds_ += seconds;
+    shown_ += steps * dt_;
+    ++frames_;
+    if (seconds_ < 0.5) return;
+    facts_.framesPerSecond = frames_ / seconds_;
+    facts_.keptPace = shown_ / seconds_;
+    seconds_ = shown_ = 0;
+    frames_ = 0;
+}
+
+void Gauges::stepTimed(std::span<const double> milliseconds) {
+    for (std::size_t p = 0; p < std::min(facts_.phases.size(), milliseconds.size()); ++p)
+        facts_.phases[p].ms.add(static_cast<float>(milliseconds[p]));
+}
+
+void Gauges::stepFinished(const sim::Status& status) {
+    facts_.slowed = status.slowed;
+    facts_.sleeping = status.sleeping;
+    facts_.linksCut = status.linksCutInAll;
+    facts_.debris = status.debris;
+    facts_.debrisParticles = status.debrisParticles;
+    facts_.debrisMass = status.debrisMass;
+    if (status.linksCutInAll == 0) facts_.pieces = {.pieces = status.pieces};
+}
+
+void Gauges::strainMeasured(const Strain& strain) {
+    facts_.strainRms.add(static_cast<float>(strain.rms));
+    facts_.strainMax.add(static_cast<float>(strain.largest));
+}
+
+void Gauges::restart() {
+    facts_.strainRms.clear();
+    facts_.strainMax.clear();
+    facts_.slowed = facts_.sleeping = facts_.linksCut = 0;
+    facts_.stepsRepeated = 0;
+    facts_.pieces = {};
+    facts_.debris = facts_.debrisParticles = 0;
+    facts_.debrisMass = 0;
+}
+
+void Gauges::goOn(const Gauges& before) {
+    std::vector<PhaseCurve> phases = std::move(facts_.phases);
+    facts_ = before.facts_;
+    facts_.phases = std::move(phases);
+}
+
+Facts Gauges::facts(const Document& document) const {
+    Facts facts = facts_;
+    facts.steps = document.steps();
+    facts.time = static_cast<double>(document.played()) * dt_;
+    const auto& skipped = document.simulation().program().skipped;
+    if (std::ranges::find(skipped, "contacts") == skipped.end()) {
+        const sim::ContactRoom& room = document.contactRoom();
+        facts.contactRoom = room.room;
+        facts.contactsNeeded = room.needed;
+        facts.timesGrown = room.grown;
+        facts.isContactRoomShort = room.needed > room.room;
+    }
+    return facts;
+}
+
+} // namespace sinew::viewer

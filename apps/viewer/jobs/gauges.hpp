@@ -1,0 +1,57 @@
+// Statistics of the scene on show for the panels: what a step consists of, and the results of finished steps.
+#pragma once
+
+#include "common/layout.h"
+#include "viewer/document/document.hpp"
+#include "viewer/input/state_probe.hpp"
+#include "viewer/jobs/opened_scene.hpp"
+#include "viewer/ui/facts.hpp"
+
+namespace sinew::viewer {
+
+/// Facts that stay constant while a scene is shown. `settings` are those the document runs with.
+SceneFacts sceneFacts(const OpenedScene& opening, const Document& document, const vk::Device& device);
+
+/// Number of clamped links and the softest stiffness; empty if no link is elastic.
+std::string stiffnessText(const Document& document);
+
+/// The material that the knobs ask for; values equal to those of the file leave the file's own.
+sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile);
+
+/// `knobs` with the values of `material`.
+Knobs turnedTo(const sim::Material& material, Knobs knobs, const Knobs& fromFile);
+
+/// Strain of the live links, in the state that `probe` recorded last.
+Strain measureStrain(const sim::Scene& scene, StateProbe& probe);
+
+/// Collects the facts that change.
+class Gauges {
+public:
+    Gauges(const Document& document, double dt);
+
+    /// Adds a picture, `seconds` after the last one, with `steps` before it.
+    void frame(double seconds, std::uint32_t steps);
+    /// GPU time of one step, by phase [ms].
+    void stepTimed(std::span<const double> milliseconds);
+    void stepFinished(const sim::Status& status);
+    void stepsRepeated(std::uint64_t steps) { facts_.stepsRepeated += steps; }
+    void strainMeasured(const Strain& strain);
+    /// Sets the number of pieces that is shown until the next call.
+    void piecesCounted(const app::PieceCount& count) { facts_.pieces = count; }
+    const app::PieceCount& pieces() const { return facts_.pieces; }
+    /// Call after a reset, or after an earlier state was restored.
+    void restart();
+    /// Call after the simulation of `before` was taken over; the new one may have other phases.
+    void goOn(const Gauges& before);
+
+    /// All facts except those of window, tools and player.
+    Facts facts(const Document& document) const;
+
+private:
+    double dt_;
+    Facts facts_;
+    double seconds_ = 0, shown_ = 0; // of the clock and of the scene, for the pace
+    std::uint32_t frames_ = 0;
+};
+
+} // namespace sinew::viewer

@@ -1,0 +1,141 @@
+// Lists a folder and loads in a thread.
+#include "viewer/jobs/scene_loader.hpp"
+
+#include "scenes/built_in.hpp"
+#include "viewer/jobs/replay.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace sinew::viewer {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+constexpr const char* frameOfMeshes = "drop_mesh"; // drops a given mesh, has no body of its own
+
+// Scene files in a folder, by name; empty if it cannot be read.
+std::vector<fs::path> sceneFiles(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+         entry.increment(error))
+        if (entry->path().extension() == ".toml" && entry->path().stem() != frameOfMeshes)
+            files.push_back(entry->path());
+    std::ranges::sort(files);
+    return files;
+}
+
+} // namespace
+
+SceneLoader::SceneLoader(Options options, Prepare prepare, Draw draw)
+    : options_(std::move(options)), prepare_(std::move(prepare)), current_(none),
+      previews_(
+          [this, draw = std::move(draw), started = options_](std::size_t name, const std::stop_token& stop) {
+              return draw ? draw(ofScene(started, name), stop) : std::nullopt;
+          }) {
+    const fs::path opened = options_.scene;
+    if (opened.extension() == ".toml")
+        for (const fs::path& file : sceneFiles(opened.parent_path())) {
+            names_.push_back(file.stem().string());
+            files_.push_back(file.string());
+            if (file.filename() == opened.filename()) current_ = names_.size() - 1;
+        }
+    if (names_.empty())
+        for (const std::string_view name : scenes::builtInNames())
+            if (name != frameOfMeshes) {
+                names_.emplace_back(name);
+                if (opened.empty() && name == options_.builtIn) current_ = names_.size() - 1;
+            }
+    shown_ = Request{options_, current_};
+}
+
+void SceneLoader::open(std::size_t name, float aspect) {
+    if (name >= names_.size()) return;
+    begin({ofScene(options_, name), name}, aspect);
+}
+
+Options SceneLoader::ofScene(Options options, std::size_t name) const {
+    options.scene = files_.empty() ? "" : files_[name];
+    options.builtIn = names_[name];
+    options.overrides = {};
+    return options;
+}
+
+void SceneLoader::openNext(int by, float aspect) {
+    if (names_.empty()) return;
+    const std::size_t count = names_.size();
+    const std::size_t first = by > 0 ? 0 : count - 1; // if none is current
+    open(current_ == none
+             ? first
+             : (current_ + count + static_cast<std::size_t>(by + static_cast<int>(count))) % count,
+         aspect);
+}
+
+void SceneLoader::openFile(const std::string& file, float aspect) {
+    Options options = options_;
+    options.scene = file;
+    options.overrides = {};
+    begin({std::move(options), none}, aspect);
+}
+
+void SceneLoader::reopen(const scenes::Overrides& overrides, const ReloadRequest& reload, float aspect) {
+    Request request{shown_->options, shown_->name, reload};
+    if (overrides.solver) request.options.overrides.solver = overrides.solver;
+    if (overrides.substeps) request.options.overrides.substeps = overrides.substeps;
+    begin(std::move(request), aspect);
+}
+
+void SceneLoader::reopenOn(const std::string& device, const ReloadRequest& reload, float aspect) {
+    Request request{shown_->options, shown_->name, reload};
+    request.options.device = device;
+    begin(std::move(request), aspect);
+}
+
+void SceneLoader::moveTo(const std::string& device) {
+    shown_->options.device = options_.device = device;
+}
+
+void SceneLoader::playAgain(const InputFile& input, float aspect) {
+    begin({shown_->options, shown_->name, std::nullopt, input}, aspect);
+}
+
+void SceneLoader::begin(Request request, float aspect) {
+    if (isOpening()) return;
+    asked_ = std::move(request);
+    opening_ = std::async(std::launch::async, [asked = *asked_, aspect, this] {
+        auto opening = std::make_unique<OpenedScene>(viewer::open(asked.options, aspect));
+        opening->reload = asked.reload;
+        if (asked.input) prepareForReplay(*opening, *asked.input);
+        opening->input = asked.input;
+        if (prepare_) prepare_(*opening, asked.options);
+        return opening;
+    });
+}
+
+std::unique_ptr<OpenedScene> SceneLoader::take() {
+    if (!isOpening() || opening_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return nullptr;
+    std::unique_ptr<OpenedScene> opened = opening_.get();
+    before_ = std::exchange(shown_, std::move(asked_));
+    current_ = shown_->name;
+    options_.device = shown_->options.device;
+    return opened;
+}
+
+void SceneLoader::askAgain(const ReloadRequest& reload, float aspect) {
+    Request request = *shown_;
+    putBack();
+    request.reload = reload;
+    begin(std::move(request), aspect);
+}
+
+void SceneLoader::putBack() {
+    shown_ = before_;
+    current_ = shown_->name;
+    options_.device = shown_->options.device;
+}
+
+} // namespace sinew::viewer

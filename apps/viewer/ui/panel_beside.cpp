@@ -1,0 +1,90 @@
+// Comparison of two solvers: time of a step, and error.
+#include "viewer/ui/panel_parts.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace sinew::viewer::parts {
+
+namespace {
+
+std::string figure(const char* format, double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+Curve sumOfPhases(const std::vector<PhaseCurve>& phases) {
+    Curve sums;
+    const std::size_t count = phases.empty() ? 0 : phases.front().ms.count();
+    for (std::size_t i = 0; i < count; ++i) {
+        float sum = 0;
+        for (const PhaseCurve& phase : phases) sum += phase.ms.at(i);
+        sums.add(sum);
+    }
+    return sums;
+}
+
+// Plots two curves on one scale, for which `largest` is shown; outliers are clipped.
+void bothPlot(const Curve& left, const Curve& right, const char* format, double factor) {
+    const float most = std::max({1.2f * left.quantile(0.9f), 1.2f * right.quantile(0.9f), 1e-9f});
+    ImGui::Spacing();
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const float width = contentWidth(), height = 3 * ImGui::GetTextLineHeight();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(from, {from.x + width, from.y + height}, IM_COL32(255, 255, 255, 10));
+    for (const Curve* curve : {&left, &right}) {
+        const std::size_t first = Curve::length - curve->count();
+        for (std::size_t i = 0; i < curve->count(); ++i)
+            list.PathLineTo(
+                {from.x + width * static_cast<float>(first + i) / static_cast<float>(Curve::length),
+                 from.y + height * (1 - std::min(curve->at(i) / most, 1.0f))});
+        list.PathStroke(phaseColor(curve == &left ? 0 : 1), 0, 1.5f);
+    }
+    list.AddText(from, ImGui::GetColorU32(quiet()), figure(format, factor * double{most}).c_str());
+    ImGui::Dummy({width, height});
+}
+
+void lineOf(const std::string& name, std::size_t color, const Curve& ms, const Curve& rms,
+            const Curve& largest) {
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(phaseColor(color)), "%s", name.c_str());
+    const std::string cost = ms.count() > 0 ? figure("%.2f ms", double{ms.median()}) : "";
+    row(cost.c_str(), rms.count() == 0 ? ""
+                                       : figure("rms %.2f %%", 100.0 * double{rms.newest()}) +
+                                             figure(", max %.1f %%", 100.0 * double{largest.newest()}));
+}
+
+void shapeKnobs(const SceneFacts& scene, const BesideKnobs& knobs, Wishes& wishes) {
+    BesideKnobs turned = knobs;
+    const auto solver = static_cast<std::size_t>(knobs.solver);
+    ImGui::SetNextItemWidth(0.55f * contentWidth());
+    if (ImGui::BeginCombo("##beside", solver < scene.solvers.size() ? scene.solvers[solver].c_str() : "")) {
+        for (std::size_t i = 0; i < scene.solvers.size(); ++i)
+            if (ImGui::Selectable(scene.solvers[i].c_str(), i == solver)) turned.solver = static_cast<int>(i);
+        ImGui::EndCombo();
+    }
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputInt("##beside_substeps", &turned.substeps, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("substeps; 0 = as many as the scene needs");
+    turned.substeps = std::clamp(turned.substeps, 0, mostSubsteps);
+    if (turned != knobs) wishes.beside = turned;
+}
+
+} // namespace
+
+void beside(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
+    const BesideFacts& other = facts.beside;
+    button(Action::beside, wishes, contentWidth(), other.isOn,
+           other.isMaking ? "Beside: being made" : nullptr);
+    if (!other.isOn) return;
+    shapeKnobs(scene, other.knobs, wishes);
+    if (other.names[1].empty()) return;
+    const Curve left = sumOfPhases(facts.phases), right = sumOfPhases(other.phases);
+    lineOf(other.names[0], 0, left, facts.strainRms, facts.strainMax);
+    lineOf(other.names[1], 1, right, other.strainRms, other.strainMax);
+    if (left.count() > 0) bothPlot(left, right, "%.3g ms", 1);
+    if (other.strainRms.count() > 0) bothPlot(facts.strainRms, other.strainRms, "%.3g %% strain", 100);
+}
+
+} // namespace sinew::viewer::parts

@@ -1,0 +1,138 @@
+// Shared parts of the panels: colours, rows, buttons, headings.
+#include "viewer/ui/panel_parts.hpp"
+
+#include <algorithm>
+
+namespace sinew::viewer::parts {
+
+ImU32 phaseColor(std::size_t phase) {
+    constexpr std::array<ImU32, 7> colors{IM_COL32(86, 180, 233, 255), IM_COL32(230, 159, 0, 255),
+                                          IM_COL32(0, 158, 115, 255),  IM_COL32(204, 121, 167, 255),
+                                          IM_COL32(240, 228, 66, 255), IM_COL32(0, 114, 178, 255),
+                                          IM_COL32(213, 94, 0, 255)};
+    return colors[phase % colors.size()];
+}
+
+ImVec4 quiet() {
+    return {0.62f, 0.65f, 0.69f, 1};
+}
+
+ImVec4 bad() {
+    return {1.0f, 0.45f, 0.38f, 1};
+}
+
+ImVec4 warning() {
+    return {0.95f, 0.75f, 0.30f, 1};
+}
+
+ImVec4 accent() {
+    return {0.55f, 0.80f, 0.95f, 1};
+}
+
+float contentWidth() {
+    return ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;
+}
+
+void rule() {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + contentWidth(), at.y + 1},
+                                              ImGui::GetColorU32(ImGuiCol_Separator));
+    ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y / 2});
+}
+
+void heading(const char* name) {
+    ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y});
+    ImGui::PushStyleColor(ImGuiCol_Text, quiet());
+    ImGui::TextUnformatted(name);
+    ImGui::PopStyleColor();
+    rule();
+}
+
+void row(const char* name, const std::string& value, const ImVec4& color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, quiet());
+    ImGui::TextUnformatted(name);
+    ImGui::PopStyleColor();
+    const float width = ImGui::CalcTextSize(value.c_str()).x;
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - width));
+    ImGui::TextColored(color, "%s", value.c_str());
+}
+
+void pair(const char* name, const std::string& value, const char* other, const std::string& otherValue,
+          const ImVec4& otherColor) {
+    const float middle = ImGui::GetWindowContentRegionMin().x + contentWidth() / 2;
+    ImGui::TextColored(quiet(), "%s", name);
+    ImGui::SameLine();
+    ImGui::TextUnformatted(value.c_str());
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), middle));
+    row(other, otherValue, otherColor);
+}
+
+void row(const char* name, const std::string& value) {
+    row(name, value, ImGui::GetStyleColorVec4(ImGuiCol_Text));
+}
+
+float buttonWidth(std::size_t inARow) {
+    const float between = ImGui::GetStyle().ItemSpacing.x;
+    const auto count = static_cast<float>(inARow);
+    return (contentWidth() - (count - 1) * between) / count;
+}
+
+void button(Action action, Wishes& wishes, float width, bool isOn, const char* name) {
+    const auto binding = std::ranges::find(bindings(), action, &Binding::action);
+    const std::string label = name != nullptr ? name : std::string(binding->button);
+    if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, {0.34f, 0.70f, 0.91f, 0.45f});
+    ImGui::PushID(static_cast<int>(action)); // the label may change while the button is pressed
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2, ImGui::GetStyle().FramePadding.y});
+    if (ImGui::Button((label + "###button").c_str(), {width, 0})) wishes.actions.push_back(action);
+    ImGui::PopStyleVar();
+    ImGui::PopID();
+    if (isOn) ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s: %s", std::string(binding->shown).c_str(), std::string(binding->help).c_str());
+}
+
+void wrapped(const std::string& text, const ImVec4& color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+void help(float scale) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+    const float most = std::max(size.y - 24 * scale, 40.0f);
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(600 * scale, size.x - 16 * scale), 0});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x, most});
+    ImGui::SetNextWindowFocus();
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {24 * scale, 18 * scale});
+    ImGui::Begin("help", nullptr, flags);
+    ImGui::TextColored(accent(), "Keys and mouse");
+    ImGui::SameLine();
+    const std::string closing = std::string(keyOf(Action::help)) + " closes this";
+    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(closing.c_str()).x);
+    ImGui::TextColored(quiet(), "%s", closing.c_str());
+    rule();
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+        ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 204 * scale);
+        ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+        for (const HelpLine& line : helpLines()) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(line.triggers.c_str());
+            ImGui::TableNextColumn();
+            wrapped(std::string(line.help), quiet());
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+} // namespace sinew::viewer::parts

@@ -1,0 +1,66 @@
+// The parts of the side panel and their shared functions. Each part reads facts and adds to the requests; all
+// are called between ImGui::NewFrame and Render.
+#pragma once
+
+#include "viewer/ui/facts.hpp"
+
+#include <imgui.h>
+
+namespace sinew::viewer {
+struct PathField;
+}
+
+namespace sinew::viewer::parts {
+
+/// Colour of a phase by its index; distinct for most colour-blind eyes (Okabe and Ito 2008).
+ImU32 phaseColor(std::size_t phase);
+
+/// Text colours: quiet text; the next two stand out, the second more.
+ImVec4 quiet();
+ImVec4 warning();
+ImVec4 bad();
+ImVec4 accent();
+
+/// Text on removed fragments.
+std::string debrisText(const Facts& facts);
+
+/// Width between the margins of the panel [pixels].
+float contentWidth();
+/// Draws a thin line of that width.
+void rule();
+/// Writes quiet text above a line, with room above.
+void heading(const char* name);
+/// Writes text with line breaks at the panel's width.
+void wrapped(const std::string& text, const ImVec4& color);
+
+/// Writes a name on the left and its value on the right.
+void row(const char* name, const std::string& value);
+void row(const char* name, const std::string& value, const ImVec4& color);
+/// Writes two rows in one line.
+void pair(const char* name, const std::string& value, const char* other, const std::string& otherValue,
+          const ImVec4& otherColor);
+
+/// Width of each of `inARow` buttons that fill a line [pixels].
+float buttonWidth(std::size_t inARow);
+/// A button of an action, `width` pixels wide, with its key in a tooltip. The label is from the table of
+/// bindings unless `name` is given. `isOn`: drawn as pressed.
+void button(Action action, Wishes& wishes, float width, bool isOn = false, const char* name = nullptr);
+
+void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void play(const Facts& facts, Wishes& wishes);
+void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void speed(const Facts& facts);
+void beside(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void counts(const SceneFacts& scene, const Facts& facts);
+void cuts(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void program(const SceneFacts& scene);
+void scenes(const SceneFacts& scene, const Facts& facts, PathField& path, Wishes& wishes);
+void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+
+/// Draws a small window beside the pointer; `free` pixels from the left are not covered by the panel.
+void probe(const Facts& facts, float scale, float free);
+
+/// Draws the table of keys over everything.
+void help(float scale);
+
+} // namespace sinew::viewer::parts

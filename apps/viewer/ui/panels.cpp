@@ -1,0 +1,368 @@
+// Layout: one panel on the right, a line at the foot of the picture, and messages over both.
+#include "viewer/ui/panels.hpp"
+
+#include "viewer/ui/panel_parts.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200; // at a scale of 1 [pixels]
+constexpr int mostPicturesUnfocused = 20; // that a text field may wait for keys
+constexpr float roomBeside = 2.6f;        // in panels: least width of a picture that shows panels at first
+
+constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                   ImGuiWindowFlags_NoFocusOnAppearing; // keeps the focus of a text field
+
+// The font's file in Debian, Fedora and Arch; without any, Dear ImGui's built-in font.
+const char* findFont() {
+    for (const char* file :
+         {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+          "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+          "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+          "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"})
+        if (std::error_code error; std::filesystem::is_regular_file(file, error)) return file;
+    return nullptr;
+}
+
+GlyphAtlas makeAtlas(float scale) {
+    ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    fonts.Flags |= ImFontAtlasFlags_NoBakedLines | ImFontAtlasFlags_NoMouseCursors;
+    ImFontConfig config;
+    config.OversampleH = config.OversampleV = 1; // pixel on pixel: the painter does not filter
+    config.PixelSnapH = true;
+    config.SizePixels = std::round(textHeight * scale);
+    if (const char* file = findFont())
+        fonts.AddFontFromFileTTF(file, config.SizePixels, &config);
+    else
+        fonts.AddFontDefault(&config);
+    unsigned char* coverage = nullptr;
+    int width = 0, height = 0;
+    fonts.GetTexDataAsAlpha8(&coverage, &width, &height);
+    GlyphAtlas atlas{.width = static_cast<std::uint32_t>(width),
+                     .height = static_cast<std::uint32_t>(height)};
+    atlas.full = {fonts.TexUvWhitePixel.x * static_cast<float>(width),
+                  fonts.TexUvWhitePixel.y * static_cast<float>(height)};
+    atlas.coverage.assign(coverage,
+                          coverage + static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    fonts.ClearTexData();
+    return atlas;
+}
+
+ImVec4 color(int red, int green, int blue, float alpha = 1) {
+    return {static_cast<float>(red) / 255, static_cast<float>(green) / 255, static_cast<float>(blue) / 255,
+            alpha};
+}
+
+void setColors(ImGuiStyle& style) {
+    ImVec4* colors = style.Colors;
+    const ImVec4 clear = color(0, 0, 0, 0);
+    colors[ImGuiCol_Text] = color(232, 234, 237);
+    colors[ImGuiCol_TextDisabled] = parts::quiet();
+    colors[ImGuiCol_WindowBg] = color(20, 23, 28);
+    colors[ImGuiCol_PopupBg] = color(32, 36, 42, 0.98f);
+    colors[ImGuiCol_ChildBg] = clear;
+    colors[ImGuiCol_Border] = color(255, 255, 255, 0.08f);
+    colors[ImGuiCol_FrameBg] = color(255, 255, 255, 0.07f);
+    colors[ImGuiCol_FrameBgHovered] = color(255, 255, 255, 0.12f);
+    colors[ImGuiCol_FrameBgActive] = color(255, 255, 255, 0.16f);
+    colors[ImGuiCol_Button] = color(255, 255, 255, 0.08f);
+    colors[ImGuiCol_ButtonHovered] = color(255, 255, 255, 0.16f);
+    colors[ImGuiCol_ButtonActive] = color(86, 180, 233, 0.55f);
+    colors[ImGuiCol_Header] = clear;
+    colors[ImGuiCol_HeaderHovered] = color(255, 255, 255, 0.08f);
+    colors[ImGuiCol_HeaderActive] = color(255, 255, 255, 0.14f);
+    colors[ImGuiCol_Separator] = color(255, 255, 255, 0.10f);
+    colors[ImGuiCol_SliderGrab] = color(86, 180, 233);
+    colors[ImGuiCol_SliderGrabActive] = color(140, 205, 243);
+    colors[ImGuiCol_CheckMark] = color(86, 180, 233);
+    colors[ImGuiCol_ScrollbarBg] = clear;
+    colors[ImGuiCol_ScrollbarGrab] = color(255, 255, 255, 0.14f);
+    colors[ImGuiCol_ScrollbarGrabHovered] = color(255, 255, 255, 0.24f);
+    colors[ImGuiCol_ScrollbarGrabActive] = color(255, 255, 255, 0.34f);
+    colors[ImGuiCol_TableRowBgAlt] = color(255, 255, 255, 0.03f);
+}
+
+void setStyle(float scale) {
+    ImGuiStyle& style = ImGui::GetStyle();
+    style = ImGuiStyle();
+    style.WindowPadding = {14, 12};
+    style.FramePadding = {8, 4};
+    style.ItemSpacing = {6, 5};
+    style.ItemInnerSpacing = {6, 4};
+    style.WindowRounding = 8;
+    style.FrameRounding = style.PopupRounding = 4;
+    style.GrabRounding = 3;
+    style.ScrollbarSize = 8;
+    style.ScrollbarRounding = 4;
+    style.WindowBorderSize = 0;
+    style.FrameBorderSize = 0;
+    style.IndentSpacing = 12;
+    style.AntiAliasedLinesUseTex = false;
+    style.WindowMinSize = {16, 16};
+    style.ScaleAllSizes(scale);
+    setColors(style);
+}
+
+void mapKeys(ImGuiIO& io) {
+    constexpr std::array<std::pair<ImGuiKey_, int>, 18> keys{{{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                                              {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                                              {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                                              {ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                                              {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                                              {ImGuiKey_Home, GLFW_KEY_HOME},
+                                                              {ImGuiKey_End, GLFW_KEY_END},
+                                                              {ImGuiKey_Delete, GLFW_KEY_DELETE},
+                                                              {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                                              {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                                              {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+                                                              {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                                                              {ImGuiKey_A, GLFW_KEY_A},
+                                                              {ImGuiKey_C, GLFW_KEY_C},
+                                                              {ImGuiKey_V, GLFW_KEY_V},
+                                                              {ImGuiKey_X, GLFW_KEY_X},
+                                                              {ImGuiKey_Y, GLFW_KEY_Y},
+                                                              {ImGuiKey_Z, GLFW_KEY_Z}}};
+    for (const auto& [key, code] : keys) io.KeyMap[key] = code;
+}
+
+} // namespace
+
+Panels::Panels(float scale) : context_(ImGui::CreateContext()), scale_(scale) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = io.LogFilename = nullptr; // writes no files
+    io.BackendRendererName = "sinew";
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    mapKeys(io);
+    io.ClipboardUserData = this;
+    io.GetClipboardTextFn = [](void* panels) {
+        auto& self = *static_cast<Panels*>(panels);
+        self.pasted_ = self.paste_ ? self.paste_() : "";
+        return self.pasted_.c_str();
+    };
+    io.SetClipboardTextFn = [](void* panels, const char* text) {
+        const auto& self = *static_cast<Panels*>(panels);
+        if (self.copy_) self.copy_(text);
+    };
+    atlas_ = makeAtlas(scale);
+    setStyle(scale);
+}
+
+void Panels::rescale(float scale) {
+    ImGui::GetIO().Fonts->Clear();
+    scale_ = scale;
+    atlas_ = makeAtlas(scale);
+    setStyle(scale);
+}
+
+Panels::~Panels() {
+    ImGui::DestroyContext(context_);
+}
+
+bool Panels::isShown(VkExtent2D extent) const {
+    return isShown_.value_or(static_cast<float>(extent.width) >= roomBeside * sidePanel * scale_);
+}
+
+std::uint32_t Panels::sideWidth(VkExtent2D extent) const {
+    return isShown(extent) ? static_cast<std::uint32_t>(std::ceil((sidePanel + 2 * gap) * scale_)) : 0;
+}
+
+bool Panels::covers(const Vector2& pixels) const {
+    return std::ranges::any_of(covered_, [&](const Rectangle& one) {
+        return (pixels.array() >= one.from.array()).all() && (pixels.array() < one.to.array()).all();
+    });
+}
+
+bool Panels::takesKeys() const {
+    return ImGui::GetIO().WantTextInput || isAsking();
+}
+
+// A hidden text field gets no keys.
+bool Panels::isAsking() const {
+    return path_.isShown && isShown(lastExtent_);
+}
+
+const ImDrawData& Panels::drawn() const {
+    return *ImGui::GetDrawData();
+}
+
+void Panels::askForFile() {
+    closeHelp(); // the help covers everything
+    if (!isShown(lastExtent_)) toggle();
+    path_ = {.isShown = true, .wantsKeys = true};
+    early_ = {};
+}
+
+void Panels::feed(const PanelInput& input, VkExtent2D extent, double seconds) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
+    io.DeltaTime = std::clamp(static_cast<float>(seconds), 1e-4f, 0.1f);
+    io.MousePos = {input.pointer.x(), input.pointer.y()};
+    for (std::size_t button = 0; button < input.isDown.size(); ++button) feedButton(input, button);
+    io.MouseWheel = input.notches;
+    io.KeyCtrl = (input.modifiers & GLFW_MOD_CONTROL) != 0;
+    io.KeyShift = (input.modifiers & GLFW_MOD_SHIFT) != 0;
+    feedTyped(input);
+}
+
+// Presses the button in one picture for each press, and releases it in one picture in between.
+void Panels::feedButton(const PanelInput& input, std::size_t button) {
+    bool& isDown = ImGui::GetIO().MouseDown[button];
+    int& owed = owed_[button];
+    owed += input.presses[button];
+    if (owed > 0) {
+        isDown = !isDown;
+        owed -= isDown ? 1 : 0;
+    } else {
+        isDown = input.isDown[button];
+    }
+}
+
+// Holds keys that are typed before the text field for a path has the focus.
+void Panels::feedTyped(const PanelInput& input) {
+    const bool isEarly = isAsking() && !ImGui::GetIO().WantTextInput;
+    early_.keys.insert(early_.keys.end(), input.keys.begin(), input.keys.end());
+    early_.characters.insert(early_.characters.end(), input.characters.begin(), input.characters.end());
+    if (isEarly) {
+        if (++path_.pictures > mostPicturesUnfocused) path_ = {};
+        return;
+    }
+    const PanelInput typed = std::exchange(early_, {});
+    feedKeys(typed);
+    for (const unsigned character : typed.characters) ImGui::GetIO().AddInputCharacter(character);
+}
+
+// A key pressed and released between two pictures is down in one of them.
+void Panels::feedKeys(const PanelInput& input) {
+    ImGuiIO& io = ImGui::GetIO();
+    for (const int key : released_) io.KeysDown[key] = false;
+    released_.clear();
+    std::vector<int> pressed;
+    for (const auto& [key, isDown] : input.keys) {
+        if (key < 0 || key >= IM_ARRAYSIZE(io.KeysDown)) continue;
+        if (isDown) pressed.push_back(key);
+        if (!isDown && std::ranges::count(pressed, key) > 0)
+            released_.push_back(key);
+        else
+            io.KeysDown[key] = isDown;
+    }
+}
+
+Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInput& input, VkExtent2D extent,
+                     double seconds) {
+    feed(input, extent, seconds);
+    lastExtent_ = extent;
+    Wishes wishes;
+    wishes.previews.emplace();
+    ImGui::NewFrame();
+    if (isShown(extent)) buildSide(scene, facts, extent, wishes);
+    buildHint(facts, extent);
+    buildNotice(facts, extent);
+    const float side = isShown(extent) ? (sidePanel + gap) * scale_ : 0;
+    parts::probe(facts, scale_, static_cast<float>(extent.width) - side);
+    if (isHelpShown_) parts::help(scale_);
+    ImGui::Render();
+    remember();
+    return wishes;
+}
+
+// Adds all top-level windows: popups may extend beyond a panel.
+void Panels::remember() {
+    covered_.clear();
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+        const bool isPart =
+            window->Active && !window->Hidden && (window->Flags & ImGuiWindowFlags_ChildWindow) == 0;
+        if (!isPart || (window->Flags & ImGuiWindowFlags_NoInputs) == ImGuiWindowFlags_NoInputs) continue;
+        covered_.push_back({{window->Pos.x, window->Pos.y},
+                            {window->Pos.x + window->Size.x, window->Pos.y + window->Size.y}});
+    }
+}
+
+namespace {
+
+// Draws the background of the present window: opaque without blending, which would take a software device
+// longer than everything else in the window. Only the rounded ends are blended.
+void addGround() {
+    if (ImGui::GetCurrentWindow()->Hidden) return; // it has no size yet
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const ImU32 color = ImGui::GetColorU32(ImGuiCol_WindowBg);
+    const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const ImVec2 to{from.x + size.x, from.y + size.y};
+    const float round = ImGui::GetStyle().WindowRounding, end = std::ceil(round);
+    list.AddRectFilled(from, {to.x, from.y + end + 2}, color, round, ImDrawFlags_RoundCornersTop);
+    list.AddRectFilled({from.x, to.y - end - 2}, to, color, round, ImDrawFlags_RoundCornersBottom);
+    list.PushTextureID(reinterpret_cast<ImTextureID>(areaTexture));
+    list.AddRectFilled({from.x, from.y + end}, {to.x, to.y - end}, color);
+    list.PopTextureID();
+}
+
+} // namespace
+
+void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes) {
+    const float edge = gap * scale_;
+    const float width =
+        std::min(sidePanel * scale_, std::max(static_cast<float>(extent.width) - 2 * edge, 40.0f));
+    ImGui::SetNextWindowPos({static_cast<float>(extent.width) - width - edge, edge});
+    ImGui::SetNextWindowSize({width, 0});
+    ImGui::SetNextWindowSizeConstraints(
+        {width, 0}, {width, std::max(static_cast<float>(extent.height) - 2 * edge, 40.0f)});
+    ImGui::Begin("side", nullptr, fixed | ImGuiWindowFlags_NoBackground);
+    addGround();
+    parts::device(scene, facts, wishes);
+    parts::scenes(scene, facts, path_, wishes);
+    parts::play(facts, wishes);
+    parts::look(scene, facts, wishes);
+    parts::speed(facts);
+    parts::beside(scene, facts, wishes);
+    parts::counts(scene, facts);
+    if (scene.canCut) parts::cuts(scene, facts, wishes);
+    parts::knobs(scene, facts, wishes);
+    parts::program(scene);
+    ImGui::End();
+}
+
+void Panels::buildHint(const Facts& facts, VkExtent2D extent) {
+    const float edge = gap * scale_, pad = 10 * scale_;
+    const float room =
+        static_cast<float>(extent.width) - 2 * edge - (isShown(extent) ? sidePanel * scale_ + edge : 0);
+    std::string text = hintText(facts.hint);
+    if (ImGui::CalcTextSize(text.c_str()).x + 2 * pad > room) text = shortHintText();
+    ImGui::SetNextWindowPos({edge, static_cast<float>(extent.height) - edge}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowBgAlpha(0.85f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, 6 * scale_});
+    ImGui::Begin("hint", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+void Panels::buildNotice(const Facts& facts, VkExtent2D extent) {
+    if (facts.notice.empty()) return;
+    const float edge = gap * scale_;
+    const float all = static_cast<float>(extent.width) - 2 * edge;
+    const float beside = all - (isShown(extent) ? sidePanel * scale_ + edge : 0); // width beside the panel
+    const float width = std::min(560 * scale_, beside >= leastNotice * scale_ ? beside : all);
+    ImGui::SetNextWindowPos({edge, edge});
+    ImGui::SetNextWindowSize({width, 0});
+    ImGui::Begin("notice", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    if (facts.isNoticeBad) {
+        ImGui::TextColored(parts::bad(), "This did not work");
+    }
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(facts.notice.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::End();
+}
+
+} // namespace sinew::viewer

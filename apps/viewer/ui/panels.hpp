@@ -1,0 +1,98 @@
+// The panels of the window, with Dear ImGui: layout, style, pointer handling and the list of parts, which are
+// in panel_*.cpp. Makes triangles and requests from facts; touches no device and no window.
+#pragma once
+
+#include "viewer/input/panel_input.hpp"
+#include "viewer/ui/facts.hpp"
+#include "viewer/ui/panel_painter.hpp"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <utility>
+
+struct ImGuiContext;
+
+namespace sinew::viewer {
+
+/// The text field for a path.
+struct PathField {
+    bool isShown = false, wantsKeys = false;
+    int pictures = 0; ///< pictures since it began to wait for keys
+    std::array<char, 1024> text{};
+};
+
+/// Only one may exist (Dear ImGui's context is global); one thread.
+class Panels {
+public:
+    /// `scale` 1 = 96 pixels per inch.
+    explicit Panels(float scale);
+    ~Panels();
+    Panels(const Panels&) = delete;
+    Panels& operator=(const Panels&) = delete;
+
+    const GlyphAtlas& atlas() const { return atlas_; }
+
+    /// Lays out everything for a picture of `extent`, `seconds` after the last one.
+    Wishes build(const SceneFacts& scene, const Facts& facts, const PanelInput& input, VkExtent2D extent,
+                 double seconds);
+    /// Triangles of the last build(); valid until the next.
+    const ImDrawData& drawn() const;
+
+    /// Whether a place (pixels) belongs to a panel of the last build(), which then gets presses there.
+    bool covers(const Vector2& pixels) const;
+    /// Whether a panel takes keys, or will: from askForFile() on.
+    bool takesKeys() const;
+
+    /// Opens a text field for a path (Wishes::file), unless it is open. `paste` provides the text to paste.
+    void askForFile();
+    void setPaste(std::function<std::string()> paste) { paste_ = std::move(paste); }
+    /// `copy` receives text that is copied or cut from a field.
+    void setCopy(std::function<void(const std::string&)> copy) { copy_ = std::move(copy); }
+
+    /// Sets the scale (see the constructor). The atlas changes.
+    void rescale(float scale);
+
+    /// The user's choice whether panels are shown; empty = no choice yet.
+    const std::optional<bool>& choice() const { return isShown_; }
+    void choose(std::optional<bool> isShown) { isShown_ = isShown; }
+    void toggle() { isShown_ = !isShown(lastExtent_); }
+    void toggleHelp() { isHelpShown_ = !isHelpShown_; }
+    void closeHelp() { isHelpShown_ = false; }
+    bool isHelpShown() const { return isHelpShown_; }
+    /// Without a choice, panels are shown if the window is large enough.
+    bool isShown(VkExtent2D extent) const;
+    /// Width that panels cover at the right of a picture [pixels].
+    std::uint32_t sideWidth(VkExtent2D extent) const;
+
+private:
+    void feed(const PanelInput& input, VkExtent2D extent, double seconds);
+    void feedButton(const PanelInput& input, std::size_t button);
+    void feedTyped(const PanelInput& input);
+    void feedKeys(const PanelInput& input);
+    bool isAsking() const;
+    void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
+    void buildHint(const Facts& facts, VkExtent2D extent);
+    void buildNotice(const Facts& facts, VkExtent2D extent);
+    void remember();
+
+    struct Rectangle {
+        Vector2 from, to;
+    };
+    ImGuiContext* context_;
+    GlyphAtlas atlas_;
+    float scale_;
+    std::optional<bool> isShown_;
+    bool isHelpShown_ = false;
+    PathField path_;
+    std::function<std::string()> paste_;
+    std::string pasted_;
+    std::function<void(const std::string&)> copy_;
+    std::vector<int> released_; // keys to release in the next picture
+    PanelInput early_;          // characters typed before the field of path_ opens
+    std::array<int, 3> owed_{}; // presses not yet passed to a picture
+    VkExtent2D lastExtent_{};
+    std::vector<Rectangle> covered_;
+};
+
+} // namespace sinew::viewer
