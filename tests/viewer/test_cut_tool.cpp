@@ -28,7 +28,7 @@ TEST(CutTool, CutsNothingUntilItIsTakenUp) {
     EXPECT_FALSE(tool.next());
 }
 
-TEST(CutTool, SweepsFromBeforeTheStageToBehindItAndEachGoesOnWhereTheLastEnded) {
+TEST(CutTool, SweepsFromBeforeTheSceneToBehindItAndEachGoesOnWhereTheLastEnded) {
     CutTool tool = withBlade();
     tool.press(fromFront, {-0.1f, 0});
     EXPECT_FALSE(tool.next()) << "a press alone cuts nothing";
@@ -62,7 +62,7 @@ TEST(CutTool, WaitsForMovesThatAreSeen) {
     EXPECT_EQ(sweeps, 3);
 }
 
-TEST(CutTool, EndsAStrokeBesideTheStageAndBeginsAnotherWhereItComesBack) {
+TEST(CutTool, EndsAStrokeBesideTheSceneAndBeginsAnotherWhereItComesBack) {
     CutTool tool = withBlade();
     tool.press(fromFront, {0, 0});
     tool.move(fromFront, {0.1f, 0});
@@ -88,7 +88,7 @@ TEST(CutTool, KeepsTheWholeWayOfAStrokeThatStepsDoNotKeepUpWith) {
     EXPECT_LT(end.cross(last.direction).norm(), 1e-4f);
 }
 
-TEST(CutTool, CutsNoChordWhereAStrokeLeftTheStage) {
+TEST(CutTool, CutsNoChordWhereAStrokeLeftTheScene) {
     CutTool tool = withBlade();
     tool.press(fromFront, {-0.2f, 0});
     for (int i = 1; i <= 40; ++i) tool.move(fromFront, {-0.2f + 0.004f * static_cast<float>(i), 0});

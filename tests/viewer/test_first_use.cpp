@@ -175,7 +175,7 @@ Document::Turn awaitTurn(Document& document) {
 }
 
 // Prepared for a simulation that makes way, a material that cannot be had is still refused aloud.
-TEST(StageTurn, ThatFailsWhileASimulationIsReplacedIsTold) {
+TEST(DocumentTurn, ThatFailsWhileASimulationIsReplacedIsTold) {
     Played played;
     played.turn({}, 2);
     played.document.turn({.friction = -1.0f});

@@ -58,7 +58,7 @@ struct Landing {
     }
 };
 
-TEST(StageRepeats, TakesAnotherMaterialBehindStepsThatWereUndone) {
+TEST(DocumentRepeats, TakesAnotherMaterialBehindStepsThatWereUndone) {
     const sim::Material soft{.stiffness = 0.5f};
     Landing calm(true), plain(false);
     const std::uint64_t undone = calm.untilUndone(2), newest = undone + 2;
@@ -80,7 +80,7 @@ TEST(StageRepeats, TakesAnotherMaterialBehindStepsThatWereUndone) {
     EXPECT_EQ(calm.hash(), plain.hash());
 }
 
-TEST(StageRepeats, AreDroppedWithTheStateThatTheyLedFrom) {
+TEST(DocumentRepeats, AreDroppedWithTheStateThatTheyLedFrom) {
     Landing reset(true), loaded(true);
     reset.untilUndone(1);
     EXPECT_EQ(reset.document.undoneSteps(), 2u);

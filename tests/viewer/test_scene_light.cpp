@@ -52,7 +52,7 @@ TEST(Document, OfAnEmptySceneIsFinite) {
     EXPECT_TRUE(Eigen::Map<const Matrix4>(params.shadowFromWorld.columns).allFinite());
 }
 
-TEST(SceneLight, ShadowMapHoldsTheWholeStage) {
+TEST(SceneLight, ShadowMapHoldsTheWholeScene) {
     const SceneLight light = lightFor(droppedBlock(), Camera{});
     const layout::FrameParams params = frameParams(light, Camera{}, 1.5f);
     for (int corner = 0; corner < 8; ++corner) {
@@ -73,7 +73,7 @@ TEST(SceneLight, DepthGrowsAwayFromTheLight) {
               transform(params.shadowFromWorld, center).z());
 }
 
-TEST(SceneLight, FloorMapHoldsTheShadowsOfTheStage) {
+TEST(SceneLight, FloorMapHoldsTheShadowsOfTheScene) {
     const SceneLight light = lightFor(droppedBlock(), Camera{});
     const layout::FrameParams params = frameParams(light, Camera{}, 1.5f);
     for (int corner = 0; corner < 8; ++corner) {

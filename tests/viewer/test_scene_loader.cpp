@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class LibraryTest : public testing::Test {
+class SceneLoaderTest : public testing::Test {
 protected:
     void SetUp() override {
         fs::create_directories(folder);
@@ -46,13 +46,13 @@ protected:
     const fs::path folder = fs::temp_directory_path() / ("sinew-library-" + std::to_string(::getpid()));
 };
 
-TEST_F(LibraryTest, OffersTheSceneFilesBesideTheOneOpened) {
+TEST_F(SceneLoaderTest, OffersTheSceneFilesBesideTheOneOpened) {
     const SceneLoader sceneLoader = libraryOf("b.toml");
     EXPECT_EQ(sceneLoader.names(), (std::vector<std::string>{"a", "b", "broken"}));
     EXPECT_EQ(sceneLoader.current(), 1u);
 }
 
-TEST_F(LibraryTest, OffersTheBuiltInScenesWhereNoFileWasOpened) {
+TEST_F(SceneLoaderTest, OffersTheBuiltInScenesWhereNoFileWasOpened) {
     const SceneLoader sceneLoader = libraryOf("");
     ASSERT_LT(sceneLoader.current(), sceneLoader.names().size());
     EXPECT_EQ(sceneLoader.names()[sceneLoader.current()], "organ");
@@ -60,7 +60,7 @@ TEST_F(LibraryTest, OffersTheBuiltInScenesWhereNoFileWasOpened) {
     EXPECT_EQ(std::ranges::count(sceneLoader.names(), "cloth"), 1);
 }
 
-TEST_F(LibraryTest, OpensTheNextRoundTheEnd) {
+TEST_F(SceneLoaderTest, OpensTheNextRoundTheEnd) {
     SceneLoader sceneLoader = libraryOf("b.toml");
     sceneLoader.openNext(-1, 1.5f);
     const auto a = await(sceneLoader);
@@ -75,7 +75,7 @@ TEST_F(LibraryTest, OpensTheNextRoundTheEnd) {
     EXPECT_EQ(sceneLoader.current(), 1u);
 }
 
-TEST_F(LibraryTest, OpensWhatIsDroppedAndRefusesWhatIsNoMesh) {
+TEST_F(SceneLoaderTest, OpensWhatIsDroppedAndRefusesWhatIsNoMesh) {
     SceneLoader sceneLoader = libraryOf("b.toml");
     for (const char* bad : {"noise.obj", "missing.stl", "broken.toml"}) {
         sceneLoader.openFile((folder / bad).string(), 1.5f);
@@ -90,7 +90,7 @@ TEST_F(LibraryTest, OpensWhatIsDroppedAndRefusesWhatIsNoMesh) {
     EXPECT_EQ(sceneLoader.current(), 1u);
 }
 
-TEST_F(LibraryTest, OpensTheSameSceneAgainWithOtherSubsteps) {
+TEST_F(SceneLoaderTest, OpensTheSameSceneAgainWithOtherSubsteps) {
     SceneLoader sceneLoader = libraryOf("b.toml");
     ReloadRequest reload;
     reload.material.stiffness = 7;
@@ -104,7 +104,7 @@ TEST_F(LibraryTest, OpensTheSameSceneAgainWithOtherSubsteps) {
 }
 
 // The shown scene has grown while its successor was opened, so the successor is opened again.
-TEST_F(LibraryTest, OpensWhatIsToTakeOverOnceMore) {
+TEST_F(SceneLoaderTest, OpensWhatIsToTakeOverOnceMore) {
     SceneLoader sceneLoader = libraryOf("b.toml");
     sceneLoader.reopen({.substeps = 9}, {}, 1.5f);
     ASSERT_TRUE(await(sceneLoader));
@@ -119,7 +119,7 @@ TEST_F(LibraryTest, OpensWhatIsToTakeOverOnceMore) {
     EXPECT_EQ(sceneLoader.shown().overrides.substeps, 9u);
 }
 
-TEST_F(LibraryTest, OpensOneAtATime) {
+TEST_F(SceneLoaderTest, OpensOneAtATime) {
     SceneLoader sceneLoader = libraryOf("b.toml");
     sceneLoader.open(0, 1.5f);
     sceneLoader.open(2, 1.5f); // a broken file, which is no longer wanted
@@ -143,7 +143,7 @@ TEST(Recording, NeverWritesOverWhatIsThereAndLeavesNothingEmpty) {
     fs::remove_all(folder);
 }
 
-TEST_F(LibraryTest, StaysOnTheDeviceThatWasChosen) {
+TEST_F(SceneLoaderTest, StaysOnTheDeviceThatWasChosen) {
     std::vector<std::string> devices; // devices on which scenes were prepared
     SceneLoader sceneLoader(Options{.scene = (folder / "b.toml").string()},
                             [&](OpenedScene&, const Options& options) { devices.push_back(options.device); });
@@ -166,7 +166,7 @@ TEST_F(LibraryTest, StaysOnTheDeviceThatWasChosen) {
     EXPECT_EQ(devices.back(), "other");
 }
 
-TEST_F(LibraryTest, KeepsTheSceneOnShowWhereTheNextCannotBePrepared) {
+TEST_F(SceneLoaderTest, KeepsTheSceneOnShowWhereTheNextCannotBePrepared) {
     SceneLoader sceneLoader(Options{.scene = (folder / "b.toml").string()},
                             [](OpenedScene&, const Options& options) {
                                 if (options.device == "bad") throw std::runtime_error("no such device");

@@ -73,7 +73,7 @@ void pinCutAndHold(Played& played) {
     played.dragFrom({-0.1f, 0}, {0, -0.1f}, 3);
 }
 
-TEST(StageTakeOver, KeepsPlacesCutsPinsGravityAndTime) {
+TEST(DocumentTakeOver, KeepsPlacesCutsPinsGravityAndTime) {
     Played before;
     pinCutAndHold(before);
     const sim::Status cut = before.document.simulation().status(before.document.steps());
@@ -249,7 +249,7 @@ TEST(InputFile, OfTheVersionBeforeLosesStatesWithTheSolver) {
     EXPECT_THROW(parseInput("sinew input 2\nforget me\n", "test"), app::Failure);
 }
 
-TEST(StageTakeOver, ByAnotherSolverAndBackIsDoneAgainByAReplay) {
+TEST(DocumentTakeOver, ByAnotherSolverAndBackIsDoneAgainByAReplay) {
     Played first(falling), second(jacobi), third(falling);
     first.turn({}, 8);
     first.dragFrom({0, 0}, {0.1f, -0.2f}, 4);
@@ -265,7 +265,7 @@ TEST(StageTakeOver, ByAnotherSolverAndBackIsDoneAgainByAReplay) {
 }
 
 // A cuttable body has contacts by default. Another solver leaves both out as long as nothing was cut.
-TEST(StageTakeOver, ByAnotherSolverDoesWithoutDefaultContactsAndCuts) {
+TEST(DocumentTakeOver, ByAnotherSolverDoesWithoutDefaultContactsAndCuts) {
     const auto byJacobi = [] { return openText(block, {.solver = "jacobi", .substeps = 12}); };
     Played first, second(byJacobi()), third;
     ASSERT_GT(first.document.scene().particles[0].radius, 0);
@@ -291,7 +291,7 @@ TEST(StageTakeOver, ByAnotherSolverDoesWithoutDefaultContactsAndCuts) {
     EXPECT_EQ(fourth.tools.history().redos(), 0u) << "the state with the cut stays behind";
 }
 
-TEST(StageTakeOver, HasAMaterialThatNeedsOtherPasses) {
+TEST(DocumentTakeOver, HasAMaterialThatNeedsOtherPasses) {
     Played before(jacobi);
     before.turn({}, 6);
     before.document.turn(damped);
@@ -313,7 +313,7 @@ TEST(StageTakeOver, HasAMaterialThatNeedsOtherPasses) {
     expectTheSameBitsAgain(next, jacobi);
 }
 
-TEST(StageTakeOver, GoesToAnotherDevice) {
+TEST(DocumentTakeOver, GoesToAnotherDevice) {
     std::vector<std::string> messages;
     const vk::Loader loader;
     const vk::Device device =
@@ -340,7 +340,7 @@ TEST(StageTakeOver, GoesToAnotherDevice) {
     EXPECT_TRUE(messages.empty()) << messages.front();
 }
 
-TEST(StageTakeOver, HasAllRoomThatThereIs) {
+TEST(DocumentTakeOver, HasAllRoomThatThereIs) {
     Played roomy, next;
     sim::Settings settings = roomy.opening.loaded.settings;
     settings.contactRoom = 64;
@@ -361,7 +361,7 @@ TEST(StageTakeOver, HasAllRoomThatThereIs) {
     EXPECT_EQ(status.nonFinite, 0u);
 }
 
-TEST(StageReshape, ThatCannotBeHadLeavesAllAsItIs) {
+TEST(DocumentReshape, ThatCannotBeHadLeavesAllAsItIs) {
     Played played;
     played.tools.pull(played.document, 3);
     cutAt(played, 0.1f); // only one solver supports cuts
@@ -382,7 +382,7 @@ TEST(StageReshape, ThatCannotBeHadLeavesAllAsItIs) {
 }
 
 // Another thread makes the new simulation. Meanwhile pictures continue, and another change may be requested.
-TEST(StageReshape, IsMadeBesideWhatPlays) {
+TEST(DocumentReshape, IsMadeBesideWhatPlays) {
     const auto isMade = [](Document& document) {
         for (int n = 0; n < 3000 && !document.isShapeMade(); ++n)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -417,7 +417,7 @@ TEST(StageReshape, IsMadeBesideWhatPlays) {
 }
 
 // A replay starts with the settings with which its scene was opened.
-TEST(StageReshape, IsTakenBackAtTheBeginningOfAReplay) {
+TEST(DocumentReshape, IsTakenBackAtTheBeginningOfAReplay) {
     Played first(jacobi), second(changed(jacobi, "12", "7"), damped);
     first.turn({}, 5);
     takeOver(second, first);
