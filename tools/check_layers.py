@@ -28,6 +28,7 @@ SHADER_ROOMS = ["common"] + ROOMS[:-1] + ["mesh", "viewer"]
 # Folders of the viewer: each may include itself and those before it. The files beside them may include all.
 VIEWER_ROOMS = ["render", "document", "layers", "input", "tools", "ui", "capture", "jobs", "player"]
 VIEWER_TOP = {"main", "interactive", "headless", "headless_times"}
+SHOWS_PROGRAM = "apps/viewer/jobs/gauges.cpp"  # the panel of the step program: the rest of the viewer uses public headers
 LIMITS = {".cpp": 600, ".hpp": 600, ".h": 600, ".comp": 150, ".glsl": 150, ".vert": 150, ".frag": 150}
 # Uniform blocks that are allowed. Lavapipe recompiles a shader when a uniform word used in a condition changes, so data that change with
 # every step are in storage buffers. Planes never change.
@@ -103,6 +104,9 @@ def complaints(path, text):
                 continue
             if parts[0] == "viewer" and (parts[1] not in VIEWER_ROOMS or VIEWER_ROOMS.index(parts[1]) > room):
                 yield f"{name}: {VIEWER_ROOMS[room]} must not include {include}"
+    for include in INCLUDE.findall(text) if name.startswith("apps/") and name != SHOWS_PROGRAM else []:
+        if include.startswith(("sim/compile/", "sim/program/", "sim/simulation/", "sim/device/")):
+            yield f"{name}: only {SHOWS_PROGRAM} may include {include}"
     if name.startswith("tools/sinew/") and (ROOT / "include" / name[len("tools/"):]).exists():
         yield f"{name}: a public header has that name"
     if name.startswith("include/"):

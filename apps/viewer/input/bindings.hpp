@@ -15,7 +15,7 @@ namespace sinew::viewer {
 
 struct Tool;
 
-/// All tools of the pointer, in the order of keys and buttons (hands/tool.hpp). At most mostTools.
+/// All tools of the pointer, in the order of keys and buttons (input/tool.hpp). At most mostTools.
 std::span<const Tool* const> toolTable();
 constexpr std::size_t mostTools = 8;
 /// Index into toolTable().

@@ -2,8 +2,8 @@
 #include "viewer/input/input_log.hpp"
 
 #include "app/guard.hpp"
-#include "sim/compile/compile.hpp"
 #include "sinew/ranges.hpp"
+#include "sinew/solver_names.hpp"
 #include "viewer/input/tool.hpp"
 
 #include <algorithm>

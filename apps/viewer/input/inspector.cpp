@@ -1,7 +1,7 @@
 // The device counts the contacts of the particle that was picked last.
 #include "viewer/input/inspector.hpp"
 
-#include "sim/compile/compile.hpp"
+#include "sinew/inverse_masses.hpp"
 #include "viewer/document/document.hpp"
 #include "viewer/input/state_probe.hpp"
 

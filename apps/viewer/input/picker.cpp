@@ -2,8 +2,8 @@
 #include "viewer/input/picker.hpp"
 
 #include "common/layout.h"
-#include "sim/compile/compile.hpp"
-#include "sim/program/program.hpp"
+#include "sinew/inspection.hpp"
+#include "sinew/inverse_masses.hpp"
 #include "viewer/document/document.hpp"
 #include "viewer/render/mesh_buffer.hpp"
 #include "viewer/render/removed.hpp"
@@ -132,7 +132,7 @@ Picker::Picker(const vk::Device& device, const Document& document, const SceneLi
 
 void Picker::restart() {
     const sim::Simulation& simulation = document_.simulation();
-    const vk::BufferView whole = simulation.view(simulation.program().wholeIndices);
+    const vk::BufferView whole = sim::inspect(simulation).wholeIndices;
     sets_.emplace(bindingSets(simulation.skinIndices()));
     wholeSets_.reset();
     if (whole.size > 0) wholeSets_.emplace(bindingSets(whole));

@@ -1,7 +1,7 @@
 // Copies into mapped memory.
 #include "viewer/input/state_probe.hpp"
 
-#include "sim/compile/compile.hpp"
+#include "sinew/inspection.hpp"
 #include "sinew/vk/commands.hpp"
 #include "viewer/input/pick.hpp"
 
@@ -20,11 +20,11 @@ vk::Buffer readback(const vk::Device& device, const std::string& name, const vk:
 StateProbe::StateProbe(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
                        const sim::Simulation& simulation)
     : device_(device), scene_(scene), settings_(settings), simulation_(simulation),
-      particles_(simulation.program().particleCount), positions_{simulation.positions(),
+      particles_(sim::inspect(simulation).particles), positions_{simulation.positions(),
                                                                  readback(device, "probe.positions",
                                                                           simulation.positions())} {
     const vk::BufferView velocities = simulation.velocities(), pieces = simulation.pieces(),
-                         links = simulation.view(simulation.program().cutting.links);
+                         links = sim::inspect(simulation).liveLinks;
     if (velocities.size > 0)
         velocities_.emplace(Copy{velocities, readback(device, "probe.velocities", velocities)});
     if (pieces.size > 0) pieces_.emplace(Copy{pieces, readback(device, "probe.pieces", pieces)});
@@ -79,7 +79,7 @@ std::span<const sim::layout::vec4> StateProbe::velocities() const noexcept {
 
 std::function<bool(std::size_t)> StateProbe::liveLinks() {
     if (isWhole_ || !links_) return [](std::size_t) { return true; };
-    if (!cutLinks_) cutLinks_.emplace(scene_, sim::stateLayout(scene_, settings_).slot);
+    if (!cutLinks_) cutLinks_.emplace(scene_, sim::particleSlots(scene_, settings_).slot);
     const std::span words(reinterpret_cast<const std::uint32_t*>(links_->to.mapped()), links_->to.count());
     return [this, words](std::size_t d) {
         const sim::DistanceConstraint& link = scene_.distances[d];

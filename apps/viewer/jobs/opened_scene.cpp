@@ -1,8 +1,8 @@
 // Loads scenes and chooses their first view.
 #include "viewer/jobs/opened_scene.hpp"
 
-#include "sim/compile/compile.hpp"
 #include "sinew/ranges.hpp"
+#include "sinew/solver_names.hpp"
 #include "viewer/jobs/prepared_player.hpp"
 
 #include <cstdio>

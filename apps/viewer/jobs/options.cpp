@@ -2,8 +2,8 @@
 #include "viewer/jobs/options.hpp"
 
 #include "app/guard.hpp"
-#include "sim/compile/compile.hpp"
 #include "sinew/ranges.hpp"
+#include "sinew/solver_names.hpp"
 #include "viewer/input/bindings.hpp"
 #include "viewer/jobs/second_simulation.hpp"
 #include "viewer/ui/preferences.hpp"

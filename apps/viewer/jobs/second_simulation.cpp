@@ -2,8 +2,8 @@
 #include "viewer/jobs/second_simulation.hpp"
 
 #include "scenes/recovery.hpp"
-#include "sim/compile/compile.hpp"
 #include "sinew/ranges.hpp"
+#include "sinew/solver_names.hpp"
 #include "sinew/substeps.hpp"
 
 #include <algorithm>

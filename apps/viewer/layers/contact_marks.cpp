@@ -3,7 +3,7 @@
 #include "viewer/layers/contact_marks.hpp"
 
 #include "common/layout.h"
-#include "sim/compile/compile.hpp"
+#include "sinew/inspection.hpp"
 #include "viewer/layers/value_maps.hpp"
 #include "viewer/render/balls.hpp"
 #include "viewer/render/mesh_buffer.hpp"
@@ -21,11 +21,11 @@ constexpr std::uint32_t mostMarks = 1 << 15;
 constexpr float nearness = 0.02f; // in radii
 constexpr HandMesh::Shape shape{.sides = 5, .cuts = 0};
 
-std::vector<layout::MarkParticle> markParticles(const sim::Scene& scene, const sim::StateLayout& state) {
+std::vector<layout::MarkParticle> markParticles(const sim::Scene& scene, const sim::ParticleSlots& slots) {
     const BallList balls = allBallsOf(scene);
     std::vector<layout::MarkParticle> particles;
     for (std::size_t i = 0; i < scene.particles.size(); ++i)
-        particles.push_back({state.slot[i], scene.particles[i].contactOffset,
+        particles.push_back({slots.slot[i], scene.particles[i].contactOffset,
                              balls.radii.empty() ? 0 : nearness * balls.radii[i]});
     return particles;
 }
@@ -92,15 +92,15 @@ ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, co
       simulation_(simulation), push_{.count = static_cast<std::uint32_t>(scene.particles.size()),
                                      .walls = wallCount(scene),
                                      .firstWall = 0,
-                                     .hasPairs = simulation.program().contacts.pairs != sim::BufferId{},
-                                     .hasFaces = simulation.program().contacts.facePairs != sim::BufferId{},
+                                     .hasPairs = sim::inspect(simulation).contacts.pairs.size > 0,
+                                     .hasFaces = sim::inspect(simulation).contacts.facePairs.size > 0,
                                      .room = room == Room::many ? mostMarks : 1,
-                                     .edges = simulation.program().contacts.edgeCount,
+                                     .edges = sim::inspect(simulation).contacts.edgeCount,
                                      .only = NO_PARTICLE},
       mesh_(device, shape),
       particles_(filledBuffer(device, "marks.particles",
-                              markParticles(scene, sim::stateLayout(scene, settings)), 0)),
-      bySlot_(filledBuffer(device, "marks.by_slot", particlesBySlot(sim::stateLayout(scene, settings)), 0)),
+                              markParticles(scene, sim::particleSlots(scene, settings)), 0)),
+      bySlot_(filledBuffer(device, "marks.by_slot", particlesBySlot(sim::particleSlots(scene, settings)), 0)),
       walls_(device, {.name = "marks.walls",
                       .count = VkDeviceSize{slots} * wallCount(scene),
                       .stride = sizeof(layout::MarkWall),
@@ -123,9 +123,8 @@ ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, co
 
 // Lists that a scene lacks are bound as empty buffers and never read.
 vk::BindingSets ContactMarks::bindingSets() const {
-    const sim::ContactBuffers& lists = simulation_.program().contacts;
-    const auto viewOf = [&](sim::BufferId id, std::uint32_t stride) {
-        vk::BufferView view = simulation_.view(id);
+    const sim::InspectedContacts lists = sim::inspect(simulation_).contacts;
+    const auto viewOf = [&](vk::BufferView view, std::uint32_t stride) {
         if (view.size > 0) return view;
         view = nothing_.view();
         view.stride = stride;
@@ -138,9 +137,8 @@ vk::BindingSets ContactMarks::bindingSets() const {
           viewOf(lists.faceLists, 8), marks_.view(), draw_.view(), removedParticles(simulation_)}}};
     if (push_.edges > 0)
         requests.push_back({ofEdges_.get(),
-                            {simulation_.positions(), bySlot_.view(), simulation_.view(lists.edges),
-                             simulation_.view(lists.edgePairs), simulation_.view(lists.edgeLists),
-                             marks_.view(), draw_.view(), removedParticles(simulation_)}});
+                            {simulation_.positions(), bySlot_.view(), lists.edges, lists.edgePairs,
+                             lists.edgeLists, marks_.view(), draw_.view(), removedParticles(simulation_)}});
     return {device_, requests};
 }
 

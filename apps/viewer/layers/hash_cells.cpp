@@ -2,7 +2,7 @@
 #include "viewer/layers/hash_cells.hpp"
 
 #include "common/layout.h"
-#include "sim/program/program.hpp"
+#include "sinew/inspection.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>
@@ -20,9 +20,9 @@ std::string shownName(const std::string& name) {
     return name == "edges.grid" ? "edges" : "particles";
 }
 
-VkDeviceSize roomOf(const sim::StepProgram& program) {
+VkDeviceSize roomOf(const sim::Simulation& simulation) {
     VkDeviceSize room = 1; // buffers must not be empty
-    for (const sim::GridBuffers& grid : program.grids) room += grid.count;
+    for (const sim::InspectedGrid& grid : sim::inspect(simulation).grids) room += grid.count;
     return room;
 }
 
@@ -81,20 +81,20 @@ constinit const Layer layer::cells{.key = '6',
 
 HashCells::HashCells(const vk::Device& device, const sim::Simulation& simulation, std::uint32_t slots)
     : device_(device), marks_(device, {.name = "cells",
-                                       .count = roomOf(simulation.program()),
+                                       .count = roomOf(simulation),
                                        .stride = sizeof(layout::CellMark),
                                        .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
       draws_(device, {.name = "cells.draws",
-                      .count = simulation.program().grids.size() + 1,
+                      .count = sim::inspect(simulation).grids.size() + 1,
                       .stride = sizeof(layout::CellDraw),
                       .usage = VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT}),
       readings_(device, {.name = "cells.readings",
-                         .count = slots * (simulation.program().grids.size() + 1),
+                         .count = slots * (sim::inspect(simulation).grids.size() + 1),
                          .stride = sizeof(layout::CellDraw),
                          .kind = vk::MemoryKind::readback}),
       kernel_(device.kernels().get(device, shaders::markCells, {})), sets_(bindingSets(simulation)) {
     std::uint32_t first = 0;
-    for (const sim::GridBuffers& grid : simulation.program().grids) {
+    for (const sim::InspectedGrid& grid : sim::inspect(simulation).grids) {
         const auto index = static_cast<std::uint32_t>(grids_.size());
         grids_.push_back({shownName(grid.name), {grid.count, grid.cells, index, first}});
         first += grid.count;
@@ -103,10 +103,9 @@ HashCells::HashCells(const vk::Device& device, const sim::Simulation& simulation
 
 vk::BindingSets HashCells::bindingSets(const sim::Simulation& simulation) const {
     std::vector<vk::BindingRequest> requests;
-    for (const sim::GridBuffers& grid : simulation.program().grids)
-        requests.push_back({kernel_.get(),
-                            {simulation.view(grid.bounds), simulation.view(grid.starts),
-                             simulation.view(grid.sorted), marks_.view(), draws_.view()}});
+    for (const sim::InspectedGrid& grid : sim::inspect(simulation).grids)
+        requests.push_back(
+            {kernel_.get(), {grid.bounds, grid.starts, grid.sorted, marks_.view(), draws_.view()}});
     return {device_, requests};
 }
 

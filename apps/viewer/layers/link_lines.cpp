@@ -2,9 +2,10 @@
 #include "viewer/layers/link_lines.hpp"
 
 #include "common/layout.h"
-#include "sim/compile/compile.hpp"
 #include "sim/lattice/link_bits.hpp"
 #include "sim/model/coloring.hpp"
+#include "sinew/inspection.hpp"
+#include "sinew/inverse_masses.hpp"
 #include "viewer/layers/value_maps.hpp"
 #include "viewer/render/mesh_buffer.hpp"
 #include "viewer/render/removed.hpp"
@@ -135,7 +136,7 @@ LinkClasses linkClasses(const sim::Scene& scene, sim::Solver solver) {
 LinkLines::LinkLines(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
                      const sim::Simulation& simulation)
     : LinkLines(device, scene, simulation, linkClasses(scene, settings.solver),
-                sim::stateLayout(scene, settings).slot) {}
+                sim::particleSlots(scene, settings).slot) {}
 
 LinkLines::LinkLines(const vk::Device& device, const sim::Scene& scene, const sim::Simulation& simulation,
                      LinkClasses classes, std::span<const std::uint32_t> slots)
@@ -151,7 +152,7 @@ LinkLines::LinkLines(const vk::Device& device, const sim::Scene& scene, const si
       ranges_(rangesOf(classes_, count_)) {}
 
 vk::BindingSets LinkLines::bindingSets(const sim::Simulation& simulation) const {
-    const vk::BufferView alive = simulation.view(simulation.program().cutting.links);
+    const vk::BufferView alive = sim::inspect(simulation).liveLinks;
     const std::array requests{vk::BindingRequest{live_.get(),
                                                  {links_.view(), alive.size > 0 ? alive : noWords_.view(),
                                                   indices_.view(), removedParticles(simulation)}}};

@@ -2,8 +2,9 @@
 #include "viewer/layers/value_maps.hpp"
 
 #include "common/layout.h"
-#include "sim/compile/compile.hpp"
 #include "sim/lattice/link_bits.hpp"
+#include "sinew/inspection.hpp"
+#include "sinew/inverse_masses.hpp"
 #include "viewer/render/mesh_buffer.hpp"
 #include "viewer/render/removed.hpp"
 #include "viewer_shaders.hpp"
@@ -44,10 +45,10 @@ std::uint32_t elements(const vk::BufferView& view) {
 
 } // namespace
 
-std::vector<std::uint32_t> particlesBySlot(const sim::StateLayout& state) {
-    std::vector<std::uint32_t> particles(state.count, NO_PARTICLE);
-    for (std::size_t i = 0; i < state.slot.size(); ++i)
-        particles[state.slot[i]] = static_cast<std::uint32_t>(i);
+std::vector<std::uint32_t> particlesBySlot(const sim::ParticleSlots& slots) {
+    std::vector<std::uint32_t> particles(slots.count, NO_PARTICLE);
+    for (std::size_t i = 0; i < slots.slot.size(); ++i)
+        particles[slots.slot[i]] = static_cast<std::uint32_t>(i);
     return particles;
 }
 
@@ -124,8 +125,8 @@ struct ValueMaps::Tables {
     std::vector<layout::ValueHolders> holders;
     std::vector<float> inverseMasses;
 
-    Tables(const sim::Scene& scene, const sim::StateLayout& state)
-        : particlesBySlot(viewer::particlesBySlot(state)), links(linkTable(scene, state.slot)),
+    Tables(const sim::Scene& scene, const sim::ParticleSlots& slots)
+        : particlesBySlot(viewer::particlesBySlot(slots)), links(linkTable(scene, slots.slot)),
           holders(skinHolders(scene)), inverseMasses(sim::inverseMasses(scene)) {}
 };
 
@@ -134,8 +135,8 @@ namespace {
 // The skins of sheets that can be cut.
 template <typename Sheet> std::vector<Sheet> sheetsOf(const sim::Simulation& simulation) {
     std::vector<Sheet> sheets;
-    for (const sim::PieceVertices& pieces : simulation.program().pieceSkins)
-        sheets.push_back({pieces.first, elements(simulation.view(pieces.vertices))});
+    for (const sim::InspectedSheet& sheet : sim::inspect(simulation).sheets)
+        sheets.push_back({sheet.first, elements(sheet.vertices)});
     return sheets;
 }
 
@@ -156,11 +157,11 @@ constinit const Layer layer::colors{.key = 'M',
 
 ValueMaps::ValueMaps(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
                      const sim::Simulation& simulation, std::uint32_t slots)
-    : ValueMaps(device, Tables(scene, sim::stateLayout(scene, settings)), simulation, slots) {}
+    : ValueMaps(device, Tables(scene, sim::particleSlots(scene, settings)), simulation, slots) {}
 
 ValueMaps::ValueMaps(const vk::Device& device, const Tables& tables, const sim::Simulation& simulation,
                      std::uint32_t slots)
-    : device_(device), particleCount_(simulation.program().particleCount),
+    : device_(device), particleCount_(sim::inspect(simulation).particles),
       heldVertices_(static_cast<std::uint32_t>(tables.holders.size())),
       cutVertices_(elements(simulation.cutSurface().rest)), hasSpeeds_(simulation.velocities().size > 0),
       linksOf_(tableOf(device, "values.links_of", tables.links.linksOf)),
@@ -186,7 +187,8 @@ ValueMaps::ValueMaps(const vk::Device& device, const Tables& tables, const sim::
       sets_(bindingSets(simulation)) {}
 
 vk::BindingSets ValueMaps::bindingSets(const sim::Simulation& simulation) const {
-    const vk::BufferView alive = simulation.view(simulation.program().cutting.links);
+    const sim::InspectedBuffers inner = sim::inspect(simulation);
+    const vk::BufferView& alive = inner.liveLinks;
     const vk::BufferView places = simulation.positions(), values = values_.view(), spread = spread_.view(),
                          removed = removedParticles(simulation);
     std::vector<vk::BindingRequest> requests{
@@ -200,10 +202,9 @@ vk::BindingSets ValueMaps::bindingSets(const sim::Simulation& simulation) const 
         requests.push_back({cut_.get(),
                             {values, skinValues_.view(), simulation.cutSurface().rest, particleOfSlot_.view(),
                              cutValues_.view()}});
-    for (const sim::PieceVertices& pieces : simulation.program().pieceSkins)
+    for (const sim::InspectedSheet& sheet : inner.sheets)
         requests.push_back(
-            {sheet_.get(),
-             {values, simulation.view(pieces.vertices), particleOfSlot_.view(), skinValues_.view()}});
+            {sheet_.get(), {values, sheet.vertices, particleOfSlot_.view(), skinValues_.view()}});
     return {device_, requests};
 }
 

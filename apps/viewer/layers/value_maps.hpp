@@ -10,13 +10,13 @@
 #include "viewer/values.h"
 
 namespace sinew::sim {
-struct StateLayout;
+struct ParticleSlots;
 }
 
 namespace sinew::viewer {
 
 /// The particle in each slot of the solver's state, or NO_PARTICLE.
-std::vector<std::uint32_t> particlesBySlot(const sim::StateLayout& state);
+std::vector<std::uint32_t> particlesBySlot(const sim::ParticleSlots& slots);
 
 /// The links of every particle, for the strain kernel. `slots`: slots of the particles in the solver's state.
 struct LinkTable {

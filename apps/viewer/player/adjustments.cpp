@@ -1,7 +1,7 @@
 // A material is worked out by the document; what needs other passes, by the scene loader.
 #include "viewer/player/adjustments.hpp"
 
-#include "sim/compile/compile.hpp"
+#include "sinew/solver_names.hpp"
 #include "viewer/jobs/gauges.hpp"
 #include "viewer/tools/cut_tool.hpp"
 #include "viewer/ui/knob_keys.hpp"

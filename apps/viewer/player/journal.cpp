@@ -3,7 +3,7 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
-#include "sim/compile/compile.hpp"
+#include "sinew/solver_names.hpp"
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/queue.hpp"
 #include "viewer/capture/recording.hpp"

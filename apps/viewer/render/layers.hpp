@@ -1,5 +1,5 @@
 // The layers of a picture: what is drawn of bodies besides their lit skins, or instead of them. Chosen by the
-// user. Each layer is a record (draw/layer.hpp) in one table.
+// user. Each layer is a record (render/layer.hpp) in one table.
 #pragma once
 
 #include "sinew/vk/buffer.hpp"

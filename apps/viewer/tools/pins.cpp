@@ -1,7 +1,7 @@
 // Each pin has one entry of Step::grabs.
 #include "viewer/tools/pins.hpp"
 
-#include "sim/compile/compile.hpp"
+#include "sinew/inverse_masses.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,8 @@
 // The surface of a voxel body as faces that others touch.
 #include "sim/lattice/placement.hpp"
 #include "sim/lattice/squares.hpp"
-#include "sim/model/inverse_masses.hpp"
 #include "sinew/bodies.hpp"
+#include "sinew/inverse_masses.hpp"
 #include "sinew/scene.hpp"
 
 #include <algorithm>

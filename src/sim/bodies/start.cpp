@@ -1,8 +1,8 @@
 // Sums in double, so that a body far from the origin spins about its true centre.
 #include "sinew/start.hpp"
 
-#include "sim/model/inverse_masses.hpp"
 #include "sinew/colliders.hpp"
+#include "sinew/inverse_masses.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "sim/collision/crowding.hpp"
 
 #include "sim/model/components.hpp"
-#include "sim/model/inverse_masses.hpp"
+#include "sinew/inverse_masses.hpp"
 #include "sinew/ranges.hpp"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // Scene + Settings -> StepProgram. compile.cpp lists the features of a step, one line each.
 #pragma once
 
-#include "sim/model/inverse_masses.hpp"
-#include "sim/model/solver_names.hpp"
 #include "sim/model/state.hpp"
 #include "sim/program/program.hpp"
+#include "sinew/inverse_masses.hpp"
 #include "sinew/scene.hpp"
+#include "sinew/solver_names.hpp"
 
 namespace sinew::sim {
 

@@ -2,9 +2,9 @@
 #include "sim/forces/forces.hpp"
 
 #include "kernels.hpp"
-#include "sim/model/inverse_masses.hpp"
 #include "sim/model/links.hpp"
-#include "sim/model/solver_names.hpp"
+#include "sinew/inverse_masses.hpp"
+#include "sinew/solver_names.hpp"
 
 #include <algorithm>
 #include <map>

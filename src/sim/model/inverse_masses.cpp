@@ -1,6 +1,6 @@
 // A fixed particle has an infinite mass. It takes no correction and no gravity in any kernel, so it needs no
 // pass.
-#include "sim/model/inverse_masses.hpp"
+#include "sinew/inverse_masses.hpp"
 
 namespace sinew::sim {
 

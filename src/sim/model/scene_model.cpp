@@ -3,9 +3,9 @@
 
 #include "sim/model/components.hpp"
 #include "sim/model/grids.hpp"
-#include "sim/model/inverse_masses.hpp"
 #include "sim/model/rounding.hpp"
 #include "sim/model/touching.hpp"
+#include "sinew/inverse_masses.hpp"
 
 #include <algorithm>
 #include <iterator>

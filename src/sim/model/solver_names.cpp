@@ -1,5 +1,5 @@
 // A table.
-#include "sim/model/solver_names.hpp"
+#include "sinew/solver_names.hpp"
 
 namespace sinew::sim {
 

@@ -1,7 +1,7 @@
 // The tests by which compile() decides to add contact passes.
 #include "sim/model/touching.hpp"
 
-#include "sim/model/inverse_masses.hpp"
+#include "sinew/inverse_masses.hpp"
 
 #include <algorithm>
 

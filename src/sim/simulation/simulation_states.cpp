@@ -1,9 +1,9 @@
 // States that do not come from the previous step: of another simulation, of a saved copy, of another
 // material, of earlier topology.
-#include "sim/model/solver_names.hpp"
 #include "sim/program/program.hpp"
 #include "sim/simulation/simulation_state.hpp"
 #include "sinew/scene.hpp"
+#include "sinew/solver_names.hpp"
 
 #include <stdexcept>
 

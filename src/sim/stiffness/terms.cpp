@@ -1,8 +1,8 @@
 // Shares of constraints among their particles, and loads of particles.
 #include "sim/stiffness/terms.hpp"
 
-#include "sim/model/inverse_masses.hpp"
 #include "sim/stiffness/tensions.hpp"
+#include "sinew/inverse_masses.hpp"
 
 #include <numeric>
 

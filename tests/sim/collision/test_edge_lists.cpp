@@ -5,8 +5,8 @@
 #include "sim/collision/edge_contacts.hpp"
 #include "sim/device/gpu_executor.hpp"
 #include "sim/model/components.hpp"
-#include "sim/model/inverse_masses.hpp"
 #include "sinew/bodies.hpp"
+#include "sinew/inverse_masses.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>
