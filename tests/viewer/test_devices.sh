@@ -59,13 +59,13 @@ mv moved.png before.png
 
 echo "devices: other substeps take over, and a replay comes to the same state"
 xdotool mousemove 750 500 click --repeat 40 --delay 20 5 # scrolls to the end of the panel
-sleep 1
+awaitStill scrolled.png
 xdotool mousemove 854 541 click 1                        # one more
-await 10 says ' with 17 substeps, on '
+await 60 says ' with 17 substeps, on ' # a busy machine takes long
 grep -q ' with 17 substeps, on ' viewer.out || fail "the number of substeps was not turned"
 expectTheSame substeps.png "the simulation with more substeps"
 for _ in {1..5}; do keys period; done
-sleep 1
+awaitStill stepped.png
 
 echo "devices: what was cut before all that is undone, and done again"
 for way in ctrl+z ctrl+shift+z ctrl+z; do
@@ -85,10 +85,10 @@ grep -q '^solve split 17$' block-*.input || fail "the input does not say where t
 "$viewer" --headless --replay block-*.input >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
 grep -q "^$hash, as recorded$" replay.out || fail "the replay came to $(cat replay.out), not to $hash"
 log=$(echo block-*.input)
+xdotool mousemove 750 500 click --repeat 40 --delay 20 4
+awaitStill scrolled.png
 keys space
 awaitTitle fps
-xdotool mousemove 750 500 click --repeat 40 --delay 20 4
-sleep 1
 
 echo "devices: one that has gone is refused in the window"
 export VK_ICD_FILENAMES=$driver
@@ -116,7 +116,7 @@ awaitEnd 0
 start --replay "$log"
 sleep 2
 keys space
-sleep 1
+awaitTitle paused
 keys r # from the beginning
 keys space
 played

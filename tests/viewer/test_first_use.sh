@@ -70,16 +70,11 @@ await 30 says '^picture: '
 grep -q '^picture: ' viewer.out || fail "F12 made no picture"
 keys F9
 await 10 says '^recording '
-for _ in {1..100}; do
-    keys period
-    sleep 1
-    keys F9
-    sleep 1
-    grep -q '^[1-9][0-9]* pictures in ' viewer.out && break
-    keys F9
-    sleep 1
-done
-grep -q '^[1-9][0-9]* pictures in ' viewer.out || fail "F9 made no film"
+awaitStill layers.png
+keys period
+awaitOther layers.png filmed.png "a step changes nothing"
+keys F9
+await 30 says '^[1-9][0-9]* pictures in '
 echo "first use: another solver beside"
 line() { convert "$1" -crop 2x160+159+0 +repage -colorspace sRGB -format '%[fx:mean < 0.1 ? 1 : 0]' info:; } # dark line between the halves
 [[ $(line layers.png) == 0 ]] || fail "there are halves before B"
@@ -112,8 +107,7 @@ done
 halfReds() { convert "$1" -crop "160x200+$2+0" +repage half.png && reds half.png; }
 (($(halfReds halves.png 0) > 30 && $(halfReds halves.png 160) > 30)) || fail "a body is missing in a half"
 keys F12 # writes a picture that is copied where the window's pictures are shown
-for _ in {1..100}; do grep -q '^picture: ' viewer.out && break; sleep 0.3; done
-grep -q '^picture: ' viewer.out || fail "F12 saves no picture of halves"
+await 30 says '^picture: ' # of halves
 grep -qv '^warning: beside: .* softer than asked' viewer.err && fail "a picture of halves: $(cat viewer.err)"
 : >viewer.err
 keys b

@@ -79,16 +79,6 @@ awaitStill hidden.png
 dark hidden.png $side && fail "Tab does not hide the panels"
 
 echo "window: section, what the pointer is on framed, what the camera turns around"
-awaitOther() { # BEFORE FILE WHY: pipelines may have to be made first
-    for _ in {1..200}; do
-        shoot "$2"
-        same "$1" "$2" || break
-        sleep 0.2
-    done
-    awaitStill "$2"
-    same "$1" "$2" && fail "$3"
-    return 0
-}
 xdotool mousemove 300 200
 keys l
 awaitOther hidden.png opened.png "L opens nothing"
@@ -127,12 +117,13 @@ keys r
 keys space
 awaitTitle fps
 awaitRest # on the floor
-keys Home
-sleep 1
-for _ in {1..5}; do xdotool mousemove 320 200 click 5; sleep 0.2; done
 keys space
 awaitTitle paused
-awaitStill before.png
+awaitStill fallen.png
+keys Home
+awaitOther fallen.png nearer.png "Home does not frame what has fallen"
+xdotool mousemove 320 200 click --repeat 5 --delay 50 5
+awaitOther nearer.png before.png "the wheel changes nothing"
 keys space
 awaitTitle fps
 read -r top height < <(rows before.png)
@@ -177,9 +168,7 @@ strokes=0
 stroke() {
     strokes=$((strokes + 1))
     xdotool mousemove 320 $((now - 25)) mousedown 1
-    sleep 0.3
     for ((way = 0; way < height + 60; way += 8)); do xdotool mousemove_relative -- 0 8; sleep 0.05; done
-    sleep 0.3
     xdotool mouseup 1
 }
 stroke
@@ -198,7 +187,8 @@ for _ in {1..100}; do
 done
 (($(inside parted.png) > 200)) || fail "the inside is not seen: $(inside parted.png) pixels of it"
 xdotool mouseup 1
-for ((undo = 0; undo < strokes; ++undo)); do keys ctrl+z; sleep 1; done
+for ((undo = 1; undo < strokes; ++undo)); do keys ctrl+z; sleep 1; done # nothing tells that a stroke beside is undone
+keys ctrl+z
 await 10 lacksTitle pieces
 [[ $(title) != *pieces* ]] || fail "Ctrl + Z did not join the halves"
 for _ in {1..100}; do # the title changes before the picture
@@ -207,17 +197,28 @@ for _ in {1..100}; do # the title changes before the picture
     sleep 0.3
 done
 (($(inside undone.png) < 50)) || fail "the inside is still seen: $(inside undone.png) pixels of it"
-for ((redo = 0; redo < strokes; ++redo)); do keys ctrl+shift+z; sleep 1; done
+for ((redo = 1; redo < strokes; ++redo)); do keys ctrl+shift+z; sleep 1; done
+keys ctrl+shift+z
 awaitTitle 'pieces'
 for knob in k k d t shift+g; do keys $knob; done # the log below contains them
-sleep 1
+hasFile() { compgen -G "$1" >/dev/null; }
+saveInput() { # as the only log in the folder
+    rm -f block-*.input
+    keys F8
+    await 10 hasFile 'block-*.input'
+}
+areTurned() {
+    saveInput
+    grep -q '^material 2 1 0\.6' block-*.input && grep -q '^gravity 9\.5' block-*.input
+}
+await 20 areTurned
 keys space
 awaitTitle paused
 
 echo "window: what hands did leads to the same state without a window"
-keys F8
-await 10 says '^input: '
-hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
+saveInput
+await 10 says "^input: $(echo block-*.input),"
+hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out | tail -n 1)
 [[ -n $hash ]] || fail "F8 saved no input"
 grep -q '^material 2 1 0\.6' block-*.input && grep -q '^gravity 9\.5' block-*.input || fail "keys turned no knobs: $(grep '^material\|^gravity' block-*.input)"
 "$viewer" --headless --replay block-*.input >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
@@ -230,7 +231,7 @@ grep -q " after $more steps$" replay.out || fail "nothing is said of the steps a
 echo "window: a state that is saved goes on in another run, cut and seen as it was"
 find . -name 'block-*.png' -delete
 keys F12
-for _ in {1..100}; do compgen -G 'block-*.png' >/dev/null && break; sleep 0.1; done
+await 10 hasFile 'block-*.png'
 keys ctrl+s
 await 10 says '^state: '
 grep -q '^state: block-[0-9]*\.state$' viewer.out || fail "Ctrl + S saved no state"
@@ -258,8 +259,9 @@ xdotool windowunmap "$window"
 sleep 0.5
 xdotool windowmap "$window"
 keys F11
-sleep 0.5
+await 10 hasSize "$screen"
 keys F11
+await 10 lacksSize "$screen"
 awaitTitle fps
 quit
 awaitEnd 0
@@ -297,8 +299,8 @@ quit
 awaitEnd 0
 start --replay "$log"
 keys r # starts it again
-for _ in {1..300}; do (($(grep -c ' particles, ' viewer.out) >= 2)) && break; sleep 0.1; done
-(($(grep -c ' particles, ' viewer.out) >= 2)) || fail "R does not begin a replay from a state again"
+beginsAgain() { (($(grep -c ' particles, ' viewer.out) >= 2)); }
+await 30 beginsAgain
 played 1
 quit
 awaitEnd 0
@@ -337,7 +339,7 @@ awaitTitle 'other'
 keys space
 awaitTitle paused
 keys Prior
-for _ in {1..200}; do [[ -s viewer.err ]] && break; sleep 0.1; done
+await 20 test -s viewer.err
 [[ $(cat viewer.err) == "warning: cannot read scene: "*broken.toml* ]] || fail "a scene that is none was not refused in a line"
 [[ $(title) == *other*paused* ]] || fail "a scene that is none took the place of one"
 keys F9
@@ -377,7 +379,8 @@ scene=
 start
 [[ $(title) == *other* ]] || fail "the last scene is not opened again"
 keys F9
-for _ in {1..200}; do [[ -n $(find . -name '*.mp4*.part' -size +1000k) ]] && break; sleep 0.1; done
+isFilmed() { [[ -n $(find . -name '*.mp4*.part' -size +1000k) ]]; }
+await 20 isFilmed
 kill -INT "$running"
 code=0
 wait "$running" || code=$?
@@ -392,13 +395,13 @@ cp bin/ffmpeg whole
 printf '#!/bin/sh\nhead -c 3000000 >/dev/null\nexit 1\n' >bin/ffmpeg
 start
 keys F9
-for _ in {1..200}; do [[ -s viewer.err ]] && break; sleep 0.1; done
+await 20 test -s viewer.err
 [[ $(cat viewer.err) == "warning: cannot write video: "*": ffmpeg has stopped: see its message above" ]] || fail "nothing was said of an encoder that ended"
 mv whole bin/ffmpeg
 sleep 1
 kill -0 "$running" || fail "the viewer ended with the encoder"
 keys F9
-for _ in {1..200}; do [[ -n $(find . -name '*.mp4*.part' -size +1000k) ]] && break; sleep 0.1; done
+await 20 isFilmed
 keys F9
 await 20 says ' pictures in other-.*\.mp4$'
 grep -q ' pictures in other-.*\.mp4$' viewer.out || fail "there is no film after the one that failed"
@@ -411,8 +414,7 @@ echo "window: what the command line says goes before what is remembered, and is 
 cp config/sinew/viewer.conf before.conf
 scene=scenes/block.toml
 start --panels --no-vsync --scale 1.5 --full-screen
-for _ in {1..100}; do [[ $(xdotool getwindowgeometry "$window") == *"$screen"* ]] && break; sleep 0.1; done
-[[ $(xdotool getwindowgeometry "$window") == *"$screen"* ]] || fail "--full-screen does not fill the screen"
+await 10 hasSize "$screen" # --full-screen fills it
 keys space
 awaitTitle paused
 extent=$screen awaitStill whole.png
@@ -425,7 +427,6 @@ awaitEnd 0
 diff <(grep -v '^scene' before.conf) <(grep -v '^scene' config/sinew/viewer.conf) >/dev/null || fail "what the command line said is remembered: $(cat config/sinew/viewer.conf)"
 start --vsync
 keys v ctrl+plus # selected explicitly
-sleep 1
 quit
 awaitEnd 0
 grep -q '^vsync = false' config/sinew/viewer.conf || fail "what V chose is not remembered"

@@ -87,6 +87,18 @@ awaitStill() { # FILE: waits for a picture that stays; a paused software device 
     done
     fail "the paused picture never stood still"
 }
+awaitOther() { # BEFORE FILE WHY: pipelines may have to be made first
+    for _ in {1..200}; do
+        shoot "$2"
+        same "$1" "$2" || break
+        sleep 0.2
+    done
+    awaitStill "$2"
+    same "$1" "$2" && fail "$3"
+    return 0
+}
+hasSize() { [[ $(xdotool getwindowgeometry "$window") == *"$1"* ]]; }
+lacksSize() { ! hasSize "$1"; }
 same() { compare -metric AE "$1" "$2" null: >/dev/null 2>&1; }
 alike() { # within 0.5 % RMS: a shift by two pixels exceeds it
     local off
