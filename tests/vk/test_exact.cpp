@@ -43,6 +43,7 @@ const std::map<std::string, std::string> looseDecisions{
     {"isBesideWay(struct-Searched", "a face is searched by find_faces or by find_wide_faces"},
     {"isNear(struct-Searched-u1-struct-ContactFace",
      "a face is searched by find_faces or by find_wide_faces"},
+    {"isPast(", "contacts and stops look at paths of their own: a stop acts on what contacts left"},
     {"isSliver(",
      "find_faces looks farther around a sliver, and find_face_contacts passes it over: one is enough"}};
 

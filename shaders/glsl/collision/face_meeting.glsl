@@ -1,5 +1,6 @@
 // Geometry of a point and a face at the start and at the end of a substep. Requires the names and buffers of
 // find_face_contacts.
+#include "collision/face_sweep.glsl"
 
 // True if a point that has crossed the plane of a face went through the face: tests the position on straight paths at
 // the time of the crossing. A rotating face was not exactly there; a point that was never within reach may be in no
@@ -24,6 +25,7 @@ struct Meeting {
     vec3 normal;               // unit
     float height, heightBefore; // [m]
     bool isKept, isOpened;     // the pair keeps its rest distance; a cut has made the contact possible: set by the caller
+    bool isBeyond;             // the point is fast and has gone past the face: set by the caller
 };
 
 Meeting meetingOf(uint i, uvec2 candidate) {
@@ -41,7 +43,7 @@ Meeting meetingOf(uint i, uvec2 candidate) {
     m.height = dot(m.normal, m.ap);
     const Triangle before = triangleOf(m.ab - h * m.vb, m.ac - h * m.vc);
     m.heightBefore = dot(before.normal, m.ap - h * m.vp) / max(length(before.normal), 1e-30);
-    m.isKept = m.isOpened = false;
+    m.isKept = m.isOpened = m.isBeyond = false;
     return m;
 }
 
@@ -50,8 +52,23 @@ bool wentThrough(Meeting m, out vec3 b) {
     return hasPassed(m.ap - back * m.vp, m.ab - back * m.vb, m.ac - back * m.vc, m.reach, b);
 }
 
-Nearest nearestBefore(Meeting m) {
-    return nearestOf(m.ap - step.h * m.vp, triangleOf(m.ab - step.h * m.vb, m.ac - step.h * m.vc));
+Passage passageOf(Meeting m) { return Passage(m.ap, m.ab, m.ac, step.h * m.vp, step.h * m.vb, step.h * m.vc); }
+
+Nearest nearestBefore(Meeting m) { return nearestAt(passageOf(m), 1.0); }
+
+// The overlap at the start of the substep, measured as at its end.
+float overlapBefore(Meeting m, float side, bool isThrough) {
+    const Nearest before = nearestBefore(m);
+    return m.reach - (isThrough || before.isInside ? side * m.heightBefore : length(before.d));
+}
+
+// The overlap of a point that has gone past the face, on the line n of their first touch, at the place b.
+float overlapPast(Meeting m, out vec3 n, out vec3 b) {
+    float back;
+    const Nearest first = firstTouch(passageOf(m), m.reach, back);
+    n = normalize(first.d);
+    b = first.weights;
+    return m.reach - dot(n, m.ap - b.y * m.ab - b.z * m.ac);
 }
 
 bool isWithinReach(Meeting m) { return dot(m.nearest.d, m.nearest.d) < m.reach * m.reach; }

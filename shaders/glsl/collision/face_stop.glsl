@@ -1,5 +1,7 @@
 // Continuous collision of a point with a face that never yields: the position at which the point must end. Requires
 // the names and buffers of stop_at_faces.
+#include "collision/face_sweep.glsl"
+
 struct Stop {
     float urgency; // above 1: it crosses the face, 2 - time; else the missing distance as a part of the reach; 0 = no stop
     vec3 n;        // unit, towards the side that the point comes from, at the end
@@ -9,11 +11,6 @@ struct Stop {
 };
 
 const Stop noStop = Stop(0.0, vec3(0.0), 0.0, 0.0, vec3(0.0));
-
-// Positions at the end of a substep, relative to corner a, and displacements in the substep.
-struct Passage {
-    vec3 ap, ab, ac, wp, wb, wc; // [m]
-};
 
 // Height of the point above the plane of the face, `back` before the end [m].
 float heightAt(Passage p, float back) {
@@ -57,6 +54,17 @@ Stop passing(Passage p, vec3 a, vec3 normal, float reach, float least, float bef
 // itself.
 const float soft = 0.25;
 
+// The stop of a point that has gone past the face, on the line of their first touch.
+Stop goneBeyond(Passage p, vec3 a, float reach) {
+    float back;
+    const Nearest start = nearestAt(p, 1.0), touch = firstTouch(p, reach, back);
+    const vec3 n = normalize(touch.d), b = touch.weights;
+    const float missing = reach - dot(n, p.ap - b.y * p.ab - b.z * p.ac);
+    if (missing <= 0.0) return noStop;
+    const float rise = clamp(-dot(n, p.wp - b.y * p.wb - b.z * p.wc), 0.0, missing);
+    return Stop(1.0 + back, n, rise, missing - rise, a + start.weights.y * p.ab + start.weights.z * p.ac + start.d);
+}
+
 // The stop of a point that ends too near: one that approached by more than this part of the reach, or ends nearer
 // than half of it.
 Stop pressing(Passage p, vec3 a, Triangle triangle, float reach, vec3 seen) {
@@ -66,8 +74,10 @@ Stop pressing(Passage p, vec3 a, Triangle triangle, float reach, vec3 seen) {
     const vec3 n = nearest.d / distance;
     const vec3 way = p.wp - nearest.weights.y * p.wb - nearest.weights.z * p.wc;
     const float rise = clamp(-dot(n, way), 0.0, reach - distance);
-    if (rise < soft * reach && distance > 2.0 * soft * reach) return noStop;
+    const bool isBeyond = isPast(p, reach, nearest);
+    if (!isBeyond && rise < soft * reach && distance > 2.0 * soft * reach) return noStop;
     if (!(length(nearestOf(seen - a, triangle).d) < reach)) return noStop;
+    if (isBeyond) return goneBeyond(p, a, reach);
     return Stop((reach - distance) / reach, n, rise, reach - distance - rise, vec3(0.0));
 }
 

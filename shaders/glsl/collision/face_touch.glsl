@@ -19,12 +19,6 @@ Meeting keptMeetingOf(uint i, uvec2 candidate) {
     return m;
 }
 
-// The overlap at the start of the substep, measured as at its end.
-float overlapBefore(Meeting m, float side, bool isThrough) {
-    const Nearest before = nearestBefore(m);
-    return m.reach - (isThrough || before.isInside ? side * m.heightBefore : length(before.d));
-}
-
 // The largest overlap that the point keeps with a face of `body` that it is in front of, as the overlap of a pair
 // with this reach [m]. A pair with a rest distance below 0 gives more than the reach.
 float mostKept(uint i, uvec2 list, uint body, float reach) {
@@ -63,7 +57,9 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit 
     const float h = step.h, distance = length(m.nearest.d);
     const bool isAbove = isThrough || m.nearest.isInside || distance < 1e-15;
     touch.n = isAbove ? side * m.normal : m.nearest.d / distance;
-    const float overlap = m.reach - (isAbove ? side * m.height : distance);
+    float overlap = m.reach - (isAbove ? side * m.height : distance);
+    if (m.isBeyond) overlap = overlapPast(m, touch.n, b);
+    touch.b = b;
     const float approach = -h * dot(touch.n, m.vp - b.y * m.vb - b.z * m.vc);
     const float part = h * (m.isOpened ? min(push.recoverySpeed, CUT_RECOVERY_SPEED) : push.recoverySpeed);
     const float remembered = MEMORY(element).w;
@@ -93,7 +89,10 @@ Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
     const bool isFromBehind = !m.isKept && MEMORY(element).w * m.front < 0.0;
     const bool hasTouched = MEMORY(element).w != 0.0 && !isFromBehind, wasBehind = isFromBehind || m.front * m.heightBefore < 0.0;
     vec3 b = m.nearest.weights, passed;
-    if (m.front * m.height >= 0.0) return touchAt(m, element, m.front, b, false, exitOf(i, list, element, m, wasBehind));
+    if (m.front * m.height >= 0.0) {
+        m.isBeyond = m.isBeyond && !wasBehind;
+        return touchAt(m, element, m.front, b, false, exitOf(i, list, element, m, wasBehind));
+    }
     bool isThrough = hasTouched && m.nearest.isInside && isWithinReach(m);
     if (!wasBehind) {
         isThrough = wentThrough(m, passed);
@@ -120,15 +119,17 @@ void noteMeeting(Meeting m) {
 // face, as a unit vector; 0 = none.
 Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
     const uvec2 candidate = CONTACT(element);
-    const Meeting m = keptMeetingOf(i, candidate);
+    Meeting m = keptMeetingOf(i, candidate);
     meets = false;
     if (isSliver(m.triangle)) return Touch(vec3(0.0), 0.0, vec3(0.0), 0.0, false, m.face);
     if (hasZones) noteMeeting(m);
+    m.isBeyond = !m.isKept && isPast(passageOf(m), m.reach, m.nearest);
     if (isSolid(candidate.x)) return touchOfSolid(i, list, element, m);
     const bool isForced = dot(through, through) > 0.0;
     float side = isForced ? (dot(m.normal, through) < 0.0 ? -1.0 : 1.0) : sideOf(MEMORY(element).w);
     const bool hasTouched = side != 0.0;
     if (!hasTouched) side = m.heightBefore < 0.0 ? -1.0 : 1.0;
+    const bool isBefore = side * m.heightBefore >= 0.0;
     vec3 b = m.nearest.weights;
     bool isThrough = false;
     if (side * m.height < 0.0) {
@@ -141,5 +142,6 @@ Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
         }
         if (!isThrough) side = -side; // it moved around the face, or is far beyond
     }
+    m.isBeyond = m.isBeyond && !isThrough && isBefore;
     return touchAt(m, element, side, b, isThrough, noExit);
 }

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <random>
 #include <string>
+#include <utility>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -181,6 +182,21 @@ bool hasHit(const Shot& shot, const std::vector<Vector3d>& v) {
     });
 }
 
+struct Triangle {
+    float size, y, speed = 0; // of its corners; speed along y [m/s]
+    float mass = 0;           // of a corner [kg]; 0 = it is held
+};
+
+// A face at the height y around the y axis.
+void addTriangle(Scene& scene, const Triangle& triangle) {
+    const auto first = static_cast<std::uint32_t>(scene.particles.size());
+    for (const auto& [x, z] : {std::pair{-1.0f, -0.6f}, {1.0f, -0.6f}, {0.0f, 1.2f}})
+        scene.particles.push_back({.position = {x * triangle.size, triangle.y, z * triangle.size},
+                                   .velocity = {0, triangle.mass > 0 ? triangle.speed : 0, 0},
+                                   .inverseMass = triangle.mass > 0 ? 1 / triangle.mass : 0});
+    scene.faces.push_back({{first, first + 1, first + 2}, 0.01f});
+}
+
 std::string nameOf(const testing::TestParamInfo<Kind>& info) {
     return std::string(info.param.name) + (info.param.isMoving ? "Moving" : "Still");
 }
@@ -265,6 +281,32 @@ TEST(BodyShot, KeepsMomentumAndItsImpulse) {
     const Vector3d lost = (Vector3d(400, 0, 0) - v.back()) / double{scene.particles.back().inverseMass};
     const Impulses impulses = runner.simulation().forces(status.frame);
     EXPECT_LT((test::toVector(impulses.bodies[0].contacts.linear) - lost).norm(), 1e-3 * lost.norm());
+}
+
+// A ball goes past a face that is smaller than it, beside the face, and ends within reach behind it. Contacts
+// and stops act on the side that the ball came from: they do not push it on.
+TEST(BodyShot, IsStoppedByAFaceThatItGoesPastInASubstep) {
+    for (const float mass : {0.0f, 1000.0f}) // of a corner; 0 = the face is static, or driven
+        for (const bool isFaceMoving : {false, true})
+            for (const float aside : {0.1f, 0.3f, 0.6f}) {
+                Scene scene;
+                scene.gravity = {};
+                const float speed = 1.6f / scene.dt, faceSpeed = isFaceMoving ? speed : 0;
+                addTriangle(scene, {.size = 0.05f, .y = 0, .speed = faceSpeed, .mass = mass});
+                if (isFaceMoving && mass == 0)
+                    scene.driven.push_back({.firstParticle = 0,
+                                            .particleCount = 3,
+                                            .path = {{0, {}}, {1, {.position = {0, speed, 0}}}}});
+                scene.particles.push_back(
+                    {.position = {aside, 1.2f, 0}, .velocity = {0, faceSpeed - speed, 0}, .radius = 1});
+                test::Runner runner(scene, {.substeps = 1});
+                ASSERT_FALSE(runner.run(1).isUndone);
+                const auto x = runner.positions(), v = runner.velocities();
+                const Vector3d relative = v[3] - Vector3d(0, double{faceSpeed}, 0);
+                EXPECT_GE(x[3].y() - x[0].y(), 0) << mass << " kg, " << isFaceMoving << ", " << aside;
+                EXPECT_LE(relative.norm(), 1.01 * double{speed})
+                    << mass << " kg, " << isFaceMoving << ", " << aside;
+            }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, BodyShots,
