@@ -1,6 +1,7 @@
 // Continuous collision of a point with a face that never yields: the position at which the point must end. Requires
 // the names and buffers of stop_at_faces.
 #include "collision/face_sweep.glsl"
+layout(constant_id = 1) const bool onlyPassing = false; // false: also stops a point that ends too near
 
 struct Stop {
     float urgency; // above 1: it crosses the face, 2 - time; else the missing distance as a part of the reach; 0 = no stop
@@ -97,5 +98,5 @@ Stop stopAt(ContactFace face, float reach, vec3 x0, vec3 x1, vec3 seen) {
         const Stop stop = passing(p, a, normalize(now.normal), reach, least, before, after);
         if (stop.urgency > 0.0) return stop;
     }
-    return pressing(p, a, now, reach, seen);
+    return onlyPassing ? noStop : pressing(p, a, now, reach, seen);
 }

@@ -354,7 +354,8 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
     row_contacts::addPasses(program, contacts.rows, predicted, touchConstants(contacts, isFirst));
 }
 
-void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
+void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state,
+              StopKind kind) {
     if (!contacts.hasStops() || contacts.movingPointCount == 0) return;
     const face_lists::Lists& lists = contacts.lists;
     const layout::StopPush push{contacts.movingPointCount, contacts.rows.push.moving, contacts.faces};
@@ -370,6 +371,8 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                                   state.step,
                                   lists.pooled.memory->memory};
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
+    constexpr std::uint32_t onlyPassingId = 1; // constant_id in face_stop.glsl
+    constants[onlyPassingId] = kind == StopKind::passing;
     forces::bindTo(state, &forces::Forces::ofStops, buffers, constants);
     buffers.insert(buffers.end(), {boundIf(state.forces != nullptr, contacts.stopRows),
                                    boundIf(state.forces != nullptr, contacts.linkedPositions)});

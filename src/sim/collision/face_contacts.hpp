@@ -38,11 +38,18 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const ParticleBuf
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                bool isFirst);
 
-/// Appends the pass that keeps particles exactly in front of static and driven faces: after all other passes
-/// of a substep except colliders, on `state`. Nothing if there is no such face.
-void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);
+enum class StopKind : bool {
+    all,     ///< stops what passes a face, and what comes too near
+    passing, ///< stops only what passes: after impact zones, whose members stay together
+};
 
-/// Appends the passes after these: what still passes a moving face is stopped. `predicted` as in addPasses().
+/// Appends the pass that keeps particles exactly in front of static and driven faces: after all other passes
+/// of a substep except impact zones and colliders, and once more after zones, on `state`. Nothing if there is
+/// no such face.
+void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state, StopKind kind);
+
+/// Appends the passes between these: what still passes a moving face, or would be pushed through one by a
+/// stop, is stopped with it. `predicted` as in addPasses().
 void addZones(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
               const ParticleBuffers& state);
 

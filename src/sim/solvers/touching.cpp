@@ -92,8 +92,11 @@ void Touching::addBounces(ProgramBuilder& program, const ParticleBuffers& met, P
 void Touching::addStops(ProgramBuilder& program, const ParticleBuffers& predicted,
                         const ParticleBuffers& state) const {
     if (!faces) return;
+    using collision::face_contacts::StopKind;
+    collision::face_contacts::addStops(program, *faces, state, StopKind::all);
+    if (!faces->zones.exist()) return;
     collision::face_contacts::addZones(program, *faces, predicted, state);
-    collision::face_contacts::addStops(program, *faces, state);
+    collision::face_contacts::addStops(program, *faces, state, StopKind::passing);
 }
 
 Touching& addTouching(Build& build) {

@@ -309,6 +309,28 @@ TEST(BodyShot, IsStoppedByAFaceThatItGoesPastInASubstep) {
             }
 }
 
+// A ball falls onto a static face, and a loose face follows it closely. Light faces on the static one take
+// most of the ball's share, so that a stop puts the ball back. The face behind it then moves with the ball.
+TEST(BodyShot, IsNotPutBackThroughAFaceBehindIt) {
+    Scene scene;
+    scene.gravity = {};
+    constexpr float height = 0.25f;
+    const float speed = 0.1f / scene.dt;
+    addTriangle(scene, {.size = 1, .y = 0});
+    addTriangle(scene, {.size = 1, .y = height + 7e-4f, .speed = -speed, .mass = 0.01f});
+    for (int k = 0; k < 9; ++k) addTriangle(scene, {.size = 1, .y = 0.03f, .mass = 0.01f});
+    scene.particles.push_back(
+        {.position = {0.05f, height, 0.1f}, .velocity = {0, -speed, 0}, .radius = 0.1f});
+    test::Runner runner(scene, {.substeps = 1});
+    for (int step = 0; step < 4; ++step) {
+        ASSERT_FALSE(runner.run(1).isUndone);
+        const auto x = runner.positions();
+        const Vector3d normal = (x[5] - x[3]).cross(x[4] - x[3]); // of the loose face, upwards
+        EXPECT_LT((x.back() - x[3]).dot(normal), 0) << "step " << step;
+        EXPECT_GT(x.back().y(), 0) << "step " << step;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, BodyShots,
                          testing::Values(Kind{"Framed", Target::framed, false},
                                          Kind{"Framed", Target::framed, true},
