@@ -92,12 +92,26 @@ public:
         submit([&](vk::Commands& commands) { executor_->upload(commands); });
     }
 
-    void update(const State& state) {
+    /// `h`: length of the substep [s].
+    void update(const State& state, float h = substep) {
         constexpr std::size_t bytes = count * sizeof(layout::vec4);
+        const layout::StepParams step{.h = h};
+        test::queue().upload(executor_->view(particles_.step), &step, sizeof step);
         test::queue().upload(executor_->view(particles_.positions), state.x.data(), bytes);
         test::queue().upload(executor_->view(particles_.velocities), state.v.data(), bytes);
         submit([&](vk::Commands& commands) { executor_->step(commands, {}, nullptr); });
     }
+
+    /// From now on the frame of all particles turns about the origin, clockwise seen along -z [1/s].
+    void turn(float rate) {
+        auto frames = read<layout::BodyFrame>(lists_.grid.frames.frames);
+        frames[0].rates[0].y = rate;
+        frames[0].rates[1].x = -rate;
+        test::queue().upload(executor_->view(lists_.grid.frames.frames), frames.data(),
+                             frames.size() * sizeof frames[0]);
+    }
+    /// How far particles may be from their expected positions [m].
+    double slack() const { return double{read<layout::BodyFrame>(lists_.grid.frames.frames)[0].speed.w}; }
 
     Neighbours facesOfPoints() const {
         const auto lists = read<layout::ListRange>(lists_.pooled.ranges);
@@ -418,6 +432,65 @@ TEST(FaceLists, AreMadeAgainForAParticleThatCameFromFarAway) {
     EXPECT_EQ(builds(), 1u);
     state.v[5] = {52, 0, 0, 1};
     EXPECT_EQ(builds(), 2u) << "it is where it was, but it began the substep elsewhere";
+}
+
+// The substep becomes eight times as long while lists look ahead. In a frame that turns, a point slides over
+// a wide face: both follow their headings, and both are nearer to each other than expected by what lists
+// allow. They touch in the middle of the substep, because the way of each is straight there.
+TEST(FaceLists, HoldWhatMeetsInALongerSubstepWhileTheFrameTurns) {
+    Cloud cloud;
+    cloud.margin = 0.05f;
+    cloud.extents[0] = 3; // compared with all points
+    constexpr std::uint32_t point = 251;
+    constexpr double h = double{substep}, longer = 8 * h, turn = 0.3; // [s]; of the longer substep [rad]
+    const double reach = double{cloud.radii[point]} + double{cloud.thickness[0]};
+    Device device(cloud);
+    const double way = 0.999 * device.ahead().pace; // along a heading in a short substep [m]
+    std::vector<Vector3d> first(count), heading(count, Vector3d::Zero());
+    for (std::uint32_t i = 0; i < count; ++i)
+        first[i] = {10.0 + i / 3, i % 3 == 1 ? 0.05 : 0, i % 3 == 2 ? 0.05 : 0};
+    const double height = reach + 1.02 * double{cloud.margin};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        first[k] = {k == 0 ? -1.0 : 0.5, -height / 2, k == 0 ? 0 : k - 1.5};
+        heading[k] = {-way / h, 0, 0};
+    }
+    first[point] = {-9 * way, height / 2, 0};
+    heading[point] = {way / h, 0, 0};
+
+    State state;
+    const auto update = [&](const std::vector<Vector3d>& start, const std::vector<Vector3d>& end, double dt) {
+        const auto vectorOf = [](const Vector3d& v, float w) {
+            return layout::vec4{static_cast<float>(v.x()), static_cast<float>(v.y()),
+                                static_cast<float>(v.z()), w};
+        };
+        for (std::uint32_t i = 0; i < count; ++i) {
+            state.x[i] = vectorOf(end[i], 0);
+            state.v[i] = vectorOf((end[i] - start[i]) / dt, inverseMassOf(i));
+        }
+        device.update(state, static_cast<float>(dt));
+    };
+    const auto along = [&](double time) {
+        std::vector<Vector3d> x(count);
+        for (std::uint32_t i = 0; i < count; ++i) x[i] = first[i] + time * heading[i];
+        return x;
+    };
+    update(along(-h), first, h);
+    ASSERT_TRUE(device.facesOfPoints()[point].empty()) << "farther than touching and the margin";
+    device.turn(static_cast<float>(turn / longer));
+    update(first, along(h), longer);
+    ASSERT_EQ(device.builds(), 1u);
+    std::vector<Vector3d> start = along(h), end = along(longer);
+    const Vector3d up = Vector3d(turn, 1, 0).normalized(); // turned
+    for (Vector3d& x : end) x += turn * Vector3d(x.y(), -x.x(), 0);
+    for (const std::uint32_t i : {0u, 1u, 2u, point}) {
+        const double nearer = (i == point ? -0.97 : 0.97) * device.slack();
+        start[i].y() += nearer;
+        end[i] += nearer * up;
+    }
+    const auto middle = [&](std::uint32_t i) -> Vector3d { return (start[i] + end[i]) / 2; };
+    ASSERT_LT(toTriangle(middle(point), {middle(0), middle(1), middle(2)}), reach);
+    update(start, end, longer);
+    EXPECT_EQ(device.facesOfPoints()[point], std::vector<std::uint32_t>{0});
 }
 
 // `faces` faces at the origin with 50 points there; all other particles are far apart.
