@@ -5,6 +5,7 @@
 #include "mesh/to_scene.hpp"
 #include "picked.hpp"
 #include "sinew/bodies.hpp"
+#include "viewer/tools/grab_tool.hpp"
 
 #include <cmath>
 #include <random>
@@ -82,6 +83,71 @@ TEST(Picker, MeetsSkinsAndBallsLikeTheHost) {
     expectAsOnHost(picked, 150, 240);
     picked.step(3);
     expectAsOnHost(picked, 150, 240);
+}
+
+// The document gets another simulation twice while the pointer is pressed: before the answer to the press has
+// been read, and while the particle is held.
+TEST(Picker, GoesOnInAnotherSimulationWhileThePointerIsPressed) {
+    constexpr std::uint32_t slot = 5;
+    Picked picked(mixed(), {.substeps = 8, .grabs = 1});
+    picked.step(3);
+    const Camera camera = lookingFrom({0.1f, 0, 3}, {0.1f, -0.05f, 0}, 40);
+    GrabTool tool;
+    tool.press(camera, {0, 0});
+    ASSERT_TRUE(tool.question());
+    const Ray ray = *tool.question();
+    const auto ask = [&] {
+        picked.run([&](VkCommandBuffer commands) {
+            picked.document.recordSkin(commands);
+            picked.picker.record(commands, slot, {Picker::Cast{ray, Among::moving}});
+        });
+    };
+    ask();
+    const std::optional<Pick> expected = picked.onHost(std::span(&ray, 1))[0];
+    ASSERT_TRUE(expected);
+
+    picked.document.wantShape(sim::Solver::split, 16);
+    picked.document.reshape(test::queue());
+    picked.picker.restart();
+    const std::optional<Pick> found = picked.picker.answer(slot, 0);
+    ASSERT_TRUE(found) << "the answer of before is kept";
+    EXPECT_EQ(found->particle, expected->particle);
+    EXPECT_LT((found->point - expected->point).norm(), 1e-4f);
+    ask();
+    ASSERT_TRUE(picked.picker.answer(slot, 0));
+    EXPECT_EQ(picked.picker.answer(slot, 0)->particle, expected->particle)
+        << "asked again, in the same state";
+
+    tool.answer(found, holdRadius(picked.scene, found->particle));
+    ASSERT_TRUE(tool.isHolding());
+    const auto away = [&] { // from where the pointer holds it [m]
+        const sim::layout::vec4 x = test::queue().download<sim::layout::vec4>(
+            picked.document.simulation().positions())[found->particle];
+        const sim::Vec3& to = tool.grabs()[0].target;
+        return (Vector3(x.x, x.y, x.z) - Vector3(to.x, to.y, to.z)).norm();
+    };
+    const auto pull = [&](int steps) {
+        picked.run([&](VkCommandBuffer commands) {
+            for (int i = 0; i < steps; ++i) picked.document.recordStep(commands, nullptr, tool.grabs());
+            picked.document.recordSkin(commands);
+        });
+    };
+    const auto expectPulled = [&](const Vector2& pointer) {
+        tool.move(camera, pointer);
+        const float before = away();
+        pull(10);
+        EXPECT_LT(away(), 0.9f * before) << "it is pulled";
+        picked.expectAsOnHost(randomRays(boundsOf(picked), 240));
+    };
+    pull(1); // begins at the point that was pressed
+    expectPulled({0.2f, 0.2f});
+    sim::Settings roomy = picked.document.settings();
+    roomy.contactRoom *= 2;
+    const sim::Simulation* replaced = &picked.document.simulation();
+    picked.document.widen(roomy, test::queue());
+    ASSERT_NE(&picked.document.simulation(), replaced);
+    picked.picker.restart();
+    expectPulled({-0.2f, 0.2f});
 }
 
 TEST(Picker, MeetsOneBallAndNothingBesideIt) {
