@@ -132,7 +132,7 @@ run() { # FILE FOLDER [PART...]
     PACK=$(mktemp -d)
     mkdir -p "$FOLDER/logs" "$FOLDER/runs"
     "$1.unpack" -q -d --long=31 "$1" -c | tar -C "$PACK" -xf -
-    export LD_LIBRARY_PATH=$PACK/lib VK_LAYER_PATH=$PACK/layers
+    export LD_LIBRARY_PATH=$PACK/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} VK_LAYER_PATH=$PACK/layers
     # tests expect scenes and programs at the path of the build
     local source
     source=$(<"$PACK/source")
