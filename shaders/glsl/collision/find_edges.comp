@@ -51,14 +51,16 @@ float most = mostMotion();
 #include "collision/grid_rows.glsl"
 #include "collision/cell_points.glsl"
 
-// The visits, of up to 32 from `from` on, in a ball around the edge that it must test: bit v for visit from + v.
+// The visits, of up to 32 from `from` on, in a capsule around the edge that it must test: bit v for visit from + v.
 uint around(Searched one, float range, Rows rows, uint from, uint total) {
     const uint last = min(from + 32u, rows.all);
+    const float perLength2 = 1.0 / max(dot(one.ab, one.ab), 1e-30);
     uint visits = 0u;
     for (uint visit = from; visit < last; ++visit) {
         const uvec4 other = SORTED(placeOf(rows, visit, total));
-        const vec3 d = one.middle - uintBitsToFloat(other.xyz);
-        visits |= uint(dot(d, d) < range * range && looksFor(one.index, other.w)) << visit - from;
+        const vec3 d = uintBitsToFloat(other.xyz) - one.a;
+        const vec3 apart = d - clamp(dot(d, one.ab) * perLength2, 0.0, 1.0) * one.ab;
+        visits |= uint(dot(apart, apart) < range * range && looksFor(one.index, other.w)) << visit - from;
     }
     return visits;
 }
@@ -93,10 +95,11 @@ void searchRows(Searched one, float range, Rows rows, Frame frame, uint total) {
 void searchGrid(Searched one, uint total) {
     const Frame frame = frameOf(bounds, push.cells);
     const vec3 top = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)), size = abs(one.middle);
+    const vec3 b = one.a + one.ab;
     // slightly larger because of rounding
-    const float range = 1.01 * (one.edge.radius + one.way + uintBitsToFloat(apart[FACE_POINTS_WIDEST]) + push.margin) +
+    const float range = 1.01 * (one.thickness + one.way + uintBitsToFloat(apart[FACE_POINTS_WIDEST]) + push.margin) +
                         1e-6 * max(size.x, max(size.y, size.z));
-    const vec3 low = max(one.middle - range, frame.low), high = min(one.middle + range, top);
+    const vec3 low = max(min(one.a, b) - range, frame.low), high = min(max(one.a, b) + range, top);
     if (any(lessThan(high, low))) return;
     const ivec3 first = cellOf(low, frame), last = cellOf(high, frame);
     if (pointsIn(first, last, frame) > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // reported as overflow
