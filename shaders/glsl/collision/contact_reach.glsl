@@ -1,5 +1,7 @@
-// Part of count_contacts: the reach of a pair with a remaining overlap, and the difference of a candidate. Requires
-// the names and buffers of that kernel.
+// Part of count_contacts: the reach of a pair with a remaining overlap, its weight in shares, and the difference of a
+// candidate. Requires the names and buffers of that kernel.
+#include "common/share_band.h"
+
 // Advances the recovery of a remaining overlap. Call it once a substep.
 void recover(uint i, uint slot, vec3 x) {
     const float before = slips[slot].w;
@@ -39,4 +41,13 @@ Pair pairOf(uint slot, vec4 x, vec3 velocity) {
     const vec4 other = PREDICTED(candidate.x);
     return Pair(x.xyz - other.xyz, step.h * (velocity - VELOCITY(candidate.x).xyz),
                 reachOf(slot, uintBitsToFloat(candidate.y)), areFreeOf(x.w, other.w));
+}
+
+// Weight, in the shares of particle i at x, of a candidate that does not touch it: 1 at the reach of the pair, 0 from
+// (1 + SHARE_BAND) reach on.
+float weightOf(uint slot, vec3 x) {
+    const uvec2 candidate = CONTACT(slot);
+    const vec3 d = x - PREDICTED(candidate.x).xyz;
+    const float reach = reachOf(slot, uintBitsToFloat(candidate.y)), within = reach * reach;
+    return clamp(1.0 - (dot3(d, d) - within) / max((2.0 + SHARE_BAND) * SHARE_BAND * within, 1e-30), 0.0, 1.0);
 }

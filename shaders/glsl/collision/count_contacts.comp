@@ -1,7 +1,9 @@
 #version 460
-// Contacts, first pass: marks the particles that each one touches at its predicted position (hit_masks.glsl), and counts them:
-// the number that its mass is divided by. The count is exact in every substep: with counts of the substep before, shares would
-// add up to more than the particle, and bodies would explode. In a substep with fast particles, those met on the way count, too.
+// Contacts, first pass: marks the particles that each one touches at its predicted position (hit_masks.glsl), and counts
+// them: the number that its mass is divided by. Each that it touches counts 1 in every substep: with counts of the substep
+// before, shares would add up to more than the particle, and bodies would explode. Each that it hardly misses counts less
+// (weightOf in contact_reach.glsl), so that the number does not jump. In a substep with fast particles, those met on the
+// way count, too.
 #extension GL_GOOGLE_include_directive : require
 #define MAY_RUN_LISTED
 #include "common/kernel.glsl"
@@ -26,23 +28,30 @@ layout(constant_id = 4) const bool hasRecovery = false;
 layout(std430, binding = 9) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m], below 0 = keeps its rest distance
 layout(constant_id = 5) const bool keepsRest = false;
 layout(constant_id = 6) const bool canOpen = false; // a cut can let pairs touch
+// Pairs that hardly miss count, too. Not where pairs rebound: a rebound needs all of the approach taken back in the
+// substep of the impact, and what is left of it would be given once more.
+layout(constant_id = 7) const bool countsNear = true;
 #define MARKS_BINDING 10
 #include "collision/linked_marks.glsl"
 layout(push_constant) uniform Push { ContactPush push; };
 
 #include "collision/contact_reach.glsl"
 
-// Whether particle i, at x, touches the candidate in a slot at the end of the substep.
-bool touchesAtEnd(uint slot, vec3 x, vec3 velocity) {
+// Whether particle i, at x, touches the candidate in a slot at the end of the substep. `isNear`: whether the candidate
+// counts if they do not touch.
+bool touchesAtEnd(uint slot, vec3 x, vec3 velocity, out bool isNear) {
     const uvec2 candidate = CONTACT(slot);
     const vec3 d = x - PREDICTED(candidate.x).xyz;
-    return touches(d, reachOf(slot, uintBitsToFloat(candidate.y))) || hasPassed(slot, d, velocity);
+    const float reach = reachOf(slot, uintBitsToFloat(candidate.y));
+    isNear = countsNear && touches(d, (1.0 + SHARE_BAND) * reach);
+    return touches(d, reach) || hasPassed(slot, d, velocity);
 }
 
 // The same in a substep with fast particles. `first`: when it first met another.
-bool touchesOnWay(uint slot, vec4 x, vec3 velocity, float first) {
+bool touchesOnWay(uint slot, vec4 x, vec3 velocity, float first, out bool isNear) {
     const Pair pair = pairOf(slot, x, velocity);
     const Contact contact = contactOf(pair.d, pair.way, pair.reach, first, pair.areFree);
+    isNear = countsNear && !contact.isMet && touches(pair.d, (1.0 + SHARE_BAND) * pair.reach);
     return contact.exists || !contact.isMet && hasPassed(slot, pair.d, velocity);
 }
 
@@ -57,7 +66,7 @@ void main() {
     const vec4 start = PREDICTED(i);
     vec3 x = start.xyz;
     const vec4 velocity = VELOCITY(i);
-    float contactCount = 0.0, first = 1.0;
+    float contactCount = 0.0, weights = 0.0, first = 1.0;
     if (hasRecovery)
         for (uint slot = list.x; slot < end; ++slot) recover(i, slot, x);
     for (uint slot = list.x; slot < sweeping; ++slot) {
@@ -66,12 +75,19 @@ void main() {
     }
     for (uint word = 0u; word < wordsOf(list); ++word) {
         const uint from = list.x + 32u * word, to = min(from + 32u, end);
-        uint hit = 0u;
-        for (uint slot = from; slot < (isSwept ? from : to); ++slot)
-            hit |= uint(touchesAtEnd(slot, x, velocity.xyz)) << slot - from;
-        for (uint slot = from; slot < (isSwept ? to : from); ++slot)
-            hit |= uint(touchesOnWay(slot, start, velocity.xyz, first)) << slot - from;
+        uint hit = 0u, near = 0u;
+        bool isNear;
+        for (uint slot = from; slot < (isSwept ? from : to); ++slot) {
+            hit |= uint(touchesAtEnd(slot, x, velocity.xyz, isNear)) << slot - from;
+            near |= uint(isNear) << slot - from;
+        }
+        for (uint slot = from; slot < (isSwept ? to : from); ++slot) {
+            hit |= uint(touchesOnWay(slot, start, velocity.xyz, first, isNear)) << slot - from;
+            near |= uint(isNear) << slot - from;
+        }
         contactCount += float(bitCount(hit));
+        // In the order of the list, so that no candidate beyond the band changes the sum.
+        for (near &= ~hit; near != 0u; near &= near - 1u) weights += weightOf(from + findLSB(near), x);
         const uint place = hitWord(push.count, i, list, word);
         hits[place] = uvec2(hit, hits[place].x & ~hit);
     }
@@ -79,5 +95,5 @@ void main() {
         firsts[i] = first;
         if (first < 1.0) x -= (1.0 - first) * step.h * velocity.xyz; // stays at the point of impact
     }
-    touching[i] = vec4(x, contactCount * velocity.w);
+    touching[i] = vec4(x, (contactCount + weights) * velocity.w);
 }

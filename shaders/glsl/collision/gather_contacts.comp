@@ -1,6 +1,6 @@
 #version 460
 // Contacts between particles, second pass, which ends a substep of `split`: moves a particle out of all others that
-// it touches at once, with a share 1 / (number of its contacts) of its mass for each (mass-split Jacobi). For a pair,
+// it touches at once, with a share 1 / c of its mass for each (mass-split Jacobi, c: see count_contacts). For a pair,
 //
 //   l = (reach - |d|) / (c_i w_i + c_j w_j),   x_i += w_i l n   and the opposite for j: momentum is exact to rounding.
 //

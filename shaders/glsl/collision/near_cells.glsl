@@ -1,8 +1,12 @@
 // Part of find_contacts: searches the hash grid around a particle. Requires the names of that kernel.
+#include "common/share_band.h"
+
+// Distance up to which a pair with this sum of radii is listed [m]: it counts in shares a little beyond touching.
+float listedUpTo(float touching) { return (1.0 + SHARE_BAND) * touching + push.margin; }
 
 bool isNear(uint i, uint j, float radius, vec3 d) {
-    const float touching = radius + (hasOneRadius ? radius : RADIUS(j)), reach = touching + push.margin;
-    return i != j && (dot(d, d) < reach * reach || wasNear(i, j, touching, d)) && !isExcluded(i, j);
+    const float touching = radius + (hasOneRadius ? radius : RADIUS(j)), listed = listedUpTo(touching);
+    return i != j && (dot(d, d) < listed * listed || wasNear(i, j, touching, d)) && !isExcluded(i, j);
 }
 
 void list(uint i, uint j) {
@@ -31,7 +35,7 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, int layer, Frame frame
     const uint second = count[0], third = second + count[1], all = third + count[2];
     start[1] -= second;
     start[2] -= third;
-    const float reach = wideOf(i, radius) + push.most + push.margin;
+    const float reach = listedUpTo(wideOf(i, radius) + push.most);
     for (uint first = 0u; first < all && !isFull(); first += 32u) {
         const uint last = min(first + 32u, all);
         uint near = 0u;

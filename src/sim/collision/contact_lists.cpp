@@ -2,6 +2,7 @@
 #include "sim/collision/contact_lists.hpp"
 
 #include "common/rest_slack.h"
+#include "common/share_band.h"
 #include "kernels.hpp"
 
 #include <algorithm>
@@ -66,13 +67,16 @@ void addSorting(ProgramBuilder& program, const Lists& lists) {
 Lists add(ProgramBuilder& program, const Request& request) {
     const std::size_t count = request.radii.size();
     const float margin = request.margin + (request.isKept ? 3 * REST_SLACK * largestOf(request.radii) : 0);
-    const float quietMost = hash_grid::largestUpTo(request.radii, hash_grid::largestInGrid(request.radii));
+    constexpr float wide = 2 * (1 + SHARE_BAND); // pairs count in shares up to this many mean radii
+    const float most = hash_grid::largestInGrid(request.radii);
+    const float quietMost = hash_grid::largestUpTo(request.radii, most);
     Lists lists{.grid = hash_grid::add(program, {.radii = request.radii,
                                                  .margin = request.margin,
-                                                 .quietEdge = 2 * quietMost + margin,
+                                                 .edge = wide * most + margin,
+                                                 .quietEdge = wide * quietMost + margin,
                                                  .quiet = quietWay(request),
                                                  .bodies = request.bodies,
-                                                 .reach = 2 * largestOf(request.radii),
+                                                 .reach = wide * largestOf(request.radii),
                                                  .substeps = request.substeps}),
                 .quietMost = quietMost,
                 .hasOneRadius = hasOneRadius(request.radii)};

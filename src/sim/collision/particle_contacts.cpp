@@ -30,7 +30,7 @@ constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in
 constexpr std::uint32_t keepsRestId = 5;   // also in count_contacts.comp and in those of bounces
 constexpr std::uint32_t hasMemoryId = 6;   // in gather_contacts.comp
 constexpr std::uint32_t hasSurfacesId = 7; // also in the kernels of bounces
-constexpr std::uint32_t canOpenId = 6;     // in count_contacts.comp
+constexpr std::uint32_t canOpenId = 6, countsNearId = 7; // in count_contacts.comp
 
 // By state slot; below 0 = touches nothing.
 std::vector<float> radiiOf(const SceneModel& model) {
@@ -174,7 +174,8 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
     addOverContacts(program, contacts, k::countContacts, std::move(buffers),
                     {{hasRecoveryId, contacts.hasRecovery},
                      {keepsRestId, contacts.hasRecovery && contacts.hasKept},
-                     {canOpenId, canOpen}});
+                     {canOpenId, canOpen},
+                     {countsNearId, !contacts.surfaces.hasRestitution}});
 }
 
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,

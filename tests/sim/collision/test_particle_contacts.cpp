@@ -1,5 +1,6 @@
 // Tests of particle-particle contacts on the device: momentum, rest, friction, and equal bits for any layout
 // of the lists.
+#include "common/share_band.h"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/compile/compile.hpp"
 #include "sim/growing_run.hpp"
@@ -264,6 +265,80 @@ TEST(ParticleContacts, ShareABallAmongAllThatTouchItOfManyCandidates) {
         if (touches) sum -= lambda * n;
     }
     EXPECT_NEAR((x[0] - 0.1 * sum).norm(), 0, 1e-6);
+}
+
+namespace {
+
+// A ball that ends the first step `depth` within another, and a third that stands beyond it, `gap` of their
+// reach from touching. None touches another before.
+Scene nearlyThree(float depth, double gap) {
+    constexpr float way = 1e-3f;
+    Scene scene = weightless();
+    const float end = 2 * radius - depth, beyond = static_cast<float>((1 + gap) * 2 * double{radius});
+    scene.particles = {ballAt({0, 0, 0}), ballAt({end + way, 0, 0}, {-way / scene.dt, 0, 0}),
+                       ballAt({-beyond, 0, 0})};
+    return scene;
+}
+
+} // namespace
+
+// The share of a ball falls evenly while another comes near, so that it does not jump where that one touches.
+TEST(ParticleContacts, ShareABallWithOneThatHardlyMissesItWhateverTheMargin) {
+    constexpr float depth = 5e-4f;
+    constexpr double band = double{SHARE_BAND};
+    for (const double gap : {0.0, 0.1, 0.5, 0.9, 1.1, 20.0}) { // [bands]
+        const Scene scene = nearlyThree(depth, gap * band + 1e-6);
+        const double apart = 1 + gap * band;
+        const double weight = std::max(0.0, 1 - (apart * apart - 1) / (band * (2 + band)));
+        std::vector<std::uint64_t> hashes;
+        for (const float margin : {0.001f, 0.05f, 0.5f, 2.0f}) { // 0.001: an eighth of the band
+            test::Runner runner(scene, {.substeps = 1, .contactMargin = margin});
+            runner.run(1);
+            const double moved = -runner.positions()[0].x();
+            EXPECT_NEAR(moved, double{depth} / (2 + weight), 2e-7) << gap << " bands, margin " << margin;
+            hashes.push_back(runner.stateHash());
+            EXPECT_EQ(hashes.back(), hashes.front()) << gap << " bands, margin " << margin;
+        }
+    }
+}
+
+namespace {
+
+// Balls that fall into a narrow box.
+Scene heap(std::uint32_t seed) {
+    constexpr float half = 0.2f, height = 7.17f;
+    Scene scene;
+    addParticles(scene, {.center = {0, 0.5f * height + 0.1f, 0},
+                         .random = 500,
+                         .size = {2 * half, height, 2 * half},
+                         .seed = seed,
+                         .radius = radius,
+                         .mass = 0.5235988f});
+    scene.contacts.friction = 0.3f;
+    scene.planes = {{.friction = 0.3f}};
+    for (const float side : {1.0f, -1.0f}) {
+        scene.planes.push_back({.normal = {side, 0, 0}, .offset = -half, .friction = 0.3f});
+        scene.planes.push_back({.normal = {0, 0, side}, .offset = -half, .friction = 0.3f});
+    }
+    return scene;
+}
+
+} // namespace
+
+// With shares that jump where a contact opens, these three heaps tremble for ever, with 0.1 to 3 mJ.
+TEST(ParticleContacts, OfAHighHeapComeToRest) {
+    for (const std::uint32_t seed : {6u, 7u, 11u}) {
+        const Scene scene = heap(seed);
+        test::Runner runner(scene, {.substeps = 8, .contactRoom = 16});
+        double most = 0;
+        for (const int steps : {225, 5, 5, 5}) {
+            runner.run(steps);
+            most = std::max(most, test::kineticEnergy(scene, runner.velocities()));
+        }
+        std::printf("heap %u: kinetic energy %.1e J, deepest %.2f r\n", seed, most,
+                    deepest(runner.positions()));
+        EXPECT_LE(most, 1e-6) << "[J], seed " << seed;
+    }
 }
 
 // Friction forgets a pair in the substep in which the two part.
