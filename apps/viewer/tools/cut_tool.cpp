@@ -227,7 +227,7 @@ void CutTool::putAway() {
 
 void CutTool::addTo(StepHands& hands) {
     stepTaken();
-    hands.sweep = next();
+    if (const std::optional<Sweep> one = next()) hands.sweep = one;
 }
 
 void CutTool::addTo(Overlay& overlay) const {

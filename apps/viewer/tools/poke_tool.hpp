@@ -49,7 +49,9 @@ public:
 
     /// For sim::Step::hostColliders; empty while the sphere is lifted.
     std::optional<sim::HostCollider> poke() const;
-    void addTo(StepHands& hands) override { hands.collider = poke(); }
+    void addTo(StepHands& hands) override {
+        if (const auto one = poke()) hands.collider = one;
+    }
     void addTo(Overlay&) const override {} // the renderer draws colliders where the simulation has them
 
 private:
