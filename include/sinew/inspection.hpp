@@ -51,7 +51,8 @@ struct InspectedBuffers {
     std::vector<InspectedSheet> sheets; ///< one for each cuttable sheet with a skin
     InspectedContacts contacts;
 };
-/// The views are valid as long as the simulation.
+/// The views are valid as long as the simulation. Contents are those of the newest recorded step, visible as
+/// Simulation::positions() are. Allocates; reads nothing from the device.
 InspectedBuffers inspect(const Simulation& simulation);
 
 } // namespace sinew::sim

@@ -11,9 +11,10 @@ namespace sinew::sim {
 /// "jacobi", "split" or "gauss_seidel".
 const char* solverName(Solver solver);
 
-/// Returns false for an unknown name. The list of names stands only here.
+/// Returns false for an unknown name, and leaves `solver` as it is.
 bool parseSolver(const std::string& name, Solver& solver);
 
+/// All names, in the order of Solver.
 std::vector<std::string> solverNames();
 
 } // namespace sinew::sim

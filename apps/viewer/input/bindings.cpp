@@ -18,7 +18,6 @@ using enum Action;
 constexpr auto key = Trigger::Kind::key, drag = Trigger::Kind::drag, wheel = Trigger::Kind::wheel,
                doubleClick = Trigger::Kind::doubleClick, held = Trigger::Kind::held;
 
-// Bindings of one action are adjacent; the help shows the text of the first one.
 // A phrase for each tool that has one, such as Tool::letGo.
 std::string phrases(std::string_view Tool::*phrase, std::string_view between) {
     std::string all;
@@ -31,6 +30,7 @@ std::string phrases(std::string_view Tool::*phrase, std::string_view between) {
 
 const std::string settingsHelp = phrases(&Tool::settingHelp, "; "), letGoHelp = phrases(&Tool::letGo, ", ");
 
+// Bindings of one action are adjacent; the help shows the text of the first one.
 const std::array beforeTools{
     Binding{{drag, GLFW_MOUSE_BUTTON_LEFT}, grab, "left drag", "on a body: grab and pull; elsewhere: orbit"},
     Binding{{drag, GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_CONTROL},
@@ -139,8 +139,7 @@ std::vector<Binding> allBindings() {
         if (tool->key == 0) continue;
         const Action action = actionOf(*tool);
         all.push_back({{key, tool->key}, action, {&tool->key, 1}, tool->help, tool->button});
-        if (tool->isLent)
-            all.push_back({{held, 0, GLFW_MOD_CONTROL}, action, "Ctrl held", tool->help, tool->button});
+        if (tool->isLent) all.push_back({{held, 0, GLFW_MOD_CONTROL}, action, "Ctrl held", tool->help});
     }
     all.insert(all.end(), afterTools.begin(), afterTools.end());
     for (std::size_t i = 0; i < layerTable().size(); ++i) {

@@ -1,5 +1,5 @@
 // A tool of the pointer as one record: its key, its texts, its name in logs, and how its state for a scene is
-// made. To add a tool, write a file in viewer/tools/tools and a row of the table there
+// made. To add a tool, write a file in apps/viewer/tools and a row of the table there
 // (docs/extending-viewer.md).
 #pragma once
 
@@ -90,7 +90,7 @@ public:
     /// The number that the record names (Tool::setting); set() clamps it.
     virtual std::optional<float> setting() const { return std::nullopt; }
     virtual void set(const std::optional<float>& /*setting*/) {}
-    virtual std::array<float, 2> settingRange() const { return {}; } ///< least, largest
+    virtual std::array<float, 2> settingRange() const { return {}; } ///< least, largest; 0, 0 = any
     virtual void turnWheel(float /*notches*/) {}
 
     /// Ends what it does: Esc. Strokes that are not carried out are dropped.

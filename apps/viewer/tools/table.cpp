@@ -10,7 +10,7 @@ namespace tool {
 extern const Tool blade, poke, hand, pins;
 } // namespace tool
 
-// In the order of keys and buttons. The pins may take over what the hand holds after its move.
+// In the order of keys and buttons.
 std::span<const Tool* const> toolTable() {
     static constexpr std::array all{&tool::blade, &tool::poke, &tool::hand, &tool::pins};
     static_assert(all.size() <= mostTools);
