@@ -24,7 +24,8 @@ const float slow = 0.25; // a part of the reach: no point that moves less has go
 // faces so. These contacts act on the line of the first touch.
 bool isPast(Passage p, float reach, Nearest end) {
     if (dot(end.d, end.d) >= reach * reach || wayOf2(p) <= slow * slow * reach * reach) return false;
-    return dot(nearestAt(p, 1.0).d, end.d) < 0.0;
+    const vec3 start = nearestAt(p, 1.0).d;
+    return dot(start, start) > 1e-30 && dot(start, end.d) < 0.0; // a start on the face has no side
 }
 
 // The nearest place at the time at which the two come within reach; the start of the substep if they are. A turn of the

@@ -143,5 +143,8 @@ Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
         if (!isThrough) side = -side; // it moved around the face, or is far beyond
     }
     m.isBeyond = m.isBeyond && !isThrough && isBefore;
-    return touchAt(m, element, side, b, isThrough, noExit);
+    Touch touch = touchAt(m, element, side, b, isThrough, noExit);
+    // The point goes back to the side that it came from, which the next substep sees by itself.
+    if (m.isBeyond) touch.remembered = 0.0;
+    return touch;
 }

@@ -300,12 +300,16 @@ TEST(BodyShot, IsStoppedByAFaceThatItGoesPastInASubstep) {
                 scene.particles.push_back(
                     {.position = {aside, 1.2f, 0}, .velocity = {0, faceSpeed - speed, 0}, .radius = 1});
                 test::Runner runner(scene, {.substeps = 1});
-                ASSERT_FALSE(runner.run(1).isUndone);
-                const auto x = runner.positions(), v = runner.velocities();
-                const Vector3d relative = v[3] - Vector3d(0, double{faceSpeed}, 0);
-                EXPECT_GE(x[3].y() - x[0].y(), 0) << mass << " kg, " << isFaceMoving << ", " << aside;
-                EXPECT_LE(relative.norm(), 1.01 * double{speed})
-                    << mass << " kg, " << isFaceMoving << ", " << aside;
+                for (int step = 0; step < 4; ++step) {
+                    ASSERT_FALSE(runner.run(1).isUndone);
+                    const auto x = runner.positions(), v = runner.velocities();
+                    const Vector3d relative = v[3] - Vector3d(0, double{faceSpeed}, 0);
+                    // later it may slide past, out of reach
+                    const double height = x[3].y() - x[0].y();
+                    EXPECT_TRUE(step > 0 || height >= 0) << mass << " kg, " << isFaceMoving << ", " << aside;
+                    EXPECT_LE(relative.norm(), 1.01 * double{speed})
+                        << mass << " kg, " << isFaceMoving << ", " << aside << ", step " << step;
+                }
             }
 }
 
