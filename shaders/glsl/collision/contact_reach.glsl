@@ -43,6 +43,12 @@ Pair pairOf(uint slot, vec4 x, vec3 velocity) {
                 reachOf(slot, uintBitsToFloat(candidate.y)), areFreeOf(x.w, other.w));
 }
 
+// True if a pair that does not touch counts in shares: it is in the band. One that keeps its rest distance always is,
+// and does not count.
+bool countsAt(uint slot, vec3 d, float reach) {
+    return countsNear && !(keepsRest && isKept(slips[slot].w)) && touches(d, (1.0 + SHARE_BAND) * reach);
+}
+
 // Weight, in the shares of particle i at x, of a candidate that does not touch it: 1 at the reach of the pair, 0 from
 // (1 + SHARE_BAND) reach on.
 float weightOf(uint slot, vec3 x) {

@@ -43,7 +43,7 @@ bool touchesAtEnd(uint slot, vec3 x, vec3 velocity, out bool isNear) {
     const uvec2 candidate = CONTACT(slot);
     const vec3 d = x - PREDICTED(candidate.x).xyz;
     const float reach = reachOf(slot, uintBitsToFloat(candidate.y));
-    isNear = countsNear && touches(d, (1.0 + SHARE_BAND) * reach);
+    isNear = countsAt(slot, d, reach);
     return touches(d, reach) || hasPassed(slot, d, velocity);
 }
 
@@ -51,7 +51,7 @@ bool touchesAtEnd(uint slot, vec3 x, vec3 velocity, out bool isNear) {
 bool touchesOnWay(uint slot, vec4 x, vec3 velocity, float first, out bool isNear) {
     const Pair pair = pairOf(slot, x, velocity);
     const Contact contact = contactOf(pair.d, pair.way, pair.reach, first, pair.areFree);
-    isNear = countsNear && !contact.isMet && touches(pair.d, (1.0 + SHARE_BAND) * pair.reach);
+    isNear = !contact.isMet && countsAt(slot, pair.d, pair.reach);
     return contact.exists || !contact.isMet && hasPassed(slot, pair.d, velocity);
 }
 
