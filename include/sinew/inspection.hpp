@@ -1,5 +1,6 @@
 // Private buffers of a simulation, for hosts that draw its inner state between steps: live links, hash grids,
-// contact lists. Elements are those of shaders/glsl/common/layout.h; they may change with any version.
+// contact lists. Elements are those of shaders/glsl/common/layout.h in the sources, which is no public
+// header; they may change with any version.
 #pragma once
 
 #include "sinew/simulation.hpp"

@@ -1,6 +1,7 @@
 #version 460
-// Lists every pair of particles nearer than reach + margin, in any order: sort_lists sorts. SWEPT: in a substep with
-// possible impacts between particles; fast ones are then searched one by one, like large ones.
+// Lists every pair of particles nearer than 1 + SHARE_BAND times its reach, and a margin, in any order: sort_lists
+// sorts. SWEPT: in a substep with possible impacts between particles; fast ones are then searched one by one, like
+// large ones.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/kernel.glsl"

@@ -4,6 +4,7 @@
 // too small to keep a side. This pass keeps the side on which a substep begins. A particle whose path crosses a face,
 // or ends far too near, is put back in front of it. This adds no more velocity than cancels its approach to the face
 // in this substep. All other particles stay unchanged to the bit.
+// After impact zones it runs once more, and then stops only paths through a face.
 #extension GL_GOOGLE_include_directive : require
 #define RUNS_OVER_SLOTS
 #include "common/kernel.glsl"

@@ -1,7 +1,7 @@
-// Candidates of contacts between particles: for each particle the others within contact distance plus a
-// margin M, or within it on their way in the substep, sorted by index. The device rebuilds the lists whenever
-// a particle may have strayed from the expected motion of its body (body_frames.hpp) by half of M. No pair is
-// ever missed, and no result depends on M.
+// Candidates of contacts between particles: for each particle the others within 1.004 of contact
+// distance (share_band.h) plus a margin M, or within it on their way in the substep, sorted by index. The
+// device rebuilds the lists whenever a particle may have strayed from the expected motion of its body
+// (body_frames.hpp) by half of M. No pair is ever missed, and no result depends on M.
 #pragma once
 
 #include "sim/collision/pooled_lists.hpp"
