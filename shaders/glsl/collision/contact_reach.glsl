@@ -43,17 +43,10 @@ Pair pairOf(uint slot, vec4 x, vec3 velocity) {
                 reachOf(slot, uintBitsToFloat(candidate.y)), areFreeOf(x.w, other.w));
 }
 
-// True if a pair that does not touch counts in shares: it is in the band. One that keeps its rest distance always is,
-// and does not count.
-bool countsAt(uint slot, vec3 d, float reach) {
-    return countsNear && !(keepsRest && isKept(slips[slot].w)) && touches(d, (1.0 + SHARE_BAND) * reach);
-}
-
-// Weight, in the shares of particle i at x, of a candidate that does not touch it: 1 at the reach of the pair, 0 from
-// (1 + SHARE_BAND) reach on.
-float weightOf(uint slot, vec3 x) {
-    const uvec2 candidate = CONTACT(slot);
-    const vec3 d = x - PREDICTED(candidate.x).xyz;
-    const float reach = reachOf(slot, uintBitsToFloat(candidate.y)), within = reach * reach;
+// Weight in the shares of a particle of the candidate in a slot, at difference d, that it does not touch: 1 at the reach
+// of the pair, 0 from (1 + SHARE_BAND) reach on. A pair that keeps its rest distance always is in that band: 0.
+float weightOf(uint slot, vec3 d, float reach) {
+    if (keepsRest && isKept(slips[slot].w)) return 0.0;
+    const float within = reach * reach;
     return clamp(1.0 - (dot3(d, d) - within) / max((2.0 + SHARE_BAND) * SHARE_BAND * within, 1e-30), 0.0, 1.0);
 }

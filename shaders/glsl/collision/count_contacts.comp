@@ -37,22 +37,24 @@ layout(push_constant) uniform Push { ContactPush push; };
 
 #include "collision/contact_reach.glsl"
 
-// Whether particle i, at x, touches the candidate in a slot at the end of the substep. `isNear`: whether the candidate
-// counts if they do not touch.
-bool touchesAtEnd(uint slot, vec3 x, vec3 velocity, out bool isNear) {
+// Whether particle i, at x, touches the candidate in a slot at the end of the substep. Adds the weight of a candidate that
+// it does not touch to `weights`: in the order of the list, so that no candidate beyond the band changes the sum.
+bool touchesAtEnd(uint slot, vec3 x, vec3 velocity, inout float weights) {
     const uvec2 candidate = CONTACT(slot);
     const vec3 d = x - PREDICTED(candidate.x).xyz;
     const float reach = reachOf(slot, uintBitsToFloat(candidate.y));
-    isNear = countsAt(slot, d, reach);
-    return touches(d, reach) || hasPassed(slot, d, velocity);
+    const bool isTouching = touches(d, reach) || hasPassed(slot, d, velocity);
+    if (countsNear) weights += isTouching ? 0.0 : weightOf(slot, d, reach);
+    return isTouching;
 }
 
 // The same in a substep with fast particles. `first`: when it first met another.
-bool touchesOnWay(uint slot, vec4 x, vec3 velocity, float first, out bool isNear) {
+bool touchesOnWay(uint slot, vec4 x, vec3 velocity, float first, inout float weights) {
     const Pair pair = pairOf(slot, x, velocity);
     const Contact contact = contactOf(pair.d, pair.way, pair.reach, first, pair.areFree);
-    isNear = !contact.isMet && countsAt(slot, pair.d, pair.reach);
-    return contact.exists || !contact.isMet && hasPassed(slot, pair.d, velocity);
+    const bool isTouching = contact.exists || !contact.isMet && hasPassed(slot, pair.d, velocity);
+    if (countsNear) weights += isTouching || contact.isMet ? 0.0 : weightOf(slot, pair.d, pair.reach);
+    return isTouching;
 }
 
 void main() {
@@ -75,19 +77,12 @@ void main() {
     }
     for (uint word = 0u; word < wordsOf(list); ++word) {
         const uint from = list.x + 32u * word, to = min(from + 32u, end);
-        uint hit = 0u, near = 0u;
-        bool isNear;
-        for (uint slot = from; slot < (isSwept ? from : to); ++slot) {
-            hit |= uint(touchesAtEnd(slot, x, velocity.xyz, isNear)) << slot - from;
-            near |= uint(isNear) << slot - from;
-        }
-        for (uint slot = from; slot < (isSwept ? to : from); ++slot) {
-            hit |= uint(touchesOnWay(slot, start, velocity.xyz, first, isNear)) << slot - from;
-            near |= uint(isNear) << slot - from;
-        }
+        uint hit = 0u;
+        for (uint slot = from; slot < (isSwept ? from : to); ++slot)
+            hit |= uint(touchesAtEnd(slot, x, velocity.xyz, weights)) << slot - from;
+        for (uint slot = from; slot < (isSwept ? to : from); ++slot)
+            hit |= uint(touchesOnWay(slot, start, velocity.xyz, first, weights)) << slot - from;
         contactCount += float(bitCount(hit));
-        // In the order of the list, so that no candidate beyond the band changes the sum.
-        for (near &= ~hit; near != 0u; near &= near - 1u) weights += weightOf(from + findLSB(near), x);
         const uint place = hitWord(push.count, i, list, word);
         hits[place] = uvec2(hit, hits[place].x & ~hit);
     }
