@@ -297,8 +297,9 @@ def cutting():
     return f
 
 
-def curves(f, left, title, xAxis, yAxis, lines, isLog=False):
-    """A plot 300 px wide. An axis is (label, values of its ticks); a line is (color, name, points)."""
+def curves(f, left, title, xAxis, yAxis, lines, isLog=False, names=(10, 78)):
+    """A plot 300 px wide. An axis is (label, values of its ticks); a line is (color, name, points). The names stand below
+    each other from `names` on."""
     (xName, xTicks), (yName, yTicks) = xAxis, yAxis
     bottom, w, h = 250, 300, 190
     yScale = math.log10 if isLog else float
@@ -317,7 +318,7 @@ def curves(f, left, title, xAxis, yAxis, lines, isLog=False):
         f.text(left - 6, at(xTicks[0], y)[1] + 4, f"{y:g}", 12, "end", QUIET)
     for row, (color, name, points) in enumerate(lines):
         f.line([at(x, min(max(y, yTicks[0]), yTicks[-1])) for x, y in points], color, 1.8)
-        f.text(left + 10, 78 + 16 * row, name, 12, "start", color)
+        f.text(left + names[0], names[1] + 16 * row, name, 12, "start", color)
 
 
 def knot():
@@ -351,11 +352,11 @@ def tremor():
     curves(f, 70, "Overlap of touching balls, RMS", ("s", [0, 100, 200, 300, 400]),
            ("mm", [0.965, 0.970, 0.975, 0.980, 0.985, 0.990, 0.995]),
            [(colors[0], names[0], [(max(50 / 3 * n, 10 / 3), y) for n, y in enumerate(creeping)]),
-            (colors[1], names[1], resting)])
+            (colors[1], names[1], resting)], names=(120, 205))
     curves(f, 450, "Kinetic energy from frame 3,000 on", ("s", [50, 52, 54, 56, 58, 60]),
            ("J", [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2]),
            [(color, name, [(50 + (1 + 2 * n) / 3, y) for n, y in enumerate(values)])
-            for color, name, values in zip(colors, names, (whole, even))], isLog=True)
+            for color, name, values in zip(colors, names, (whole, even))], isLog=True, names=(120, 140))
     return f
 
 
