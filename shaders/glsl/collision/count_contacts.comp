@@ -28,8 +28,8 @@ layout(constant_id = 4) const bool hasRecovery = false;
 layout(std430, binding = 9) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m], below 0 = keeps its rest distance
 layout(constant_id = 5) const bool keepsRest = false;
 layout(constant_id = 6) const bool canOpen = false; // a cut can let pairs touch
-// Pairs that hardly miss count, too. Not where pairs rebound: a rebound needs all of the approach taken back in the
-// substep of the impact, and what is left of it would be given once more.
+// Pairs that hardly miss count, too: in scenes of mostly loose particles. Not where pairs rebound: a rebound needs all
+// of the approach taken back in the substep of the impact, and what is left of it would be given once more.
 layout(constant_id = 7) const bool countsNear = true;
 #define MARKS_BINDING 10
 #include "collision/linked_marks.glsl"

@@ -175,7 +175,7 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                     {{hasRecoveryId, contacts.hasRecovery},
                      {keepsRestId, contacts.hasRecovery && contacts.hasKept},
                      {canOpenId, canOpen},
-                     {countsNearId, !contacts.surfaces.hasRestitution}});
+                     {countsNearId, contacts.countsNear}});
 }
 
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
@@ -238,9 +238,11 @@ Contacts add(ProgramBuilder& program, const SceneModel& model) {
     const std::uint32_t room = std::max(settings.contactRoom, roomFor(overlaps, layout.count));
     overlaps::forget(overlaps, leastOverlap(scene, settings));
     surfaces::Surfaces surfaces = surfaces::add(program, scene, layout);
+    const bool isMostlyLinked = areMostlyLinked(model);
     const bool solvesListedGroups = // keeping forces requires one end of the substep
-        !settings.sleeps && !settings.keepsForces && areMostlyLinked(model) && !surfaces.hasRestitution &&
+        !settings.sleeps && !settings.keepsForces && isMostlyLinked && !surfaces.hasRestitution &&
         !overlaps::haveParting(overlaps);
+    const bool countsNear = !isMostlyLinked && !surfaces.hasRestitution;
     const bool isCuttable = !exclusions.empty() && collision::canMeet(program.program(), scene);
     const bool hasRecovery = !overlaps.empty() || isCuttable;
     BufferId allExcluded;
@@ -265,6 +267,7 @@ Contacts add(ProgramBuilder& program, const SceneModel& model) {
                       .planes = rigid::planes::add(program, scene, layout),
                       .surfaces = std::move(surfaces),
                       .solvesListedGroups = solvesListedGroups,
+                      .countsNear = countsNear,
                       .hasRebound = std::ranges::any_of(
                           scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
                       .hasRecovery = hasRecovery,

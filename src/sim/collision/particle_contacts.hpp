@@ -20,6 +20,9 @@ struct Contacts {
     /// Whether the substep ends for all particles as if they touched nothing, and then again for groups with
     /// a candidate; otherwise one pass ends it for all.
     bool solvesListedGroups = false;
+    /// Whether pairs that hardly miss count in shares (SHARE_BAND): most particles are loose, and none
+    /// rebound.
+    bool countsNear = false;
     BufferId particles;              ///< slots that hold a particle; only if it settles
     std::uint32_t particleCount = 0; ///< their number
     bool hasRebound = false;         ///< of a plane
