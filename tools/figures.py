@@ -173,7 +173,7 @@ def contacts():
         f.lines(x + w / 2, 98, [name, head], 12)
     rows = [("faces", "point", "triangle", 120, ["check_surface_lists"], "touch, share, press, gather"),
             ("edges", "edge", "edge", 240, ["check_surface_lists"], "touch, share, press, gather"),
-            ("pairs", "particle", "particle", 360, ["finish_without_contacts or", "check_pair_lists"], "count_contacts, gather_contacts")]
+            ("pairs", "particle", "particle", 360, ["finish_without_contacts", "or check_pair_lists"], "count_contacts, gather_contacts")]
     solving = {"faces": ["which, on which side", "parts of a particle sum to 1", "impulses and friction",
                          "each end sums its own, in order"],
                "edges": ["which, on which side", "parts of an end sum to 1", "impulses and friction",
@@ -183,20 +183,20 @@ def contacts():
     for name, a, b, y, watch, solve in rows:
         f.rectangle(24, y, 752, 106, PAPER, "#c3ccd5")
         f.lines(70, y + 53, ["*" + name, a, "and", b], 12)
-        f.box(120, y + 18, 116, 70, watch, BLUE, 12, mono=True)
-        f.box(252, y + 18, 92, 70, ["plan_grid"], BLUE, 12, mono=True)
+        f.box(104, y + 18, 150, 70, watch, BLUE, 10, mono=True)
+        f.box(270, y + 18, 74, 70, ["plan_grid"], BLUE, 10, mono=True)
         f.box(360, y + 8, 156, 90, ["bounds, cells", "search of the grid", "sort; carry memory"], GREEN, 12, "5 3")
         f.rectangle(532, y + 8, 232, 90, BLUE)
         f.text(648, y + 26, solve, 12, weight="bold")
         f.lines(648, y + 63, solving[name], 12)
-        f.arrow((236, y + 53), (250, y + 53))
+        f.arrow((254, y + 53), (268, y + 53))
         f.arrow((344, y + 53), (358, y + 53))
         f.arrow((516, y + 53), (530, y + 53))
     for a, b in ((64, 82), (226, 238), (346, 358), (466, 486)):
         f.arrow((400, a), (400, b))
     tail = [(24, 148, ["*bounces", "where something", "rebounds"], "5 3"),
             (196, 172, ["*attachments,", "*grabs, tethers"], "5 3"),
-            (392, 172, ["*stop_at_faces", "where a face never", "gives way"], "5 3"),
+            (392, 172, ["*stop_at_faces", "where a face never", "gives way; zones"], "5 3"),
             (588, 188, ["*rigid colliders", "exact, one after another"], "5 3")]
     for x, w, lines, dash in tail:
         f.box(x, 488, w, 66, lines, GREY, 12, dash)
@@ -286,7 +286,7 @@ def cutting():
     notes = [["Step::blade: two", "poly-lines [m]", "", "find_near_links:", "nodes near it", "", "blade_hit.glsl:", "exact signs"],
              ["cut_links: both", "ends, by integer", "atomics", "", "remove_loose_links:", "links that hold", "nothing die too"],
              ["union_pieces and", "shorten_pieces, until", "no label changes", "", "contacts, sleep,", "grabs and tethers", "follow"],
-             ["marching tetra-", "hedra on dead", "links: inside", "", "pieces of the", "skin beside it;", "snap_rims_to_blade draws", "rims to the blade"]]
+             ["marching tetra-", "hedra on dead", "links: inside", "", "pieces of the", "skin beside it;", "snap_rims_to_blade", "pulls the rims"]]
     for (left, top), lines in zip(places, notes):
         f.lines(left + 174, top + 50, lines, 12, "start", QUIET)
     for a, b in (((376, 116), (422, 116)), ((376, 324), (422, 324))):
