@@ -326,7 +326,7 @@ Scene heap(std::uint32_t seed) {
 } // namespace
 
 // With shares that jump where a contact opens, these three heaps tremble for ever, with 0.1 to 3 mJ.
-TEST(ParticleContacts, OfAHighHeapComeToRest) {
+TEST(ParticleContacts, ComeToRestInAHighHeap) {
     for (const std::uint32_t seed : {6u, 7u, 11u}) {
         const Scene scene = heap(seed);
         test::Runner runner(scene, {.substeps = 8, .contactRoom = 16});
