@@ -196,7 +196,7 @@ def contacts():
         f.arrow((400, a), (400, b))
     tail = [(24, 148, ["*bounces", "where something", "rebounds"], "5 3"),
             (196, 172, ["*attachments,", "*grabs, tethers"], "5 3"),
-            (392, 172, ["*stop_at_faces", "where a face never", "gives way; zones"], "5 3"),
+            (392, 172, ["*separations,", "*stop_at_faces,", "*impact zones"], "5 3"),
             (588, 188, ["*rigid colliders", "exact, one after another"], "5 3")]
     for x, w, lines, dash in tail:
         f.box(x, 488, w, 66, lines, GREY, 12, dash)

@@ -79,10 +79,11 @@ Touch touchOf(uvec2 both, float reach, float remembered) {
     const float waySecond = max(length(VELOCITY(c).xyz), length(VELOCITY(d).xyz));
     const float outer = first.radius + second.radius + h * (wayFirst + waySecond);
     if (!now.exists || !before.exists || dot(now.n, before.n) <= 0.0 || dot(middles, middles) >= outer * outer) return touch;
-    float side = remembered != 0.0 ? sideOf(remembered) : before.height < 0.0 ? -1.0 : 1.0;
+    const bool isSideKept = remembered != 0.0 && !areOneSheet(a, c);
+    float side = isSideKept ? sideOf(remembered) : before.height < 0.0 ? -1.0 : 1.0;
     const bool isKept = keeps(a, c);
     bool isInReach = isInside(now, 0.0) && abs(now.height) < (isKept ? (1.0 + REST_SLACK) * reach : reach);
-    if (side * now.height < 0.0 && !(remembered != 0.0 && side * before.height < 0.0 && isInReach)) {
+    if (side * now.height < 0.0 && !(isSideKept && side * before.height < 0.0 && isInReach)) {
         vec2 passed = touch.st;
         // Outside of the reach and on the wrong side since the substep before: released, since the pair may be in no
         // list.

@@ -126,7 +126,7 @@ Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
     m.isBeyond = !m.isKept && isPast(passageOf(m), m.reach, m.nearest);
     if (isSolid(candidate.x)) return touchOfSolid(i, list, element, m);
     const bool isForced = dot(through, through) > 0.0;
-    float side = isForced ? (dot(m.normal, through) < 0.0 ? -1.0 : 1.0) : sideOf(MEMORY(element).w);
+    float side = isForced ? (dot(m.normal, through) < 0.0 ? -1.0 : 1.0) : areOneSheet(i, m.face.a) ? 0.0 : sideOf(MEMORY(element).w);
     const bool hasTouched = side != 0.0;
     if (!hasTouched) side = m.heightBefore < 0.0 ? -1.0 : 1.0;
     const bool isBefore = side * m.heightBefore >= 0.0;

@@ -29,7 +29,9 @@ layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };           
 layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n from the other to the owner, depth [m]; 0 = none
 layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; w: new memory
 layout(std140, binding = 8) uniform Step { StepParams step; };
-layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
+#define SHEETS_BINDING 13
+#include "collision/one_sheet.glsl"
+layout(std140, binding = 14) uniform Bounds { GridBounds bounds; };
 #include "collision/row_items.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #define MARKS_BINDING 9

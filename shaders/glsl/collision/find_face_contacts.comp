@@ -3,7 +3,8 @@
 // substep, from x - h v to x. A face has two sides. A point is on the side that it came from: while the two touch the
 // side is remembered, so that a point that has sunk through is pushed back out of the side on which it entered. A
 // pair that does not touch has no memory, and a point that is through and beyond reach is released: results do not
-// depend on when lists are made.
+// depend on when lists are made. Corners of sheets are kept on the sides of sheets on which they begin a substep
+// (keep_apart.comp).
 //
 // Impulses of a contact on its particles are weighted by beta, 1 for the point and b for the corners; directions n
 // are unit:
@@ -31,6 +32,8 @@ layout(constant_id = 3) const uint firstInner = ~0u; // faces from there to befo
 #include "collision/hidden_faces.glsl"
 bool mayPass = false; // whether the point is so fast or so deep that it may pass a face
 bool meets = false;   // whether it comes within reach of the face that was looked at last
+#define SHEETS_BINDING 13
+#include "collision/one_sheet.glsl"
 #include "collision/face_touch.glsl"
 layout(std430, binding = 10) writeonly buffer Finding { DispatchArguments finding[]; }; // of the search for points that pass
 layout(std430, binding = 11) writeonly buffer Solving { DispatchArguments solving[]; };

@@ -32,7 +32,7 @@ void main() {
     if (c >= push.chunks) return;
     const FrameChunk chunk = chunks[c];
     const vec3 x0 = positions[chunk.origin].xyz, r0 = referenceOf(chunk.origin);
-    vec3 sumR = vec3(0.0), sumX = vec3(0.0), sumV = vec3(0.0), low = vec3(1e30), high = vec3(-1e30);
+    vec3 sumR = vec3(0.0), sumX = vec3(0.0), sumV = vec3(0.0), speed = vec3(0.0), low = vec3(1e30), high = vec3(-1e30);
     float count = 0.0;
     mat3 rr = mat3(0.0), dr = mat3(0.0), vr = mat3(0.0);
     for (uint k = chunk.first; k < chunk.first + chunk.count; ++k) {
@@ -43,6 +43,7 @@ void main() {
         sumR += r;
         sumX += x;
         sumV += v;
+        speed += velocities[i].xyz;
         rr += outerProduct(r, r);
         dr += outerProduct(x - r, r);
         vr += outerProduct(v, r);
@@ -58,6 +59,7 @@ void main() {
         partial[first + FRAME_SUM_DR + k] = vec4(dr[k], 0.0);
         partial[first + FRAME_SUM_VR + k] = vec4(vr[k], 0.0);
     }
+    partial[first + FRAME_SUM_SPEED] = vec4(speed, 0.0);
     partial[first + FRAME_SUM_LOW] = vec4(low, 0.0);
     partial[first + FRAME_SUM_HIGH] = vec4(high, 0.0);
 }

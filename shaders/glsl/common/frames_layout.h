@@ -13,7 +13,7 @@ struct BodyFrame {
 
 // Sums over particles of a body. x: positions, r: positions when lists were made, v: velocities; x and r are relative
 // to the body's first particle.
-#define FRAME_SUMS 14
+#define FRAME_SUMS 15
 #define FRAME_SUM_R 0      // sum of r; w: particles
 #define FRAME_SUM_X 1      // sum of x
 #define FRAME_SUM_V 2      // sum of v
@@ -22,6 +22,7 @@ struct BodyFrame {
 #define FRAME_SUM_VR 9     // sum of v r^T
 #define FRAME_SUM_LOW 12   // the box of x
 #define FRAME_SUM_HIGH 13
+#define FRAME_SUM_SPEED 14  // sum of velocities without headings: it does not depend on when lists were made
 
 // The particles that one invocation adds up: entries of a list of slots, all of one body.
 struct FrameChunk {

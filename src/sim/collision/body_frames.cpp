@@ -93,6 +93,10 @@ Shares sharesOf(const Bodies& bodies, std::span<const float> radii) {
 
 } // namespace
 
+bool Bodies::isAlone(std::uint32_t body) {
+    return body >= firstLinked;
+}
+
 Bodies bodiesOf(const SceneModel& model) {
     const std::vector<float>& inverseMass = model.inverseMass;
     const StateLayout& layout = model.layout;

@@ -17,6 +17,9 @@ struct Bodies {
     std::vector<std::uint32_t> ofSlots; ///< by state slot; padding belongs to any body
     std::vector<std::uint32_t> kinds;   ///< by body: FRAME_MOVES or FRAME_STANDS
     std::vector<bool> isMember;         ///< by state slot: whether a frame is fitted to it
+
+    /// Whether a body is one linked component, not all that have no frame of their own.
+    static bool isAlone(std::uint32_t body);
 };
 
 /// One body each for the largest linked components, one for all other moving particles, and one for all

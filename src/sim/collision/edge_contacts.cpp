@@ -82,7 +82,9 @@ std::vector<Edge> edgesThatMeet(const SceneModel& model) {
 
 Contacts add(ProgramBuilder& program, const SceneModel& model, const std::vector<Edge>& edges,
              const ParticleBuffers& particles, const face_contacts::Contacts& faces) {
-    Contacts contacts{.lists = addLists(program, model, edges, faces.rows.keepsRest), .rows = {}};
+    Contacts contacts{.lists = addLists(program, model, edges, faces.rows.keepsRest),
+                      .rows = {},
+                      .constants = faces.separations.constants()};
     const edge_lists::Lists& lists = contacts.lists;
     contacts.rows = {.kind = &row_contacts::edges,
                      .push = {.count = lists.push.points,
@@ -102,7 +104,7 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const std::vector
                       cornersOf(edges, model.layout, model.inverseMass, model.settings.keepsForces),
                       particles);
     contacts.rows.touching = {lists.pooled.links->owners, lists.pooled.links->elements,
-                              lists.pooled.links->ranges};
+                              lists.pooled.links->ranges, faces.separations.sheets};
     ContactBuffers& shown = program.program().contacts;
     shown.edges = lists.edges;
     shown.edgePairs = lists.pooled.contacts;
@@ -116,8 +118,9 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
     if (isFirst) edge_lists::addFit(program, contacts.lists, predicted);
     edge_lists::addListCheck(program, contacts.lists, predicted);
     edge_lists::addLists(program, contacts.lists, predicted);
-    row_contacts::addPasses(program, contacts.rows, predicted,
-                            row_contacts::restConstants(contacts.rows.keepsRest, isFirst));
+    ProgramBuilder::Constants constants = row_contacts::restConstants(contacts.rows.keepsRest, isFirst);
+    constants.merge(ProgramBuilder::Constants(contacts.constants));
+    row_contacts::addPasses(program, contacts.rows, predicted, constants);
 }
 
 } // namespace sinew::sim::collision::edge_contacts

@@ -17,7 +17,8 @@ std::vector<edge_lists::Edge> edgesThatMeet(const SceneModel& model);
 
 struct Contacts {
     edge_lists::Lists lists;
-    row_contacts::Rows rows; ///< with the surfaces of contacts with faces
+    row_contacts::Rows rows;             ///< with the surfaces of contacts with faces
+    ProgramBuilder::Constants constants; ///< of the kernel that finds contacts
 };
 
 /// `edges` is not empty; `faces` are the contacts with faces of the same scene.

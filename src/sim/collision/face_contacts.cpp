@@ -240,6 +240,7 @@ ProgramBuilder::Constants touchConstants(const Contacts& contacts, bool isFirst)
     if (contacts.hasInner()) constants[firstInnerId] = contacts.firstInner;
     constants[hasSolidId] = contacts.hasSolid();
     constants[hasZonesId] = contacts.zones.exist();
+    constants.merge(contacts.separations.constants());
     return constants;
 }
 
@@ -333,7 +334,10 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const ParticleBuf
     if (std::ranges::find(faces.isOfCells, true) != faces.isOfCells.end())
         contacts.opened = program.scratch<std::uint32_t>("faces.opened", faces.faces.size());
     contacts.zones = impact_zones::add(program, zonesOf(model.scene, model.layout, faces, contacts.lists));
-    contacts.rows.touching = {contacts.zones.finding, contacts.zones.solving, contacts.zones.meeting};
+    contacts.separations = separations::add(program, model, std::span(faces.faces).first(faces.sheets),
+                                            contacts.lists.grid.frames);
+    contacts.rows.touching = {contacts.zones.finding, contacts.zones.solving, contacts.zones.meeting,
+                              contacts.separations.sheets};
     if (contacts.hasStops()) addStopBuffers(program, model, particles, faces, contacts);
     // Without static or driven faces no kernel reads the first two.
     const bool hasRows = contacts.stopRows != BufferId{};

@@ -5,6 +5,7 @@
 #include "sim/collision/face_lists.hpp"
 #include "sim/collision/impact_zones.hpp"
 #include "sim/collision/row_contacts.hpp"
+#include "sim/collision/separations.hpp"
 #include "sim/model/scene_model.hpp"
 
 namespace sinew::sim::collision::face_contacts {
@@ -17,6 +18,7 @@ struct Contacts {
     /// By face: whether it is half of a square between two cells of a cuttable voxel body, or beside one.
     std::vector<bool> isOfCells;
     impact_zones::Zones zones;
+    separations::Separations separations;
     BufferId opened; ///< by face: whether this step has opened it; only if some are of cells
     /// Positions and velocities after links; only if hasStops().
     BufferId linkedPositions, linkedVelocities;

@@ -9,25 +9,13 @@ namespace {
 
 namespace k = kernels;
 
-void addOver(ProgramBuilder& program, const Rows& rows, const Groups& groups, const vk::ShaderCode& code,
-             std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
-    buffers.push_back(groups.listed);
-    program.dispatchIndirect(code, groups.items, buffers, rows.push, constants);
-}
-
-void addOverRows(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode& code,
-                 std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
-    buffers.push_back(rows.bounds);
-    program.dispatchIndirect(code, rows.elements, buffers, rows.push, constants);
-}
-
 // Appends the pass that divides particles among the rows whose last word of `directions` is not 0.
 void addShares(ProgramBuilder& program, const Rows& rows, BufferId directions,
                const ParticleBuffers& particles) {
-    addOver(program, rows, rows.particles, k::sumRowWeights,
-            {rows.lists.ranges, directions, rows.weights, rows.corners, rows.lists.links->elements,
-             rows.lists.links->ranges, rows.cornerEnds, particles.velocities, rows.shares},
-            rows.kind->constants());
+    addOverParticles(program, rows, k::sumRowWeights,
+                     {rows.lists.ranges, directions, rows.weights, rows.corners, rows.lists.links->elements,
+                      rows.lists.links->ranges, rows.cornerEnds, particles.velocities, rows.shares},
+                     rows.kind->constants());
 }
 
 // Appends the pass that applies impulses to particles.
@@ -48,7 +36,7 @@ void addImpulses(ProgramBuilder& program, const Rows& rows, BufferId directions,
     const bool hasStops = particles.forces != nullptr && !rows.kind->areEdges;
     for (const BufferId buffer : rows.forceRows) buffers.push_back(hasStops ? buffer : unbound);
     constants.merge(rows.kind->constants());
-    addOver(program, rows, rows.particles, code, std::move(buffers), constants);
+    addOverParticles(program, rows, code, std::move(buffers), constants);
 }
 
 sleep::SeenRows seenOf(const Rows& rows) {
@@ -64,6 +52,18 @@ constinit const Kind faces{
 
 constinit const Kind edges{
     .name = "edges", .areEdges = true, .touch = &k::findEdgeContacts, .forces = &forces::Forces::ofContacts};
+
+void addOverParticles(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode& code,
+                      std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants) {
+    buffers.push_back(rows.particles.listed);
+    program.dispatchIndirect(code, rows.particles.items, buffers, rows.push, constants);
+}
+
+void addOverRows(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode& code,
+                 std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants) {
+    buffers.push_back(rows.bounds);
+    program.dispatchIndirect(code, rows.elements, buffers, rows.push, constants);
+}
 
 Corners cornersOf(std::span<const std::vector<std::uint32_t>> first,
                   std::span<const std::vector<std::uint32_t>> later) {
@@ -112,7 +112,7 @@ void addPasses(ProgramBuilder& program, const Rows& rows, const ParticleBuffers&
     buffers.insert(buffers.end(), rows.touching.begin(), rows.touching.end());
     const vk::ShaderCode& touch = *rows.kind->touch;
     if (rows.kind->touchesLists)
-        addOver(program, rows, rows.particles, touch, std::move(buffers), constants);
+        addOverParticles(program, rows, touch, std::move(buffers), constants);
     else
         addOverRows(program, rows, touch, std::move(buffers), constants);
     sleep::addRowTouches(program, predicted, seenOf(rows));

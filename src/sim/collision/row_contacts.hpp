@@ -85,6 +85,13 @@ struct Rows {
 /// Makes the buffers of `rows`; members up to `keepsRest` must be set.
 void add(ProgramBuilder& program, Rows& rows, const Corners& corners, const ParticleBuffers& particles);
 
+/// Appends a pass over the work groups with a particle in a row, or over the used entries of the lists. The
+/// kernel gets the list of these groups, or the bounds of the grid, after `buffers`.
+void addOverParticles(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode& code,
+                      std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {});
+void addOverRows(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode& code,
+                 std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {});
+
 /// Constants of kernels with pairs that may keep their rest distance. `isFirst`: first substep of a step.
 ProgramBuilder::Constants restConstants(bool keepsRest, bool isFirst);
 

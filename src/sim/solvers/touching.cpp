@@ -93,6 +93,11 @@ void Touching::addStops(ProgramBuilder& program, const ParticleBuffers& predicte
                         const ParticleBuffers& state) const {
     if (!faces) return;
     using collision::face_contacts::StopKind;
+    const auto addSeparations = [&](const collision::row_contacts::Rows& rows) {
+        collision::separations::addPasses(program, faces->separations, rows, predicted, state);
+    };
+    addSeparations(faces->rows);
+    if (edges) addSeparations(edges->rows);
     collision::face_contacts::addStops(program, *faces, state, StopKind::all);
     if (!faces->zones.exist()) return;
     collision::face_contacts::addZones(program, *faces, predicted, state);

@@ -36,7 +36,9 @@ struct Touching {
     void addStops(ProgramBuilder& program, const ParticleBuffers& predicted,
                   const ParticleBuffers& state) const;
     /// Whether a particle may end a substep at another position than its velocity gives.
-    bool moveUnseen() const { return pairs || (faces && (faces->hasStops() || faces->zones.exist())); }
+    bool moveUnseen() const {
+        return pairs || (faces && (faces->hasStops() || faces->zones.exist() || faces->separations.exist()));
+    }
 };
 
 /// Adds the buffers of contacts, their islands of sleep, and the updates of a step with a blade before its
