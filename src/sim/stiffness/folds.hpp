@@ -10,9 +10,9 @@ namespace sinew::sim::stiffness {
 
 /// The longest substep [s] in which no sheet, a component with touching faces, moves towards itself by more
 /// than a part of its thickness; infinite if no sheet falls:
-/// - 0.35 at the speed of a fall as deep as the largest distance in the sheet from its middle, with which one
+/// - 0.6 at the speed of a fall as deep as the largest distance in the sheet from its middle, with which one
 ///   half of a fold meets the other, and
-/// - 0.12 at the speed of the fall of an upright sheet, since its upper part falls onto the lower one in many
+/// - 0.18 at the speed of the fall of an upright sheet, since its upper part falls onto the lower one in many
 ///   folds. This fall is scaled by the uprightness: the height over twice the largest distance from the
 ///   middle (0.71 for a square).
 /// No fall is deeper than the initial free space above colliders, planes and other bodies, or faster than
