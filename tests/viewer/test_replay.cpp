@@ -73,9 +73,12 @@ void poke(Played& played) {
     played.dragFrom({0.05f, 0.1f}, {-0.1f, -0.1f}, 5);
     played.turn({.actions = {Action::drop}, .pointer = {-0.05f, 0}}, 2);
     EXPECT_FALSE(played.isPoking()) << "Esc lifts it";
-    EXPECT_TRUE(played.tools.isOn(tool::poke));
+    EXPECT_FALSE(played.tools.isOn(tool::poke)) << "and puts it away";
+    played.turn({.actions = {actionOf(tool::poke)}}, 2);
     played.turn({.actions = {actionOf(tool::blade)}}, 2);
     EXPECT_FALSE(played.tools.isOn(tool::poke));
+    played.turn({.actions = {Action::drop}}, 2);
+    EXPECT_FALSE(played.tools.isOn(tool::blade)) << "Esc puts any tool away";
 }
 
 void expectTheSameBitsOf(void (*hands)(Played&)) {

@@ -29,6 +29,7 @@ public:
     /// Looks at what lies under the pointer now, or under the next press.
     void lookAt(Target target);
     void lookAtPress(Target target) noexcept { armed_ = target; }
+    void forgetLook() noexcept { armed_.reset(); }
     /// Takes the press that lookAtPress() waits for out of `input`, and moves the pointer; true if it moved.
     bool take(Input& input);
     void takePress(Input& input);

@@ -157,6 +157,7 @@ void ScenePlayer::handle(Input& input) {
     observer_.takePress(input);
     if (!input.files.empty()) adjustments_.openFile(input.files.front());
     for (const Action action : input.actions) {
+        if (action == Action::drop) observer_.forgetLook();
         if (action == Action::drop && session_.panels().isHelpShown())
             session_.panels().closeHelp();
         else if (!journal_.takes(action) && !controller_.act(action) && !tools_.act(action) &&

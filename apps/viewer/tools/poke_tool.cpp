@@ -22,7 +22,7 @@ constinit const Tool tool::poke{.name = "poke",
                                 .key = 'O',
                                 .help = "poke: left drag pushes with a sphere",
                                 .button = "Poke",
-                                .letGo = "lift the sphere",
+                                .letGo = "put the sphere away",
                                 .offer = "pokes",
                                 .addHints =
                                     [](HintLine& line, const std::optional<float>&) {

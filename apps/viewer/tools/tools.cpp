@@ -275,7 +275,10 @@ void Tools::say(const std::string& note) {
 
 void Tools::drop() {
     armed_.reset();
-    for (const auto& state : states_) state->drop();
+    for (const auto& state : states_) {
+        state->drop();
+        if (state->isOn()) state->toggle();
+    }
 }
 
 void Tools::clear() {

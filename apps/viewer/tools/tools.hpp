@@ -125,7 +125,7 @@ private:
     void turnWheel(float notches);
     void logSetting(std::size_t tool);
     void takeNoteOf(std::size_t tool);
-    void drop();
+    void drop(); ///< ends what all tools do, and puts away the one in hand
     void say(const std::string& note);
 
     std::vector<std::unique_ptr<ToolState>> states_; // in the order of toolTable()
