@@ -6,6 +6,7 @@
 #include "app/guard.hpp"
 #include "app/progress.hpp"
 #include "scenes/recovery.hpp"
+#include "sim/core/counted.hpp"
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/loader.hpp"
 #include "sinew/vk/queue.hpp"
@@ -89,11 +90,15 @@ public:
         while (writer_.take(PictureWriter::Wait::yes)) {
         }
         if (video_) video_->finish();
-        if (!options_.folder.empty()) std::printf("%zu pictures in %s\n", count_, options_.folder.c_str());
-        if (video_) std::printf("%zu pictures in %s\n", count_, options_.video.c_str());
+        if (!options_.folder.empty()) printCount(options_.folder);
+        if (video_) printCount(options_.video);
     }
 
 private:
+    void printCount(const std::string& where) const {
+        std::printf("%s in %s\n", sim::counted(count_, "picture").c_str(), where.c_str());
+    }
+
     const Options& options_;
     PictureWriter writer_;
     std::optional<Video> video_;

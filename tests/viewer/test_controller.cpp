@@ -78,7 +78,7 @@ TEST(Bindings, HintAtWhatHandsCanDoNow) {
     EXPECT_EQ(hintText({.canUse = {false, true, true, true}}).find("cuts"), std::string::npos);
     EXPECT_NE(blade.find("Ctrl + Z"), std::string::npos);
     EXPECT_NE(blade.find("cuts through"), std::string::npos);
-    EXPECT_NE(hintWith(tool::blade, 0.012f).find("cuts 0.012 m deep"), std::string::npos);
+    EXPECT_NE(hintWith(tool::blade, 0.012f).find("cuts 1.2 cm deep"), std::string::npos);
     const std::string poke = hintWith(tool::poke);
     EXPECT_NE(empty.find("O pokes"), std::string::npos);
     EXPECT_NE(poke.find("Shift + wheel"), std::string::npos);

@@ -74,7 +74,7 @@ awaitStill layers.png
 keys period
 awaitOther layers.png filmed.png "a step changes nothing"
 keys F9
-await 30 says '^[1-9][0-9]* pictures in '
+await 30 says '^[1-9][0-9]* pictures\? in '
 echo "first use: another solver beside"
 line() { convert "$1" -crop 2x160+159+0 +repage -colorspace sRGB -format '%[fx:mean < 0.1 ? 1 : 0]' info:; } # dark line between the halves
 [[ $(line layers.png) == 0 ]] || fail "there are halves before B"

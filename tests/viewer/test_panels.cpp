@@ -190,7 +190,7 @@ TEST_F(PanelsTest, KeepTheLineForAPathWhateverAppears) {
     settle();
     settle();
     picture(typing("/tmp/a"));
-    facts.notice = "the blade goes 0.1 m deep";
+    facts.notice = "the blade goes 10 cm deep";
     settle();
     facts.isInspecting = true;
     settle();

@@ -403,8 +403,8 @@ kill -0 "$running" || fail "the viewer ended with the encoder"
 keys F9
 await 20 isFilmed
 keys F9
-await 20 says ' pictures in other-.*\.mp4$'
-grep -q ' pictures in other-.*\.mp4$' viewer.out || fail "there is no film after the one that failed"
+await 20 says ' pictures\? in other-.*\.mp4$'
+grep -q ' pictures\? in other-.*\.mp4$' viewer.out || fail "there is no film after the one that failed"
 quit
 code=0
 wait "$running" || code=$?

@@ -3,10 +3,10 @@
 
 #include "common/layout.h"
 #include "sinew/inspection.hpp"
+#include "viewer/render/length_text.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 
 namespace sinew::viewer {
@@ -54,9 +54,7 @@ std::vector<LegendLine> cellLegend(std::span<const GridFacts> grids) {
     if (most == 0) return {{text, "no step has been taken yet: the grids are empty"}};
     std::vector<LegendLine> legend{{bar}, {row, "items in a cell, from 0", grouped(most)}};
     for (const GridFacts& grid : grids) {
-        char name[64];
-        std::snprintf(name, sizeof name, "%s, cells of %.3g m", grid.name.c_str(), double{grid.edge});
-        legend.push_back({row, name, grouped(grid.cells)});
+        legend.push_back({row, grid.name + ", cells of " + lengthText(grid.edge), grouped(grid.cells)});
         legend.push_back({row, "  items / slots", grouped(grid.held) + " / " + grouped(grid.slots)});
     }
     if (shared > 0) legend.push_back({swatch, "cells that share a slot", grouped(shared), {sharedColor}});

@@ -3,6 +3,7 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
+#include "sim/core/counted.hpp"
 #include "sinew/vk/check.hpp"
 
 #include <utility>
@@ -82,7 +83,7 @@ void Capture::endFilm() {
     if (!film_) return;
     try {
         film_->finish();
-        const std::string text = std::to_string(film_->count()) + " pictures in " + film_->target().string();
+        const std::string text = sim::counted(film_->count(), "picture") + " in " + film_->target().string();
         printLine(text);
         player_.session.tell(text);
         film_.reset();

@@ -2,9 +2,10 @@
 // longer.
 #include "viewer/tools/cut_tool.hpp"
 
+#include "viewer/render/length_text.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace sinew::viewer {
@@ -24,9 +25,7 @@ sim::Vec3 toVec3(const Vector3& v) {
 // "0.012 m deep", "through".
 std::string depthText(const std::optional<float>& depth) {
     if (!depth) return "through";
-    char text[40];
-    std::snprintf(text, sizeof text, "%.3g m deep", double{*depth});
-    return text;
+    return lengthText(*depth) + " deep";
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "viewer/ui/panel_parts.hpp"
 
 #include "viewer/render/layer.hpp"
+#include "viewer/render/length_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -147,7 +148,8 @@ void section(const Facts& facts, Wishes& wishes) {
     float offset = section->offset;
     const auto [low, high] = facts.sectionReach;
     ImGui::SetNextItemWidth(contentWidth());
-    if (ImGui::SliderFloat("##section", &offset, low, high, "plane at %.3f m")) wishes.sectionOffset = offset;
+    if (ImGui::SliderFloat("##section", &offset, low, high, ("plane at " + lengthText(offset)).c_str()))
+        wishes.sectionOffset = offset;
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(keyOf(Action::moveSection)).c_str());
 }
 

@@ -1,4 +1,5 @@
 // The scene on show, the list of scenes, and the adjustable parameters.
+#include "viewer/render/length_text.hpp"
 #include "viewer/ui/knob_keys.hpp"
 #include "viewer/ui/panel_parts.hpp"
 #include "viewer/ui/panels.hpp"
@@ -74,9 +75,9 @@ bool bladeKnob(const Facts& facts, Knobs& turned) {
     const float through = 1.05f * most;
     float depth = turned.bladeDepth.value_or(through);
     knob("blade depth");
-    const bool isTurned =
-        ImGui::SliderFloat("##depth", &depth, least, through, turned.bladeDepth ? "%.3g m" : "through",
-                           ImGuiSliderFlags_Logarithmic);
+    const bool isTurned = ImGui::SliderFloat("##depth", &depth, least, through,
+                                             turned.bladeDepth ? lengthText(depth).c_str() : "through",
+                                             ImGuiSliderFlags_Logarithmic);
     tip("depth below the surface under the pointer; right end: through; acts at once");
     if (isTurned) turned.bladeDepth = depth > most ? std::nullopt : std::optional(std::max(depth, least));
     return isTurned;
