@@ -3,6 +3,7 @@
 #include "viewer/render/picture_budget.hpp"
 #include "viewer/tools/cut_tool.hpp"
 #include "viewer/tools/grab_tool.hpp"
+#include "viewer/tools/pins.hpp"
 #include "viewer/tools/poke_tool.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -84,6 +85,30 @@ TEST(Bindings, HintAtWhatHandsCanDoNow) {
     EXPECT_NE(poke.find("Shift + wheel"), std::string::npos);
     for (const std::string& hint : {empty, blade, poke, hintWith(tool::hand)})
         EXPECT_NE(hint.find("H help"), std::string::npos) << hint;
+}
+
+// A window that is too narrow for all hints shows the first ones.
+TEST(Bindings, HintsAreDroppedFromTheRightUntilTheyFit) {
+    const HintFacts facts{.inUse = indexOf(tool::blade), .canUse = {true, true, true, true}};
+    const std::string all = hintText(facts);
+    const auto fitting = [&](std::size_t most) {
+        return hintText(facts, [most](const std::string& text) { return text.size() <= most; });
+    };
+    EXPECT_EQ(fitting(all.size()), all);
+    const std::string less = fitting(all.size() - 1);
+    EXPECT_TRUE(less.starts_with("left drag cuts through")) << less;
+    EXPECT_NE(less.find("C puts the blade away"), std::string::npos) << less;
+    EXPECT_EQ(less.find("Tab panels"), std::string::npos) << less;
+    EXPECT_TRUE(less.ends_with("H help")) << less;
+    EXPECT_EQ(fitting(3), "H help");
+}
+
+TEST(Bindings, HintsSayWhatAButtonWaitsFor) {
+    const std::string hint = hintText({.inUse = indexOf(tool::blade), .awaited = tool::pins.awaited});
+    EXPECT_TRUE(hint.starts_with("click a body to pin it")) << hint;
+    EXPECT_NE(hint.find("Esc cancels"), std::string::npos) << hint;
+    EXPECT_EQ(hint.find("cuts"), std::string::npos) << hint;
+    for (const Tool* tool : toolTable()) EXPECT_EQ(tool->isMomentary, !tool->awaited.empty()) << tool->name;
 }
 
 TEST(Tools, HaveKeysAndNamesOfTheirOwn) {

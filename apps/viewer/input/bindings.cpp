@@ -212,13 +212,21 @@ std::string_view keyOf(Action action) {
 }
 
 void HintLine::add(std::string_view words, std::initializer_list<Action> keys) {
-    if (!text_.empty()) text_.append("   \u00b7   ");
-    const char* between = "";
-    for (const Action action : keys) {
-        text_.append(between).append(keyOf(action));
-        between = " or ";
-    }
-    text_.append(keys.size() > 0 ? " " : "").append(words);
+    std::string hint;
+    for (const Action action : keys) hint.append(hint.empty() ? "" : " or ").append(keyOf(action));
+    hints_.push_back(hint.append(hint.empty() ? "" : " ").append(words));
+}
+
+std::string HintLine::text(const std::string& last) const {
+    std::string text;
+    for (const std::string& hint : hints_) text.append(hint).append("   \u00b7   ");
+    return text + last;
+}
+
+bool HintLine::drop() {
+    if (hints_.empty()) return false;
+    hints_.pop_back();
+    return true;
 }
 
 namespace {
@@ -233,10 +241,13 @@ void addOffers(HintLine& line, std::string_view Tool::*offer, const std::array<b
     }
 }
 
-} // namespace
-
-std::string hintText(const HintFacts& facts) {
+HintLine hintsOf(const HintFacts& facts) {
     HintLine line;
+    if (!facts.awaited.empty()) {
+        line.add(facts.awaited);
+        line.add("cancels", {drop});
+        return line;
+    }
     if (facts.inUse) {
         const Tool& tool = *toolTable()[*facts.inUse];
         if (tool.addHints != nullptr) tool.addHints(line, facts.setting);
@@ -248,12 +259,17 @@ std::string hintText(const HintFacts& facts) {
         line.add("resets", {reset});
     }
     line.add("panels", {Action::panels});
-    line.add("help", {help});
-    return line.text();
+    return line;
 }
 
-std::string shortHintText() {
-    return std::string(keyOf(help)) + " help";
+} // namespace
+
+std::string hintText(const HintFacts& facts, const std::function<bool(const std::string&)>& fits) {
+    HintLine line = hintsOf(facts);
+    const std::string last = std::string(keyOf(help)) + " help";
+    while (fits && !fits(line.text(last)) && line.drop()) {
+    }
+    return line.text(last);
 }
 
 } // namespace sinew::viewer

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -117,20 +118,23 @@ std::string_view keyOf(Action action);
 class HintLine {
 public:
     void add(std::string_view words, std::initializer_list<Action> keys = {});
-    const std::string& text() const { return text_; }
+    /// All hints, and `last` after them.
+    std::string text(const std::string& last) const;
+    /// Drops the hint at the right; false if there is none.
+    bool drop();
 
 private:
-    std::string text_;
+    std::vector<std::string> hints_;
 };
 /// Facts about the tools for their hints.
 struct HintFacts {
     std::optional<std::size_t> inUse;     ///< index into toolTable(); empty = none
     std::array<bool, mostTools> canUse{}; ///< in this scene, by that index
     std::optional<float> setting;         ///< of the one in use
+    std::string_view awaited = {};        ///< what the next press does, if a button waits for it
 };
-/// One line on the possible actions.
-std::string hintText(const HintFacts& facts);
-/// For windows without room for hintText(): only how to get help.
-std::string shortHintText();
+/// One line on the possible actions. Hints are dropped from the right until `fits` is true; the key of the
+/// help stays.
+std::string hintText(const HintFacts& facts, const std::function<bool(const std::string&)>& fits = {});
 
 } // namespace sinew::viewer

@@ -132,6 +132,7 @@ struct Tool {
     /// Hints at the foot of the picture: what its key does while nothing is in use, and while something is
     /// held; empty = none. addHints() adds those for while it is in use.
     std::string_view offer = {}, offerHeld = {};
+    std::string_view awaited = {}; ///< hint while its button waits for a press (Tools::arm())
     void (*addHints)(HintLine& line, const std::optional<float>& setting) = nullptr;
 
     std::string_view setting = {};     ///< name in logs of its number, which the wheel changes; empty = none

@@ -154,6 +154,9 @@ void Observer::takeOver(const Observer& before) {
 void Observer::addTo(Facts& facts) const {
     facts.isInspecting = inspector_.isOn();
     facts.found = inspector_.found();
+    if (armed_)
+        facts.hint.awaited =
+            *armed_ == Target::body ? "click a body to frame it" : "click a body to orbit around that point";
 }
 
 } // namespace sinew::viewer

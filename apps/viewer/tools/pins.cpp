@@ -15,6 +15,7 @@ constinit const Tool tool::pins{
     .help = "pin the held body, or the one under the pointer; on a pin: remove it",
     .button = "Pin",
     .offerHeld = "pins it there",
+    .awaited = "click a body to pin it, or a pin to remove it",
     .isMomentary = true,
     .make = [](const ToolContext& of) -> std::unique_ptr<ToolState> {
         return std::make_unique<PinTool>(of.scene, of.holds, 0.04f * of.light.radius());

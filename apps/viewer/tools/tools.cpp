@@ -94,6 +94,7 @@ HintFacts Tools::hintFacts() const {
     HintFacts facts{.canUse = canUse_};
     if (inHand().isOn() || isHolding()) facts.inUse = indexInHand();
     facts.setting = inHand().setting();
+    if (armed_) facts.awaited = toolTable()[*armed_]->awaited;
     return facts;
 }
 

@@ -336,8 +336,9 @@ void Panels::buildHint(const Facts& facts, VkExtent2D extent) {
     const float edge = gap * scale_, pad = 10 * scale_;
     const float room =
         static_cast<float>(extent.width) - 2 * edge - (isShown(extent) ? sidePanel * scale_ + edge : 0);
-    std::string text = hintText(facts.hint);
-    if (ImGui::CalcTextSize(text.c_str()).x + 2 * pad > room) text = shortHintText();
+    const std::string text = hintText(facts.hint, [&](const std::string& one) {
+        return ImGui::CalcTextSize(one.c_str()).x + 2 * pad <= room;
+    });
     ImGui::SetNextWindowPos({edge, static_cast<float>(extent.height) - edge}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowBgAlpha(0.85f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, 6 * scale_});
