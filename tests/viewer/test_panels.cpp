@@ -252,6 +252,37 @@ TEST_F(PanelsTest, KeepANoticeBesideThePanel) {
     }
 }
 
+// The window of a name, if it is drawn.
+const ImGuiWindow* shownWindow(const char* name) {
+    const ImGuiWindow* window = ImGui::FindWindowByName(name);
+    return window != nullptr && window->Active && !window->Hidden ? window : nullptr;
+}
+
+TEST_F(PanelsTest, ShowThatAFilmIsRecordedAsLongAsItIs) {
+    settle();
+    EXPECT_EQ(shownWindow("recording"), nullptr);
+    facts.recorded = 2.5;
+    facts.notice = "a line that is long enough to be as wide as the window lets it, which is less than that";
+    settle();
+    settle();
+    for (const float width : {1280.0f, 820.0f}) {
+        const VkExtent2D extent{static_cast<std::uint32_t>(width), 600};
+        settle(extent);
+        settle(extent);
+        const ImGuiWindow* sign = shownWindow("recording");
+        ASSERT_NE(sign, nullptr);
+        EXPECT_LE(sign->Pos.x + sign->Size.x, ImGui::FindWindowByName("side")->Pos.x) << width;
+        const ImGuiWindow* notice = shownWindow("notice");
+        EXPECT_LE(notice->Pos.x + notice->Size.x, sign->Pos.x) << width;
+    }
+    panels.choose(false);
+    settle();
+    EXPECT_NE(shownWindow("recording"), nullptr) << "without panels, too";
+    facts.recorded.reset();
+    settle();
+    EXPECT_EQ(shownWindow("recording"), nullptr);
+}
+
 // The list opens below its field. Pictures are requested only for visible entries.
 TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheList) {
     facts.scenes = {"cloth", "cube", "organ", "tear"};

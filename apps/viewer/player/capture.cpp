@@ -79,6 +79,11 @@ void Capture::beginFilm() {
     }
 }
 
+std::optional<double> Capture::filmSeconds() const {
+    if (!film_) return std::nullopt;
+    return static_cast<double>(film_->count()) * double{player_.document.scene().dt};
+}
+
 void Capture::endFilm() {
     if (!film_) return;
     try {

@@ -20,6 +20,8 @@ public:
     void wantPicture() noexcept { wantsPicture_ = true; }
     bool wantsPicture() const noexcept { return wantsPicture_; }
     bool isFilming() const noexcept { return film_.has_value(); }
+    /// Length of the pictures that the film has [s]; empty without a film.
+    std::optional<double> filmSeconds() const;
 
     /// Begins a film: a picture of every step.
     void beginFilm();

@@ -376,7 +376,7 @@ Facts ScenePlayer::facts(std::optional<float> reduced) const {
     layers_.addTo(facts);
     observer_.addTo(facts);
     facts.beside = comparison_.facts();
-    facts.isRecording = capture_.isFilming();
+    facts.recorded = capture_.filmSeconds();
     facts.knobs = adjustments_.shown();
     facts.bladeDepths = tools_.settingRange(tool::blade);
     facts.pace = controller_.playback.pace();

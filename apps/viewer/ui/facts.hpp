@@ -117,7 +117,8 @@ struct SceneFacts {
 
 /// Facts that change.
 struct Facts {
-    bool isPaused = false, isDiverged = false, isVsync = true, isRecording = false;
+    bool isPaused = false, isDiverged = false, isVsync = true;
+    std::optional<double> recorded;        ///< length of the film that is being recorded [s]; empty = none
     std::array<bool, mostTools> toolsOn{}; ///< whose buttons are lit, by index into toolTable()
     HintFacts hint;
     /// Set if pictures have plain shadows and no antialiasing, on a software device while something moves:

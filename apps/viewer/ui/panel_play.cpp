@@ -53,7 +53,7 @@ void play(const Facts& facts, Wishes& wishes) {
     width = buttonWidth(4);
     button(Action::screenshot, wishes, width);
     ImGui::SameLine();
-    button(Action::record, wishes, width, facts.isRecording, facts.isRecording ? "Stop" : nullptr);
+    button(Action::record, wishes, width, facts.recorded.has_value(), facts.recorded ? "Stop" : nullptr);
     ImGui::SameLine();
     button(Action::saveInput, wishes, width);
     ImGui::SameLine();

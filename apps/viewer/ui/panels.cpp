@@ -16,7 +16,8 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200; // at a scale of 1 [pixels]
+constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200,
+                recordingWidth = 200;     // at a scale of 1 [pixels]
 constexpr int mostPicturesUnfocused = 20; // that a text field may wait for keys
 constexpr float roomBeside = 2.6f;        // in panels: least width of a picture that shows panels at first
 
@@ -188,6 +189,11 @@ bool Panels::takesKeys() const {
     return ImGui::GetIO().WantTextInput || isAsking();
 }
 
+// Width of the picture that the panel leaves free, from the left [pixels].
+float Panels::freeWidth(VkExtent2D extent) const {
+    return static_cast<float>(extent.width) - (isShown(extent) ? (sidePanel + gap) * scale_ : 0);
+}
+
 // A hidden text field gets no keys.
 bool Panels::isAsking() const {
     return path_.isShown && isShown(lastExtent_);
@@ -269,8 +275,8 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
     buildHint(facts, extent);
     buildNotice(facts, extent);
-    const float side = isShown(extent) ? (sidePanel + gap) * scale_ : 0;
-    parts::probe(facts, scale_, static_cast<float>(extent.width) - side);
+    if (facts.recorded) buildRecording(facts, extent);
+    parts::probe(facts, scale_, freeWidth(extent));
     if (isHelpShown_) parts::help(scale_);
     ImGui::Render();
     remember();
@@ -352,7 +358,7 @@ void Panels::buildNotice(const Facts& facts, VkExtent2D extent) {
     if (facts.notice.empty()) return;
     const float edge = gap * scale_;
     const float all = static_cast<float>(extent.width) - 2 * edge;
-    const float beside = all - (isShown(extent) ? sidePanel * scale_ + edge : 0); // width beside the panel
+    const float beside = freeWidth(extent) - 2 * edge - (facts.recorded ? recordingWidth * scale_ : 0);
     const float width = std::min(560 * scale_, beside >= leastNotice * scale_ ? beside : all);
     ImGui::SetNextWindowPos({edge, edge});
     ImGui::SetNextWindowSize({width, 0});
@@ -363,6 +369,22 @@ void Panels::buildNotice(const Facts& facts, VkExtent2D extent) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(facts.notice.c_str());
     ImGui::PopTextWrapPos();
+    ImGui::End();
+}
+
+// A sign as long as a film is recorded, also without panels: a red dot and the length of the film.
+void Panels::buildRecording(const Facts& facts, VkExtent2D extent) {
+    const float edge = gap * scale_, line = ImGui::GetTextLineHeight();
+    ImGui::SetNextWindowPos({freeWidth(extent) - edge, edge}, ImGuiCond_Always, {1, 0});
+    ImGui::Begin("recording", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddCircleFilled({at.x + line / 2, at.y + line / 2}, 0.4f * line,
+                                                IM_COL32(235, 45, 40, 255));
+    ImGui::Dummy({line, line});
+    ImGui::SameLine();
+    ImGui::Text("REC %.1f s", *facts.recorded);
+    ImGui::SameLine();
+    ImGui::TextColored(parts::quiet(), "%s stops", std::string(keyOf(Action::record)).c_str());
     ImGui::End();
 }
 
