@@ -49,6 +49,7 @@ TEST(Camera, FieldOfViewIsVertical) {
     camera.azimuth = camera.elevation = 0;
     const float top = camera.distance * std::tan(camera.fieldOfView / 2);
     EXPECT_NEAR(project(camera, {0, top, 0}).y(), -1, 1e-5f);
+    EXPECT_FLOAT_EQ(pictureHeight(camera), 2 * top);
     EXPECT_NEAR(project(camera, {top * aspect, 0, 0}).x(), 1, 1e-5f);
 }
 

@@ -283,6 +283,27 @@ TEST_F(PanelsTest, ShowThatAFilmIsRecordedAsLongAsItIs) {
     EXPECT_EQ(shownWindow("recording"), nullptr);
 }
 
+TEST_F(PanelsTest, ShowALengthBesideTheHint) {
+    settle();
+    EXPECT_EQ(shownWindow("scale"), nullptr) << "before anything is known";
+    for (const float metersPerPixel : {1e-6f, 0.0013f, 7.0f})
+        for (const std::uint32_t width : {1280u, 800u}) {
+            facts.metersPerPixel = metersPerPixel;
+            const VkExtent2D extent{width, 600};
+            settle(extent);
+            settle(extent);
+            const ImGuiWindow *bar = shownWindow("scale"), *hint = shownWindow("hint");
+            ASSERT_TRUE(bar != nullptr && hint != nullptr) << width;
+            EXPECT_LE(hint->Pos.x + hint->Size.x, bar->Pos.x) << width;
+            EXPECT_LE(bar->Pos.x + bar->Size.x, ImGui::FindWindowByName("side")->Pos.x) << width;
+            EXPECT_GT(bar->Size.x, 44) << "a bar of at least 44 pixels";
+        }
+    settle(small);
+    facts.metersPerPixel = 0;
+    settle();
+    EXPECT_EQ(shownWindow("scale"), nullptr);
+}
+
 // The list opens below its field. Pictures are requested only for visible entries.
 TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheList) {
     facts.scenes = {"cloth", "cube", "organ", "tear"};

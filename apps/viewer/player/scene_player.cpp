@@ -376,6 +376,8 @@ Facts ScenePlayer::facts(std::optional<float> reduced) const {
     layers_.addTo(facts);
     observer_.addTo(facts);
     facts.beside = comparison_.facts();
+    if (const std::uint32_t height = session_.presenter().extent().height; height > 0)
+        facts.metersPerPixel = pictureHeight(controller_.camera) / static_cast<float>(height);
     facts.recorded = capture_.filmSeconds();
     facts.knobs = adjustments_.shown();
     facts.bladeDepths = tools_.settingRange(tool::blade);

@@ -34,14 +34,14 @@ Eigen::Matrix3f axes(const Camera& camera) {
     return viewMatrix(camera).block<3, 3>(0, 0);
 }
 
-float pictureHeight(const Camera& camera) { // at the target's depth [m]
-    return 2 * camera.distance * std::tan(camera.fieldOfView / 2);
-}
-
 } // namespace
 
 Vector3 eye(const Camera& camera) {
     return camera.target + camera.distance * fromTarget(camera);
+}
+
+float pictureHeight(const Camera& camera) {
+    return 2 * camera.distance * std::tan(camera.fieldOfView / 2);
 }
 
 Matrix4 viewMatrix(const Camera& camera) {

@@ -19,6 +19,8 @@ struct Camera {
 };
 
 Vector3 eye(const Camera& camera);
+/// Height of the picture at the target's depth [m].
+float pictureHeight(const Camera& camera);
 Matrix4 viewMatrix(const Camera& camera);
 
 /// World to clip space for a picture of aspect ratio `aspect` (width / height), up to `reach` from the eye

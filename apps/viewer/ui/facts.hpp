@@ -121,6 +121,7 @@ struct Facts {
     std::optional<double> recorded;        ///< length of the film that is being recorded [s]; empty = none
     std::array<bool, mostTools> toolsOn{}; ///< whose buttons are lit, by index into toolTable()
     HintFacts hint;
+    float metersPerPixel = 0; ///< at the depth of the point that the camera orbits; 0 = not known
     /// Set if pictures have plain shadows and no antialiasing, on a software device while something moves:
     /// the ratio of sides of the drawn image. Empty = full quality.
     std::optional<float> reduced;

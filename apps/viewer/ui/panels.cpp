@@ -1,6 +1,7 @@
 // Layout: one panel on the right, a line at the foot of the picture, and messages over both.
 #include "viewer/ui/panels.hpp"
 
+#include "viewer/render/length_text.hpp"
 #include "viewer/ui/panel_parts.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -16,10 +17,10 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200,
-                recordingWidth = 200;     // at a scale of 1 [pixels]
-constexpr int mostPicturesUnfocused = 20; // that a text field may wait for keys
-constexpr float roomBeside = 2.6f;        // in panels: least width of a picture that shows panels at first
+constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200, recordingWidth = 200,
+                longestBar = 110, leastWithBar = 420; // at a scale of 1 [pixels]
+constexpr int mostPicturesUnfocused = 20;             // that a text field may wait for keys
+constexpr float roomBeside = 2.6f; // in panels: least width of a picture that shows panels at first
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
@@ -273,7 +274,7 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     wishes.previews.emplace();
     ImGui::NewFrame();
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
-    buildHint(facts, extent);
+    buildHint(facts, extent, buildScaleBar(facts, extent));
     buildNotice(facts, extent);
     if (facts.recorded) buildRecording(facts, extent);
     parts::probe(facts, scale_, freeWidth(extent));
@@ -338,10 +339,37 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     ImGui::End();
 }
 
-void Panels::buildHint(const Facts& facts, VkExtent2D extent) {
-    const float edge = gap * scale_, pad = 10 * scale_;
-    const float room =
-        static_cast<float>(extent.width) - 2 * edge - (isShown(extent) ? sidePanel * scale_ + edge : 0);
+// A bar with its length, right of the hint; none in a narrow picture. Returns the width that it takes from
+// the hint [pixels].
+float Panels::buildScaleBar(const Facts& facts, VkExtent2D extent) {
+    const float length = roundLength(longestBar * scale_ * facts.metersPerPixel);
+    if (length == 0 || freeWidth(extent) < leastWithBar * scale_) return 0;
+    const float edge = gap * scale_, pad = 10 * scale_, bar = std::round(length / facts.metersPerPixel);
+    const std::string text = lengthText(length);
+    const float between = 8 * scale_, line = ImGui::GetTextLineHeight();
+    ImGui::SetNextWindowPos({freeWidth(extent) - edge, static_cast<float>(extent.height) - edge},
+                            ImGuiCond_Always, {1, 1});
+    ImGui::SetNextWindowBgAlpha(0.85f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, 6 * scale_});
+    ImGui::Begin("scale", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::SameLine(0, between);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float from = std::round(at.x), middle = std::round(at.y + line / 2),
+                thick = std::round(1.5f * scale_), tick = std::round(4 * scale_);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImU32 color = ImGui::GetColorU32(ImGuiCol_Text);
+    list.AddRectFilled({from, middle}, {from + bar, middle + thick}, color);
+    for (const float x : {from, from + bar - thick})
+        list.AddRectFilled({x, middle - tick}, {x + thick, middle + thick + tick}, color);
+    ImGui::Dummy({bar, line});
+    ImGui::End();
+    ImGui::PopStyleVar();
+    return ImGui::CalcTextSize(text.c_str()).x + between + bar + 2 * pad + edge;
+}
+
+void Panels::buildHint(const Facts& facts, VkExtent2D extent, float taken) {
+    const float edge = gap * scale_, pad = 10 * scale_, room = freeWidth(extent) - 2 * edge - taken;
     const std::string text = hintText(facts.hint, [&](const std::string& one) {
         return ImGui::CalcTextSize(one.c_str()).x + 2 * pad <= room;
     });

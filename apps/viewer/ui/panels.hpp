@@ -72,7 +72,8 @@ private:
     void feedKeys(const PanelInput& input);
     bool isAsking() const;
     void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
-    void buildHint(const Facts& facts, VkExtent2D extent);
+    float buildScaleBar(const Facts& facts, VkExtent2D extent);
+    void buildHint(const Facts& facts, VkExtent2D extent, float taken);
     void buildNotice(const Facts& facts, VkExtent2D extent);
     void buildRecording(const Facts& facts, VkExtent2D extent);
     float freeWidth(VkExtent2D extent) const;
