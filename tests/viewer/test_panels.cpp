@@ -1,13 +1,12 @@
 // Tests of panels without a device: reactions to the pointer, and their contents.
+#include "panels_test.hpp"
+
 #include "viewer/ui/knob_keys.hpp"
 #include "viewer/ui/panel_parts.hpp"
-#include "viewer/ui/panels.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
-#include <imgui.h>
-#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,22 +16,6 @@
 namespace sinew::viewer {
 namespace {
 
-constexpr VkExtent2D large{1280, 720}, small{640, 400};
-
-SceneFacts someScene() {
-    return {.name = "organ",
-            .device = "llvmpipe",
-            .driver = "Mesa",
-            .isSoftware = true,
-            .particles = 4211,
-            .constraints = 50'000,
-            .substepsWhy = "32 substeps: as asked",
-            .passes = {{"solve", "gather_lattice", 32, 4224, false}},
-            .dispatches = 34,
-            .skipped = {"bends"},
-            .canCut = true};
-}
-
 // All actions except drags, the wheel, and the key of the panels themselves.
 std::set<Action> actionsOfButtons() {
     std::set<Action> actions;
@@ -40,37 +23,6 @@ std::set<Action> actionsOfButtons() {
         if (!binding.button.empty()) actions.insert(binding.action);
     return actions;
 }
-
-class PanelsTest : public testing::Test {
-protected:
-    // Clicks the left button at a point, over as many pictures as needed.
-    Wishes click(const Vector2& at, VkExtent2D extent = large) {
-        PanelInput input{.pointer = at};
-        picture(input, extent);
-        input.isDown[0] = true;
-        input.presses[0] = 1;
-        Wishes wishes = picture(input, extent);
-        input.isDown[0] = false;
-        input.presses[0] = 0;
-        const Wishes after = picture(input, extent);
-        wishes.actions.insert(wishes.actions.end(), after.actions.begin(), after.actions.end());
-        if (after.device) wishes.device = after.device;
-        if (after.knobs) wishes.knobs = after.knobs;
-        return wishes;
-    }
-    Wishes picture(const PanelInput& input = {}, VkExtent2D extent = large) {
-        return panels.build(scene, facts, input, extent, 1.0 / 60);
-    }
-    // Builds two pictures, because Dear ImGui measures sizes in the first.
-    void settle(VkExtent2D extent = large) {
-        picture({}, extent);
-        picture({}, extent);
-    }
-
-    Panels panels{1};
-    SceneFacts scene = someScene();
-    Facts facts;
-};
 
 TEST_F(PanelsTest, TurnTheMaterialOfAllOrOfOneBody) {
     scene.bodies = {"liver", "gut"};
@@ -250,58 +202,6 @@ TEST_F(PanelsTest, KeepANoticeBesideThePanel) {
         EXPECT_LE(notice->Pos.x + notice->Size.x, side->Pos.x) << width;
         EXPECT_GT(notice->Size.x, 200) << width;
     }
-}
-
-// The window of a name, if it is drawn.
-const ImGuiWindow* shownWindow(const char* name) {
-    const ImGuiWindow* window = ImGui::FindWindowByName(name);
-    return window != nullptr && window->Active && !window->Hidden ? window : nullptr;
-}
-
-TEST_F(PanelsTest, ShowThatAFilmIsRecordedAsLongAsItIs) {
-    settle();
-    EXPECT_EQ(shownWindow("recording"), nullptr);
-    facts.recorded = 2.5;
-    facts.notice = "a line that is long enough to be as wide as the window lets it, which is less than that";
-    settle();
-    settle();
-    for (const float width : {1280.0f, 820.0f}) {
-        const VkExtent2D extent{static_cast<std::uint32_t>(width), 600};
-        settle(extent);
-        settle(extent);
-        const ImGuiWindow* sign = shownWindow("recording");
-        ASSERT_NE(sign, nullptr);
-        EXPECT_LE(sign->Pos.x + sign->Size.x, ImGui::FindWindowByName("side")->Pos.x) << width;
-        const ImGuiWindow* notice = shownWindow("notice");
-        EXPECT_LE(notice->Pos.x + notice->Size.x, sign->Pos.x) << width;
-    }
-    panels.choose(false);
-    settle();
-    EXPECT_NE(shownWindow("recording"), nullptr) << "without panels, too";
-    facts.recorded.reset();
-    settle();
-    EXPECT_EQ(shownWindow("recording"), nullptr);
-}
-
-TEST_F(PanelsTest, ShowALengthBesideTheHint) {
-    settle();
-    EXPECT_EQ(shownWindow("scale"), nullptr) << "before anything is known";
-    for (const float metersPerPixel : {1e-6f, 0.0013f, 7.0f})
-        for (const std::uint32_t width : {1280u, 800u}) {
-            facts.metersPerPixel = metersPerPixel;
-            const VkExtent2D extent{width, 600};
-            settle(extent);
-            settle(extent);
-            const ImGuiWindow *bar = shownWindow("scale"), *hint = shownWindow("hint");
-            ASSERT_TRUE(bar != nullptr && hint != nullptr) << width;
-            EXPECT_LE(hint->Pos.x + hint->Size.x, bar->Pos.x) << width;
-            EXPECT_LE(bar->Pos.x + bar->Size.x, ImGui::FindWindowByName("side")->Pos.x) << width;
-            EXPECT_GT(bar->Size.x, 44) << "a bar of at least 44 pixels";
-        }
-    settle(small);
-    facts.metersPerPixel = 0;
-    settle();
-    EXPECT_EQ(shownWindow("scale"), nullptr);
 }
 
 // The list opens below its field. Pictures are requested only for visible entries.

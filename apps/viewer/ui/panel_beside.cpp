@@ -66,7 +66,7 @@ void shapeKnobs(const SceneFacts& scene, const BesideKnobs& knobs, Wishes& wishe
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     ImGui::InputInt("##beside_substeps", &turned.substeps, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("substeps; 0 = as many as the scene needs");
+    tip("substeps; 0 = as many as the scene needs");
     turned.substeps = std::clamp(turned.substeps, 0, mostSubsteps);
     if (turned != knobs) wishes.beside = turned;
 }

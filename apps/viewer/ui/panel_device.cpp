@@ -2,6 +2,7 @@
 #include "viewer/ui/panel_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sinew::viewer::parts {
 
@@ -20,8 +21,7 @@ bool entry(const vk::DeviceDescription& device, bool isCurrent) {
     const std::string id = "##device" + std::to_string(device.index);
     const bool isChosen = ImGui::Selectable(id.c_str(), isCurrent, 0, {0, 2 * line + gap});
     ImGui::EndDisabled();
-    if (!isUsable(device) && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-        ImGui::SetTooltip("%s", device.missing.front().c_str());
+    if (!isUsable(device)) tip(device.missing.front());
     const ImVec2 after = ImGui::GetCursorPos();
     ImGui::SetCursorPos(at);
     ImGui::TextColored(isCurrent ? accent() : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s",
@@ -42,8 +42,7 @@ void picker(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
         }
         ImGui::EndCombo();
     }
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("the Vulkan devices; the scene continues on the chosen one");
+    tip("the Vulkan devices; the scene continues on the chosen one");
 }
 
 } // namespace
@@ -57,11 +56,10 @@ void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
                            isEnlarged      ? "no GPU, fewer pixels"
                            : facts.reduced ? "no GPU, plain shadows"
                                            : "no GPU");
-        if (facts.reduced && ImGui::IsItemHovered())
-            ImGui::SetTooltip(
-                "during motion: small shadow maps, one sample per pixel, drawn at %.0f %% of the "
-                "size and enlarged; full quality when paused",
-                100 * double{*facts.reduced});
+        if (facts.reduced)
+            tip("during motion: small shadow maps, one sample per pixel, drawn at " +
+                std::to_string(std::lround(100 * *facts.reduced)) +
+                " % of the size and enlarged; full quality when paused");
     }
     if (facts.devices.empty()) // not known yet
         wrapped(scene.device, ImGui::GetStyleColorVec4(ImGuiCol_Text));

@@ -150,7 +150,7 @@ void section(const Facts& facts, Wishes& wishes) {
     ImGui::SetNextItemWidth(contentWidth());
     if (ImGui::SliderFloat("##section", &offset, low, high, ("plane at " + lengthText(offset)).c_str()))
         wishes.sectionOffset = offset;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(keyOf(Action::moveSection)).c_str());
+    tip(std::string(keyOf(Action::moveSection)));
 }
 
 } // namespace

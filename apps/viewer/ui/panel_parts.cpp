@@ -73,6 +73,21 @@ void row(const char* name, const std::string& value) {
     row(name, value, ImGui::GetStyleColorVec4(ImGuiCol_Text));
 }
 
+void tip(const std::string& text) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float room = ImGui::GetWindowPos().x - 2 * style.ItemSpacing.x - 2 * style.WindowPadding.x;
+    const bool isBeside = room > 12 * ImGui::GetFontSize();
+    if (isBeside)
+        ImGui::SetNextWindowPos({ImGui::GetWindowPos().x - style.ItemSpacing.x, ImGui::GetItemRectMin().y},
+                                ImGuiCond_Always, {1, 0});
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(isBeside ? room : 24 * ImGui::GetFontSize());
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
 float buttonWidth(std::size_t inARow) {
     const float between = ImGui::GetStyle().ItemSpacing.x;
     const auto count = static_cast<float>(inARow);
@@ -89,8 +104,7 @@ void button(Action action, Wishes& wishes, float width, bool isOn, const char* n
     ImGui::PopStyleVar();
     ImGui::PopID();
     if (isOn) ImGui::PopStyleColor();
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s: %s", std::string(binding->shown).c_str(), std::string(binding->help).c_str());
+    tip(std::string(binding->shown) + ": " + std::string(binding->help));
 }
 
 void wrapped(const std::string& text, const ImVec4& color) {

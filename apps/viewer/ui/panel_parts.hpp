@@ -40,6 +40,10 @@ void row(const char* name, const std::string& value, const ImVec4& color);
 void pair(const char* name, const std::string& value, const char* other, const std::string& otherValue,
           const ImVec4& otherColor);
 
+/// Shows a text while the pointer is on the last item: left of the panel in its row, so that it covers no
+/// other row, and below the pointer where there is no room. Also for a disabled item.
+void tip(const std::string& text);
+
 /// Width of each of `inARow` buttons that fill a line [pixels].
 float buttonWidth(std::size_t inARow);
 /// A button of an action, `width` pixels wide, with its key in a tooltip. The label is from the table of

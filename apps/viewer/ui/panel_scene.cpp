@@ -24,10 +24,6 @@ void knob(const char* name) {
     ImGui::SetNextItemWidth(0.62f * contentWidth());
 }
 
-void tip(const char* text) {
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
-}
-
 // A slider with factor 1 in the middle.
 bool factorSlider(float& factor) {
     return ImGui::SliderFloat("##stiffness", &factor, 0.01f, 100, "x %.3g", ImGuiSliderFlags_Logarithmic);

@@ -86,8 +86,8 @@ void setColors(ImGuiStyle& style) {
     colors[ImGuiCol_HeaderHovered] = color(255, 255, 255, 0.08f);
     colors[ImGuiCol_HeaderActive] = color(255, 255, 255, 0.14f);
     colors[ImGuiCol_Separator] = color(255, 255, 255, 0.10f);
-    colors[ImGuiCol_SliderGrab] = color(86, 180, 233);
-    colors[ImGuiCol_SliderGrabActive] = color(140, 205, 243);
+    colors[ImGuiCol_SliderGrab] = color(86, 180, 233, 0.45f); // the number is read over it
+    colors[ImGuiCol_SliderGrabActive] = color(86, 180, 233, 0.65f);
     colors[ImGuiCol_CheckMark] = color(86, 180, 233);
     colors[ImGuiCol_ScrollbarBg] = clear;
     colors[ImGuiCol_ScrollbarGrab] = color(255, 255, 255, 0.14f);

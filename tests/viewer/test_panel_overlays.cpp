@@ -1,0 +1,70 @@
+// Tests of the panels' small windows over the picture: hint, scale bar, sign of a recording, tooltips.
+#include "panels_test.hpp"
+
+namespace sinew::viewer {
+namespace {
+
+TEST_F(PanelsTest, ShowThatAFilmIsRecordedAsLongAsItIs) {
+    settle();
+    EXPECT_EQ(shownWindow("recording"), nullptr);
+    facts.recorded = 2.5;
+    facts.notice = "a line that is long enough to be as wide as the window lets it, which is less than that";
+    settle();
+    settle();
+    for (const float width : {1280.0f, 820.0f}) {
+        const VkExtent2D extent{static_cast<std::uint32_t>(width), 600};
+        settle(extent);
+        settle(extent);
+        const ImGuiWindow* sign = shownWindow("recording");
+        ASSERT_NE(sign, nullptr);
+        EXPECT_LE(sign->Pos.x + sign->Size.x, ImGui::FindWindowByName("side")->Pos.x) << width;
+        const ImGuiWindow* notice = shownWindow("notice");
+        EXPECT_LE(notice->Pos.x + notice->Size.x, sign->Pos.x) << width;
+    }
+    panels.choose(false);
+    settle();
+    EXPECT_NE(shownWindow("recording"), nullptr) << "without panels, too";
+    facts.recorded.reset();
+    settle();
+    EXPECT_EQ(shownWindow("recording"), nullptr);
+}
+
+TEST_F(PanelsTest, ShowALengthBesideTheHint) {
+    settle();
+    EXPECT_EQ(shownWindow("scale"), nullptr) << "before anything is known";
+    for (const float metersPerPixel : {1e-6f, 0.0013f, 7.0f})
+        for (const std::uint32_t width : {1280u, 800u}) {
+            facts.metersPerPixel = metersPerPixel;
+            const VkExtent2D extent{width, 600};
+            settle(extent);
+            settle(extent);
+            const ImGuiWindow *bar = shownWindow("scale"), *hint = shownWindow("hint");
+            ASSERT_TRUE(bar != nullptr && hint != nullptr) << width;
+            EXPECT_LE(hint->Pos.x + hint->Size.x, bar->Pos.x) << width;
+            EXPECT_LE(bar->Pos.x + bar->Size.x, ImGui::FindWindowByName("side")->Pos.x) << width;
+            EXPECT_GT(bar->Size.x, 44) << "a bar of at least 44 pixels";
+        }
+    settle(small);
+    facts.metersPerPixel = 0;
+    settle();
+    EXPECT_EQ(shownWindow("scale"), nullptr);
+}
+
+// The tooltip of a button must not lie on other rows of the panel.
+TEST_F(PanelsTest, ShowTooltipsBesideThePanel) {
+    settle();
+    int seen = 0;
+    for (float y = 100; y < 700; y += 24)
+        for (const float x : {1020.0f, 1200.0f}) {
+            for (int i = 0; i < 3; ++i) picture({.pointer = {x, y}});
+            const ImGuiWindow* tip = shownWindow("##Tooltip_00");
+            if (tip == nullptr) continue;
+            ++seen;
+            EXPECT_GE(tip->Pos.x, 0) << y;
+            EXPECT_LE(tip->Pos.x + tip->Size.x, ImGui::FindWindowByName("side")->Pos.x) << y;
+        }
+    EXPECT_GT(seen, 10);
+}
+
+} // namespace
+} // namespace sinew::viewer
