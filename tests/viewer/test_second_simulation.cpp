@@ -62,6 +62,16 @@ TEST(BesideShape, IsReadFromTheCommandLineAndShown) {
         EXPECT_EQ(shapeOf(knobsOf(*parseBeside(text))), *parseBeside(text));
 }
 
+TEST(BesideShape, InsteadOfOneThatCannotPlayTheSceneHasFewerSubsteps) {
+    const auto instead = [](std::uint32_t substeps) {
+        return shapeInstead({.solver = sim::Solver::split, .substeps = substeps});
+    };
+    EXPECT_EQ(instead(37), (BesideShape{sim::Solver::split, 8}));
+    EXPECT_EQ(instead(8), (BesideShape{sim::Solver::split, 4}));
+    EXPECT_EQ(instead(2), (BesideShape{sim::Solver::split, 1}));
+    EXPECT_EQ(instead(1), std::nullopt);
+}
+
 TEST(SecondSimulation, OfTheSameShapeHasTheSameBits) {
     Pair pair({sim::Solver::split, 4});
     ASSERT_FALSE(pair.play(5));

@@ -35,6 +35,12 @@ BesideShape shapeOf(const sim::Settings& settings) {
 
 } // namespace
 
+std::optional<BesideShape> shapeInstead(const sim::Settings& first) {
+    constexpr std::uint32_t few = 8;
+    if (first.substeps < 2) return std::nullopt;
+    return BesideShape{first.solver, first.substeps > few ? few : first.substeps / 2};
+}
+
 std::optional<BesideShape> parseBeside(const std::string& text) {
     const std::size_t colon = text.find(':');
     BesideShape shape;

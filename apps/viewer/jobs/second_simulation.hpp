@@ -18,6 +18,10 @@ struct BesideShape {
     bool operator==(const BesideShape&) const = default;
 };
 
+/// A comparison that every scene allows: the solver of the first with 8 substeps, or with half as many as the
+/// first if that has no more than 8. Empty if the first has one substep.
+std::optional<BesideShape> shapeInstead(const sim::Settings& first);
+
 /// Parses "SOLVER" or "SOLVER:SUBSTEPS"; empty for any other text.
 std::optional<BesideShape> parseBeside(const std::string& text);
 BesideKnobs knobsOf(const BesideShape& shape);

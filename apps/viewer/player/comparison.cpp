@@ -21,10 +21,24 @@ std::string firstLine(const std::string& text) {
 void Comparison::toggle() {
     std::optional<BesideShape>& wanted = player_.session.beside();
     const bool isGaussSeidel = player_.document.settings().solver == sim::Solver::gaussSeidel;
+    isDefault_ = !wanted;
+    isInstead_ = false;
     if (!wanted)
         wanted = BesideShape{isGaussSeidel ? sim::Solver::split : sim::Solver::gaussSeidel};
     else
         wanted.reset();
+}
+
+// A solver that the key B has chosen cannot play the scene: compares with fewer substeps. False if nothing
+// else can be shown, or if the user has chosen the solver.
+bool Comparison::compareInstead() {
+    std::optional<BesideShape>& wanted = player_.session.beside();
+    const auto instead = shapeInstead(player_.document.settings());
+    if (!std::exchange(isDefault_, false) || !instead || wanted != asked_) return false;
+    isInstead_ = true;
+    player_.session.tell(toText(*asked_) + " cannot play this scene; comparing " + toText(*instead));
+    wanted = instead;
+    return true;
 }
 
 void Comparison::tend(bool isDiverged) {
@@ -69,10 +83,11 @@ void Comparison::take() {
     try {
         made = making_.get();
     } catch (const std::invalid_argument& error) {
-        player_.session.warn("not beside: " + firstLine(error.what()));
+        if (compareInstead()) return drop();
+        player_.session.warn("Can't compare: " + firstLine(error.what()));
     } catch (const vk::Error& error) {
         if (error.failure() != vk::Failure::outOfMemory) throw;
-        player_.session.warn(std::string("not beside: ") + error.what());
+        player_.session.warn(std::string("Can't compare: ") + error.what());
     }
     if (!made || !player_.session.beside()) {
         player_.session.beside().reset();
@@ -83,7 +98,10 @@ void Comparison::take() {
     drop();
     asked_ = asked; // another one may be wanted by now: that is made then
     beside_ = std::move(made);
-    for (const std::string& warning : beside_->warnings()) player_.session.warn("beside: " + warning);
+    isDefault_ = false;
+    const bool isExpected = std::exchange(isInstead_, false); // fewer substeps are softer
+    for (const std::string& warning : beside_->warnings())
+        if (!isExpected) player_.session.warn("beside: " + warning);
     for (const std::string& note : beside_->notes()) player_.session.note("beside: " + note);
     layerLoader_.rehearse([this](VkCommandBuffer commands) {
         beside_->recordReset(commands);

@@ -53,6 +53,7 @@ private:
     bool isFit() const;
     void make(const BesideShape& shape, const sim::Settings& room);
     void take();
+    bool compareInstead();
     void drop();
     std::uint32_t halvesWidth() const;
 
@@ -62,6 +63,8 @@ private:
     std::optional<BesideShape> asked_; // that it is, or is being made as
     std::future<std::unique_ptr<SecondSimulation>> making_;
     bool isBehind_ = false;
+    // Nobody chose what is wanted: something else may be shown instead; it is.
+    bool isDefault_ = false, isInstead_ = false;
     float fold_ = 0; // from the middle of the window to that of the half with the pointer, as Input::pointer
     bool isButtonDown_ = false;
 };
