@@ -54,6 +54,20 @@ std::string parted(const std::string& body) {
            body + "cuttable = true\n" + bladeAt("0.06", "0.01");
 }
 
+TEST(SceneFacts, SayThatLinksAreSofterThanAskedBeyondTheTolerance) {
+    SceneFacts facts;
+    setStiffness(facts, {.elastic = 100, .clamped = 3, .softest = 0.97, .neededSubsteps = 37});
+    EXPECT_EQ(facts.stiffness, "") << "within the tolerance";
+    EXPECT_EQ(facts.neededSubsteps, 0u);
+    setStiffness(facts,
+                 {.elastic = 100, .clamped = 90, .soft = 80, .softest = 0.0213, .neededSubsteps = 331});
+    EXPECT_EQ(facts.stiffness, "Softer than asked: the softest link has 2 % of its stiffness.");
+    EXPECT_EQ(facts.neededSubsteps, 331u);
+    setStiffness(facts, {.elastic = 100, .soft = 80, .softest = 0.001, .neededSubsteps = 4000});
+    EXPECT_EQ(facts.stiffness, "Softer than asked: the softest link has less than 1 % of its stiffness.");
+    EXPECT_EQ(facts.neededSubsteps, 0u) << "more than the panel allows";
+}
+
 TEST(CutGauges, ShowTheStrainOfLinksThatHold) {
     for (const auto& [name, body] : bodies) {
         Cut cut(parted(body));

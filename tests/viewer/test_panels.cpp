@@ -46,6 +46,23 @@ TEST_F(PanelsTest, TurnTheMaterialOfAllOrOfOneBody) {
     EXPECT_TRUE(wishes().contains("body"));
 }
 
+TEST_F(PanelsTest, WarnThatBodiesAreSofterThanAskedAndOfferTheSubsteps) {
+    constexpr VkExtent2D tall{1280, 1400};
+    const auto offered = [&] {
+        settle(tall);
+        std::set<int> substeps;
+        for (float y = 20; y < 1390; y += 6)
+            if (const auto knobs = click({1040, y}, tall).knobs) substeps.insert(knobs->substeps);
+        return substeps;
+    };
+    facts.knobs.substeps = scene.fromFile.substeps = 8;
+    EXPECT_FALSE(offered().contains(112));
+    scene.stiffness = "Softer than asked: the softest link has 2 % of its stiffness.";
+    EXPECT_FALSE(offered().contains(112)) << "no number would do";
+    scene.neededSubsteps = 112;
+    EXPECT_TRUE(offered().contains(112));
+}
+
 // A click anywhere on the slider sets it; its right end means a cut through the body.
 TEST_F(PanelsTest, TurnTheDepthOfTheBlade) {
     facts.bladeDepths = {0.01f, 0.5f};

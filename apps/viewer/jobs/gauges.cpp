@@ -6,23 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace sinew::viewer {
 
 namespace {
-
-// Text such as "32 of 50,000 links are clamped (0.1 %); the softest has 87 % of its stiffness".
-std::string textOf(const sim::StiffnessReport& report) {
-    if (report.elastic == 0) return "";
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "%zu of %zu links are clamped (%.1f %%); the softest has %.0f %% of its stiffness",
-                  report.clamped, report.elastic,
-                  100.0 * static_cast<double>(report.clamped) / static_cast<double>(report.elastic),
-                  100 * report.softest);
-    return text;
-}
 
 Knobs knobsOf(const scenes::LoadedScene& loaded) {
     const std::vector<std::string> solvers = sim::solverNames();
@@ -71,8 +58,15 @@ void addProgram(SceneFacts& facts, const sim::StepProgram& program) {
 
 } // namespace
 
-std::string stiffnessText(const Document& document) {
-    return textOf(document.stiffness());
+void setStiffness(SceneFacts& facts, const sim::StiffnessReport& report) {
+    facts.stiffness.clear();
+    facts.neededSubsteps = 0;
+    if (report.soft == 0) return;
+    const long percent = std::lround(100 * report.softest);
+    facts.stiffness = "Softer than asked: the softest link has " +
+                      (percent > 0 ? std::to_string(percent) : "less than 1") + " % of its stiffness.";
+    if (report.neededSubsteps <= static_cast<std::uint32_t>(mostSubsteps))
+        facts.neededSubsteps = report.neededSubsteps;
 }
 
 sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile) {
@@ -102,11 +96,11 @@ SceneFacts sceneFacts(const OpenedScene& opening, const Document& document, cons
                      .particles = scene.particles.size(),
                      .constraints = document.simulation().program().constraintCount,
                      .substepsWhy = sim::toText(loaded.substeps, loaded.settings),
-                     .stiffness = stiffnessText(document),
                      .canCut = std::ranges::any_of(scene.grids, &sim::Grid::isCuttable),
                      .solvers = sim::solverNames(),
                      .fromFile = knobsOf(loaded)};
     for (const sim::Body& body : scene.bodies) facts.bodies.push_back(body.name);
+    setStiffness(facts, document.stiffness());
     addProgram(facts, document.simulation().program());
     return facts;
 }

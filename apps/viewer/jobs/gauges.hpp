@@ -12,8 +12,8 @@ namespace sinew::viewer {
 /// Facts that stay constant while a scene is shown. `settings` are those the document runs with.
 SceneFacts sceneFacts(const OpenedScene& opening, const Document& document, const vk::Device& device);
 
-/// Number of clamped links and the softest stiffness; empty if no link is elastic.
-std::string stiffnessText(const Document& document);
+/// Sets SceneFacts::stiffness and neededSubsteps.
+void setStiffness(SceneFacts& facts, const sim::StiffnessReport& report);
 
 /// The material that the knobs ask for; values equal to those of the file leave the file's own.
 sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile);

@@ -159,7 +159,7 @@ void Adjustments::begin(const app::SavedRun& run) {
     const auto [x, y, z] = run.gravity;
     knobs_ = turnedTo(run.material, knobs_, facts_.fromFile);
     knobs_.gravity = std::hypot(x, y, z);
-    facts_.stiffness = stiffnessText(player_.document);
+    setStiffness(facts_, player_.document.stiffness());
 }
 
 void Adjustments::reshaped() {

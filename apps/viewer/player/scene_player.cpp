@@ -21,6 +21,12 @@ constexpr std::uint32_t picturesOfATouch = 3;      // until Dear ImGui shows the
 constexpr std::uint32_t picturesOfAFocus = 5;      // until Dear ImGui passes keys to a new text field
 constexpr double stillAfter = 0.25; // [s] without a change before a still picture in full quality
 
+std::string softText(const SceneFacts& facts) {
+    const std::string cure =
+        facts.neededSubsteps > 0 ? " " + std::to_string(facts.neededSubsteps) + " substeps would do." : "";
+    return facts.stiffness + cure;
+}
+
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
 static_assert(6 * Presenter::framesInFlight < Renderer::slots); // films and files of halves
 static_assert(Presenter::framesInFlight <= Timing::slots);
@@ -316,7 +322,10 @@ void ScenePlayer::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     for (std::uint32_t step = 0; step < plan.steps; ++step) {
         if (const auto material = document_.recordTurn(frame.commands)) {
             tools_.turned(*material);
-            prepared_.facts.stiffness = stiffnessText(document_);
+            const std::string before = prepared_.facts.stiffness;
+            setStiffness(prepared_.facts, document_.stiffness());
+            const std::string& now = prepared_.facts.stiffness;
+            if (!now.empty() && now != before) session_.tell(softText(prepared_.facts));
         }
         const StepHands hands = tools_.takeStep(frame.commands, document_);
         if (hands.sweep) flight.sweeps.push_back(*hands.sweep);

@@ -105,8 +105,9 @@ struct SceneFacts {
     std::uint32_t deviceIndex = 0; ///< index in the list of all devices
     bool isSoftware = false;
     std::size_t particles = 0, constraints = 0;
-    std::string substepsWhy; ///< "64 substeps: so that no link is more than 5 % softer than asked"
-    std::string stiffness;   ///< number of clamped links and the softest stiffness; empty = all as asked
+    std::string substepsWhy;          ///< "64 substeps: so that no link is more than 5 % softer than asked"
+    std::string stiffness;            ///< how soft the softest link is; empty = all are within the tolerance
+    std::uint32_t neededSubsteps = 0; ///< with which all were; 0 = no such number, or all are
     std::vector<PassLine> passes;
     std::size_t dispatches = 0, barriers = 0; ///< in a step without a blade
     std::vector<std::string> skipped;         ///< features that the scene does not need

@@ -21,7 +21,6 @@ void counts(const SceneFacts& scene, const Facts& facts) {
     if (facts.slowed > 0) row("slowed down", grouped(facts.slowed), bad());
     ImGui::Dummy({0, 2});
     wrapped(scene.substepsWhy, quiet());
-    if (!scene.stiffness.empty()) wrapped(scene.stiffness, quiet());
 }
 
 std::string debrisText(const Facts& facts) {
