@@ -27,9 +27,8 @@ std::string noteOf(sim::Solver solver, std::size_t classes) {
                " classes, one after another; no two links of one share a particle that "
                "moves";
     if (solver == sim::Solver::split)
-        return "split has no classes: every particle adds up all of its links at once, from where the others "
-               "were before";
-    return "jacobi has no classes: all links are corrected at once, and each particle takes the mean";
+        return "The split solver updates all links together, so there are no color classes.";
+    return "The jacobi solver updates all links together, so there are no color classes.";
 }
 
 layout::LineLink lineOf(const sim::Scene& scene, std::uint32_t d, std::span<const std::uint32_t> slots) {

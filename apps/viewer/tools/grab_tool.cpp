@@ -10,8 +10,11 @@ constinit const Tool tool::hand{
     .title = "holding",
     .letGo = "release the body",
     .offer = "left drag grabs",
-    .addHints = [](HintLine& line,
-                   const std::optional<float>&) { line.add("pull; release the button to let go"); },
+    .addHints =
+        [](HintLine& line, const std::optional<float>&) {
+            line.add("pull");
+            line.add("release to drop");
+        },
     .among = Among::moving,
     .make = [](const ToolContext&) -> std::unique_ptr<ToolState> { return std::make_unique<GrabTool>(); }};
 

@@ -76,7 +76,7 @@ void shapeKnobs(const SceneFacts& scene, const BesideKnobs& knobs, Wishes& wishe
 void beside(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     const BesideFacts& other = facts.beside;
     button(Action::beside, wishes, contentWidth(), other.isOn,
-           other.isMaking ? "Beside: being made" : nullptr);
+           other.isMaking ? "Compare: preparing ..." : nullptr);
     if (!other.isOn) return;
     shapeKnobs(scene, other.knobs, wishes);
     if (other.names[1].empty()) return;

@@ -64,7 +64,7 @@ void sleepLegend(const Facts& facts, std::size_t particles) {
 void mapLegend(const Facts& facts, std::size_t particles) {
     const ColorMap map = facts.layers.map();
     if (map == ColorMap::sleep) return sleepLegend(facts, particles);
-    if (facts.mapRange <= 0) return wrapped("no particle has a value", quiet());
+    if (facts.mapRange <= 0) return wrapped("No data yet.", quiet());
     colorBar();
     const std::string middle = valueText(map, facts.mapRange / 2), end = valueText(map, facts.mapRange);
     const float left = ImGui::GetWindowContentRegionMin().x;
@@ -158,7 +158,7 @@ void section(const Facts& facts, Wishes& wishes) {
 void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     layerButtons(facts, wishes);
     section(facts, wishes);
-    if (facts.isPreparing) return wrapped("being prepared ...", quiet());
+    if (facts.isPreparing) return wrapped("Preparing the view ...", quiet());
     for (const std::vector<LegendLine>& lines : facts.legends) legendOf(lines);
     if (facts.layers.map() != ColorMap::none) mapLegend(facts, scene.particles);
 }

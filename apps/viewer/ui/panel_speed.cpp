@@ -106,7 +106,7 @@ void line(const Field& field, const Curve& curve, ImU32 color) {
 }
 
 void strainPlot(const Facts& facts) {
-    heading("error: strain of links");
+    heading("strain of links");
     float most = 1e-4f;
     for (std::size_t i = 0; i < facts.strainMax.count(); ++i) most = std::max(most, facts.strainMax.at(i));
     const Field field = makeField(4 * ImGui::GetTextLineHeight(), most);
@@ -122,7 +122,7 @@ void strainPlot(const Facts& facts) {
 } // namespace
 
 void speed(const Facts& facts) {
-    heading("speed: one step on the device");
+    heading("time of one step");
     if (!facts.phases.empty() && facts.phases.front().ms.count() > 0) {
         phasePlot(facts.phases);
         legend(facts.phases);
@@ -130,7 +130,7 @@ void speed(const Facts& facts) {
         wrapped(facts.phases.empty() ? "This device has no timestamps." : "No step yet.", quiet());
     }
     const bool isBehind = !facts.isPaused && facts.keptPace < 0.95 * facts.pace;
-    pair("frame", number("%.0f ms", double{facts.frameMs.median()}), "pace",
+    pair("frame", number("%.0f ms", double{facts.frameMs.median()}), "speed",
          facts.isPaused ? "paused" : number("%.2f x real", facts.keptPace),
          isBehind ? warning() : ImGui::GetStyleColorVec4(ImGuiCol_Text));
     if (facts.strainMax.count() > 0) strainPlot(facts);
