@@ -245,12 +245,37 @@ TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
     }
     facts.cuts = {"at 1.00 s", "at 2.00 s"};
     facts.undos = 1;
-    settle();
+    constexpr VkExtent2D tall{1280, 1400};
+    settle(tall);
     std::set<Action> clicked;
-    for (float y = 20; y < 720; y += 12)
+    for (float y = 20; y < 1390; y += 12)
         for (float x = 1010; x < 1260; x += 30)
-            for (const Action action : click({x, y}).actions) clicked.insert(action);
+            for (const Action action : click({x, y}, tall).actions) clicked.insert(action);
     EXPECT_EQ(clicked, actionsOfButtons());
+}
+
+// A newcomer needs these first: they are in view without scrolling, whatever the scene.
+TEST_F(PanelsTest, ShowUndoResetAndParametersInASmallWindow) {
+    facts.cuts = {"at 1.00 s"};
+    facts.undos = 1;
+    panels.choose(true);
+    constexpr VkExtent2D low{1280, 500};
+    for (const bool canCut : {true, false}) {
+        scene.canCut = canCut;
+        settle(low);
+        std::set<Action> clicked;
+        std::set<std::string> turned;
+        for (float y = 20; y < 490; y += 8)
+            for (const float x : {1005.0f, 1120.0f, 1160.0f, 1220.0f}) {
+                const Wishes wishes = click({x, y}, low);
+                clicked.insert(wishes.actions.begin(), wishes.actions.end());
+                if (wishes.knobs && wishes.knobs->stiffness != 1) turned.insert("stiffness");
+                if (wishes.knobs && wishes.knobs->gravity != facts.knobs.gravity) turned.insert("gravity");
+            }
+        for (const Action action : {Action::undo, Action::reset, Action::pause})
+            EXPECT_TRUE(clicked.contains(action)) << canCut;
+        EXPECT_EQ(turned, (std::set<std::string>{"stiffness", "gravity"})) << canCut;
+    }
 }
 
 // The panel has one more line if fragments were removed.

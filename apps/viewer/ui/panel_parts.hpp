@@ -51,15 +51,19 @@ float buttonWidth(std::size_t inARow);
 void button(Action action, Wishes& wishes, float width, bool isOn = false, const char* name = nullptr);
 
 void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
-void play(const Facts& facts, Wishes& wishes);
-void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
-void speed(const Facts& facts);
-void beside(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
-void counts(const SceneFacts& scene, const Facts& facts);
-void cuts(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
-void program(const SceneFacts& scene);
 void scenes(const SceneFacts& scene, const Facts& facts, PathField& path, Wishes& wishes);
-void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void play(const Facts& facts, Wishes& wishes);
+void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void camera(Wishes& wishes);
+void files(const Facts& facts, Wishes& wishes);
+void beside(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void cuts(const Facts& facts);
+void window(const Facts& facts, Wishes& wishes);
+void solver(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void speed(const Facts& facts);
+void counts(const SceneFacts& scene, const Facts& facts);
+void program(const SceneFacts& scene);
 
 /// Draws a small window beside the pointer; `free` pixels from the left are not covered by the panel.
 void probe(const Facts& facts, float scale, float free);

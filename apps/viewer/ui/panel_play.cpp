@@ -3,6 +3,7 @@
 #include "viewer/ui/panel_parts.hpp"
 
 #include <cstdio>
+#include <initializer_list>
 
 namespace sinew::viewer::parts {
 
@@ -29,12 +30,34 @@ void tools(const Facts& facts, Wishes& wishes) {
     button(Action::drop, wishes, width);
 }
 
+// Undo and redo of cuts; disabled where there is none.
+void undo(const Facts& facts, Wishes& wishes) {
+    const float width = buttonWidth(2);
+    ImGui::BeginDisabled(facts.undos == 0);
+    button(Action::undo, wishes, width);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::BeginDisabled(facts.undos == facts.cuts.size());
+    button(Action::redo, wishes, width);
+    ImGui::EndDisabled();
+}
+
+// Buttons, `inALine` in a line.
+void buttons(std::initializer_list<Action> actions, std::size_t inALine, Wishes& wishes) {
+    const float width = buttonWidth(inALine);
+    std::size_t count = 0;
+    for (const Action action : actions) {
+        if (count++ % inALine != 0) ImGui::SameLine();
+        button(action, wishes, width);
+    }
+}
+
 } // namespace
 
 void play(const Facts& facts, Wishes& wishes) {
     row("time", timeText(facts));
-    float width = buttonWidth(5);
-    button(Action::pause, wishes, width, facts.isPaused, facts.isPaused ? "Go on" : "Pause");
+    const float width = buttonWidth(5);
+    button(Action::pause, wishes, width, facts.isPaused, facts.isPaused ? "Play" : "Pause");
     ImGui::SameLine();
     button(Action::stepBack, wishes, width);
     ImGui::SameLine();
@@ -44,37 +67,35 @@ void play(const Facts& facts, Wishes& wishes) {
     ImGui::SameLine();
     button(Action::slowMotion, wishes, width, facts.knobs.pace < 1);
     tools(facts, wishes);
-    width = buttonWidth(3);
-    button(Action::frame, wishes, width);
-    ImGui::SameLine();
-    button(Action::frameBody, wishes, width);
-    ImGui::SameLine();
-    button(Action::center, wishes, width);
-    width = buttonWidth(4);
-    button(Action::screenshot, wishes, width);
-    ImGui::SameLine();
-    button(Action::record, wishes, width, facts.recorded.has_value(), facts.recorded ? "Stop" : nullptr);
-    ImGui::SameLine();
-    button(Action::saveInput, wishes, width);
-    ImGui::SameLine();
-    button(Action::saveState, wishes, width);
-    button(Action::times, wishes, width);
-    ImGui::SameLine();
-    button(Action::vsync, wishes, width, facts.isVsync);
-    ImGui::SameLine();
-    button(Action::fullScreen, wishes, width);
-    ImGui::SameLine();
-    button(Action::help, wishes, width);
-    button(Action::largerTexts, wishes, width);
-    ImGui::SameLine();
-    button(Action::smallerTexts, wishes, width);
-    ImGui::SameLine();
-    button(Action::panels, wishes, width);
-    ImGui::SameLine();
-    button(Action::quit, wishes, width);
+    undo(facts, wishes);
     if (facts.isDiverged)
         wrapped("Diverged: the last finite state was kept. " + std::string(keyOf(Action::reset)) + " resets.",
                 bad());
+}
+
+void camera(Wishes& wishes) {
+    buttons({Action::frame, Action::frameBody, Action::center}, 3, wishes);
+}
+
+void files(const Facts& facts, Wishes& wishes) {
+    heading("save and record");
+    const float width = buttonWidth(2);
+    button(Action::screenshot, wishes, width);
+    ImGui::SameLine();
+    button(Action::record, wishes, width, facts.recorded.has_value(), facts.recorded ? "Stop" : nullptr);
+    buttons({Action::saveState, Action::saveInput}, 2, wishes);
+}
+
+void window(const Facts& facts, Wishes& wishes) {
+    heading("window");
+    const float width = buttonWidth(3);
+    button(Action::help, wishes, width);
+    ImGui::SameLine();
+    button(Action::fullScreen, wishes, width);
+    ImGui::SameLine();
+    button(Action::vsync, wishes, width, facts.isVsync);
+    buttons({Action::largerTexts, Action::smallerTexts, Action::panels}, 3, wishes);
+    buttons({Action::times, Action::quit}, 2, wishes);
 }
 
 } // namespace sinew::viewer::parts

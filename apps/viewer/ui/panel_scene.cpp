@@ -60,7 +60,7 @@ bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
     knob("stiffness");
     const bool isOne = turned.body >= 0 && static_cast<std::size_t>(turned.body) < turned.bodies.size();
     isTurned |= factorSlider(isOne ? turned.bodies[static_cast<std::size_t>(turned.body)] : turned.stiffness);
-    tip("factor on the file's Young's modulus; acts at once; Ctrl + click to type");
+    tip("stiffness relative to the scene file; acts at once; Ctrl + click to type");
     if (scene.bodies.size() > 1) {
         knob("  of");
         const int before = turned.body;
@@ -167,20 +167,45 @@ void scenes(const SceneFacts& scene, const Facts& facts, PathField& path, Wishes
     pathLine(path, wishes);
 }
 
-void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
+namespace {
+
+void take(Knobs turned, const Facts& facts, Wishes& wishes) {
+    turned.substeps = std::clamp(turned.substeps, 0, mostSubsteps);
+    limitGravity(turned); // typed values have no limits
+    turned.pace = std::clamp(turned.pace, 0.01f, 1.0f);
+    if (turned != facts.knobs) wishes.knobs = turned;
+}
+
+} // namespace
+
+void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     heading("parameters");
     Knobs turned = facts.knobs;
-    bool isTurned = false;
+    bool isTurned = materialKnobs(scene, turned);
     knob("gravity");
     isTurned |= ImGui::SliderFloat("##gravity", &turned.gravity, 0, 20, "%.2f m/s\u00b2");
     tip("acts at once; Ctrl + click to type");
-    knob("pace");
+    knob("speed");
     isTurned |= ImGui::SliderFloat("##pace", &turned.pace, 0.05f, 1, "%.2f x real time");
-    tip("slow motion; acts at once");
-    isTurned |= materialKnobs(scene, turned);
+    tip("speed of the scene relative to real time; acts at once");
     if (scene.canCut) isTurned |= bladeKnob(facts, turned);
+    Knobs shown = facts.knobs;
+    shown.body = scene.fromFile.body; // the selected body is not a change
+    ImGui::BeginDisabled(shown == scene.fromFile);
+    if (ImGui::Button("Reset parameters", {contentWidth(), 0})) {
+        turned = scene.fromFile;
+        isTurned = true;
+    }
+    ImGui::EndDisabled();
+    if (isTurned) take(turned, facts, wishes);
+}
+
+void solver(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
+    heading("solver");
+    Knobs turned = facts.knobs;
     knob("substeps");
-    isTurned |= ImGui::InputInt("##substeps", &turned.substeps, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool isTurned =
+        ImGui::InputInt("##substeps", &turned.substeps, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
     tip("act once prepared; 0 = as many as the scene needs");
     knob("solver");
     const auto solver = static_cast<std::size_t>(turned.solver);
@@ -193,16 +218,7 @@ void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
         ImGui::EndCombo();
     }
     tip("acts once prepared");
-    Knobs shown = facts.knobs;
-    shown.body = scene.fromFile.body; // the selected body is not a change
-    if (shown != scene.fromFile && ImGui::Button("As in the file", {contentWidth(), 0})) {
-        turned = scene.fromFile;
-        isTurned = true;
-    }
-    turned.substeps = std::clamp(turned.substeps, 0, mostSubsteps);
-    limitGravity(turned); // typed values have no limits
-    turned.pace = std::clamp(turned.pace, 0.01f, 1.0f);
-    if (isTurned && turned != facts.knobs) wishes.knobs = turned;
+    if (isTurned) take(turned, facts, wishes);
 }
 
 } // namespace sinew::viewer::parts

@@ -4,7 +4,7 @@
 namespace sinew::viewer::parts {
 
 void counts(const SceneFacts& scene, const Facts& facts) {
-    heading("state");
+    heading("counts");
     pair("particles", grouped(scene.particles), "links", grouped(scene.constraints),
          ImGui::GetStyleColorVec4(ImGuiCol_Text));
     if (facts.sleeping > 0) row("asleep", grouped(facts.sleeping));
@@ -20,7 +20,7 @@ void counts(const SceneFacts& scene, const Facts& facts) {
     if (facts.stepsRepeated > 0) row("contacts: steps repeated", grouped(facts.stepsRepeated));
     if (facts.slowed > 0) row("slowed down", grouped(facts.slowed), bad());
     ImGui::Dummy({0, 2});
-    wrapped(scene.substepsWhy, quiet());
+    if (!scene.substepsWhy.ends_with("as asked")) wrapped(scene.substepsWhy, quiet());
 }
 
 std::string debrisText(const Facts& facts) {
@@ -29,21 +29,13 @@ std::string debrisText(const Facts& facts) {
     return grouped(facts.debris) + ": " + grouped(facts.debrisParticles) + " particles, " + mass;
 }
 
-void cuts(const SceneFacts&, const Facts& facts, Wishes& wishes) {
+void cuts(const Facts& facts) {
     heading("cuts");
     pair("links cut", grouped(facts.linksCut), "pieces",
          facts.pieces.isCounted ? grouped(facts.pieces.pieces) : "not counted",
          ImGui::GetStyleColorVec4(ImGuiCol_Text));
     if (facts.pieces.fragments > 0) row("fragments", grouped(facts.pieces.fragments) + " without a surface");
     if (facts.debris > 0) row("debris removed", debrisText(facts));
-    const float width = buttonWidth(2);
-    ImGui::BeginDisabled(facts.undos == 0);
-    button(Action::undo, wishes, width);
-    ImGui::EndDisabled();
-    ImGui::SameLine();
-    ImGui::BeginDisabled(facts.undos == facts.cuts.size());
-    button(Action::redo, wishes, width);
-    ImGui::EndDisabled();
     for (std::size_t i = 0; i < facts.cuts.size(); ++i) {
         const bool isUndone = i >= facts.undos;
         row(isUndone ? "undone" : "cut", facts.cuts[i],

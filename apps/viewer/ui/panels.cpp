@@ -329,12 +329,18 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     parts::device(scene, facts, wishes);
     parts::scenes(scene, facts, path_, wishes);
     parts::play(facts, wishes);
+    parts::parameters(scene, facts, wishes);
+    parts::heading("view");
+    parts::camera(wishes);
     parts::look(scene, facts, wishes);
-    parts::speed(facts);
+    parts::files(facts, wishes);
+    parts::window(facts, wishes);
+    parts::heading("compare");
     parts::beside(scene, facts, wishes);
+    parts::solver(scene, facts, wishes);
+    if (scene.canCut) parts::cuts(facts);
     parts::counts(scene, facts);
-    if (scene.canCut) parts::cuts(scene, facts, wishes);
-    parts::knobs(scene, facts, wishes);
+    parts::speed(facts);
     parts::program(scene);
     ImGui::End();
 }
