@@ -50,6 +50,28 @@ TEST_F(PanelsTest, ShowALengthBesideTheHint) {
     EXPECT_EQ(shownWindow("scale"), nullptr);
 }
 
+// Nothing in the panel moves under the pointer when a color map is turned on.
+TEST_F(PanelsTest, ShowLegendsOverTheHintInAWidePicture) {
+    const auto height = [&](VkExtent2D extent) {
+        settle(extent);
+        settle(extent);
+        return ImGui::FindWindowByName("side")->ContentSize.y;
+    };
+    constexpr VkExtent2D narrow{800, 720};
+    const float before = height(large), beforeInNarrow = height(narrow);
+    facts.legends[0] = {{LegendLine::Kind::row, "contacts", "12"}, {.name = "a line of text"}};
+    EXPECT_EQ(height(large), before);
+    const ImGuiWindow *legend = shownWindow("legend"), *hint = shownWindow("hint");
+    ASSERT_TRUE(legend != nullptr && hint != nullptr);
+    EXPECT_LE(legend->Pos.y + legend->Size.y, hint->Pos.y);
+    EXPECT_GE(legend->Pos.y, 0);
+    EXPECT_GT(height(narrow), beforeInNarrow) << "no room beside the panel";
+    EXPECT_EQ(shownWindow("legend"), nullptr);
+    panels.choose(false);
+    settle();
+    EXPECT_EQ(shownWindow("legend"), nullptr);
+}
+
 // The tooltip of a button must not lie on other rows of the panel.
 TEST_F(PanelsTest, ShowTooltipsBesideThePanel) {
     settle();

@@ -77,11 +77,12 @@ void mapLegend(const Facts& facts, std::size_t particles) {
     textAt(middle, 0.5f);
     ImGui::SameLine();
     textAt(end, 1);
-    char beyond[48];
-    std::snprintf(beyond, sizeof beyond, "%.2g %%, up to ", 100 * double{facts.map.beyond});
+    char beyond[32];
+    std::snprintf(beyond, sizeof beyond, "%.2g %%", 100 * double{facts.map.beyond});
     const std::string limit = std::string(map == ColorMap::strain ? "strain beyond " : "faster than ") +
                               valueText(map, facts.map.range); // of this state, not the colours' range
-    row(limit.c_str(), beyond + valueText(map, facts.map.largest));
+    row(limit.c_str(), beyond);
+    row("largest", valueText(map, facts.map.largest));
 }
 
 // A square for each color, as many in a line as fit.
@@ -155,9 +156,17 @@ void section(const Facts& facts, Wishes& wishes) {
 
 } // namespace
 
-void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
+void look(const Facts& facts, Wishes& wishes) {
     layerButtons(facts, wishes);
     section(facts, wishes);
+}
+
+bool hasLegend(const Facts& facts) {
+    return facts.isPreparing || facts.layers.map() != ColorMap::none ||
+           std::ranges::any_of(facts.legends, [](const auto& lines) { return !lines.empty(); });
+}
+
+void legend(const SceneFacts& scene, const Facts& facts) {
     if (facts.isPreparing) return wrapped("Preparing the view ...", quiet());
     for (const std::vector<LegendLine>& lines : facts.legends) legendOf(lines);
     if (facts.layers.map() != ColorMap::none) mapLegend(facts, scene.particles);

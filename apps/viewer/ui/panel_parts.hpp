@@ -54,7 +54,10 @@ void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void scenes(const SceneFacts& scene, const Facts& facts, PathField& path, Wishes& wishes);
 void play(const Facts& facts, Wishes& wishes);
 void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
-void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void look(const Facts& facts, Wishes& wishes);
+/// Legends of the layers that are on; hasLegend(): whether there are any.
+bool hasLegend(const Facts& facts);
+void legend(const SceneFacts& scene, const Facts& facts);
 void camera(Wishes& wishes);
 void files(const Facts& facts, Wishes& wishes);
 void beside(const SceneFacts& scene, const Facts& facts, Wishes& wishes);

@@ -18,9 +18,9 @@ namespace sinew::viewer {
 namespace {
 
 constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200, recordingWidth = 200,
-                longestBar = 110, leastWithBar = 420; // at a scale of 1 [pixels]
-constexpr int mostPicturesUnfocused = 20;             // that a text field may wait for keys
-constexpr float roomBeside = 2.6f; // in panels: least width of a picture that shows panels at first
+                legendWidth = 260, longestBar = 110, leastWithBar = 420; // at a scale of 1 [pixels]
+constexpr int mostPicturesUnfocused = 20; // that a text field may wait for keys
+constexpr float roomBeside = 2.6f;        // in panels: least width of a picture that shows panels at first
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
@@ -275,6 +275,8 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     ImGui::NewFrame();
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
     buildHint(facts, extent, buildScaleBar(facts, extent));
+    if (isShown(extent) && isLegendApart(extent) && parts::hasLegend(facts))
+        buildLegend(scene, facts, extent);
     buildNotice(facts, extent);
     if (facts.recorded) buildRecording(facts, extent);
     parts::probe(facts, scale_, freeWidth(extent));
@@ -332,7 +334,8 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     parts::parameters(scene, facts, wishes);
     parts::heading("view");
     parts::camera(wishes);
-    parts::look(scene, facts, wishes);
+    parts::look(facts, wishes);
+    if (!isLegendApart(extent)) parts::legend(scene, facts);
     parts::files(facts, wishes);
     parts::window(facts, wishes);
     parts::heading("compare");
@@ -386,6 +389,23 @@ void Panels::buildHint(const Facts& facts, VkExtent2D extent, float taken) {
     ImGui::TextUnformatted(text.c_str());
     ImGui::End();
     ImGui::PopStyleVar();
+}
+
+// In a wide picture legends stand over the hint, so that nothing in the panel moves when they appear.
+bool Panels::isLegendApart(VkExtent2D extent) const {
+    return freeWidth(extent) >= 2 * (legendWidth + gap) * scale_;
+}
+
+void Panels::buildLegend(const SceneFacts& scene, const Facts& facts, VkExtent2D extent) {
+    const float edge = gap * scale_, hint = ImGui::GetTextLineHeight() + 12 * scale_;
+    const float foot = static_cast<float>(extent.height) - 1.5f * edge - hint;
+    ImGui::SetNextWindowPos({edge, foot}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowSize({legendWidth * scale_, 0});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {legendWidth * scale_, std::max(foot - 5 * edge, 40.0f)});
+    ImGui::SetNextWindowBgAlpha(0.85f);
+    ImGui::Begin("legend", nullptr, fixed | ImGuiWindowFlags_NoInputs);
+    parts::legend(scene, facts);
+    ImGui::End();
 }
 
 void Panels::buildNotice(const Facts& facts, VkExtent2D extent) {

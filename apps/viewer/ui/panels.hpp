@@ -74,6 +74,8 @@ private:
     void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
     float buildScaleBar(const Facts& facts, VkExtent2D extent);
     void buildHint(const Facts& facts, VkExtent2D extent, float taken);
+    bool isLegendApart(VkExtent2D extent) const;
+    void buildLegend(const SceneFacts& scene, const Facts& facts, VkExtent2D extent);
     void buildNotice(const Facts& facts, VkExtent2D extent);
     void buildRecording(const Facts& facts, VkExtent2D extent);
     float freeWidth(VkExtent2D extent) const;
