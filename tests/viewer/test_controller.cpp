@@ -63,6 +63,25 @@ std::set<std::string> triggersInDocs() {
     return found;
 }
 
+// Nobody reads a flat list of fifty keys.
+TEST(Bindings, StandInGroupsInTheHelp) {
+    std::vector<std::string_view> headings;
+    std::size_t inGroup = 0, largest = 0;
+    for (const HelpLine& line : helpLines()) {
+        if (!line.heading.empty()) {
+            headings.push_back(line.heading);
+            inGroup = 0;
+        }
+        EXPECT_FALSE(headings.empty()) << line.triggers << " stands before all groups";
+        largest = std::max(largest, ++inGroup);
+    }
+    EXPECT_EQ(headings,
+              (std::vector<std::string_view>{"Pointer and camera", "Time", "Tools", "Material and gravity",
+                                             "View and compare", "Scenes, files, recording", "Window"}));
+    EXPECT_LE(largest, 14u);
+    EXPECT_NE(helpText().find("Time:\n  Space, P"), std::string::npos);
+}
+
 TEST(Bindings, AreThoseOfTheDocs) {
     std::set<std::string> shown;
     for (const Binding& binding : bindings())

@@ -52,6 +52,7 @@ const std::array beforeTools{
     Binding{{key, GLFW_KEY_PERIOD}, step, ".", "pause and take one step", "Step"},
     Binding{{key, GLFW_KEY_COMMA}, stepBack, ",", "pause and undo one step", "Back"},
     Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
+    Binding{{key, GLFW_KEY_S}, slowMotion, "S", "slow motion: 1/2, 1/4, 1/8, full speed", "Slower"},
 };
 
 const std::array afterTools{
@@ -62,7 +63,6 @@ const std::array afterTools{
             "Shift + Ctrl + Z",
             "redo the cut",
             "Redo"},
-    Binding{{key, GLFW_KEY_S}, slowMotion, "S", "slow motion: 1/2, 1/4, 1/8, full speed", "Slower"},
     Binding{{key, GLFW_KEY_K}, stiffer, "K", "stiffer: all bodies, or the one in the panel"},
     Binding{{key, GLFW_KEY_K, GLFW_MOD_SHIFT}, softer, "Shift + K", "softer"},
     Binding{{key, GLFW_KEY_D}, moreDamping, "D", "more damping"},
@@ -185,6 +185,29 @@ std::optional<Action> actionFor(const Trigger& trigger) {
     return found == table.end() ? std::nullopt : std::optional(found->action);
 }
 
+namespace {
+
+// Groups of the help, by their first actions in the order of the table.
+std::string_view headingAt(Action action) {
+    if (action == actionOfLayer(0)) return "View and compare";
+    switch (action) {
+    case grab:
+        return "Pointer and camera";
+    case pause:
+        return "Time";
+    case stiffer:
+        return "Material and gravity";
+    case previousScene:
+        return "Scenes, files, recording";
+    case times:
+        return "Window";
+    default:
+        return toolOf(action) == std::optional<std::size_t>(0) ? "Tools" : "";
+    }
+}
+
+} // namespace
+
 std::vector<HelpLine> helpLines() {
     std::vector<HelpLine> lines;
     for (auto line = table.begin(); line != table.end();) {
@@ -192,7 +215,7 @@ std::vector<HelpLine> helpLines() {
         auto next = line + 1;
         for (; next != table.end() && next->action == line->action; ++next)
             if (!next->shown.empty()) triggers.append(", ").append(next->shown);
-        lines.push_back({std::move(triggers), line->help});
+        lines.push_back({std::move(triggers), line->help, headingAt(line->action)});
         line = next;
     }
     return lines;
@@ -201,6 +224,7 @@ std::vector<HelpLine> helpLines() {
 std::string helpText() {
     std::string text;
     for (HelpLine& line : helpLines()) {
+        if (!line.heading.empty()) text.append(line.heading).append(":\n");
         line.triggers.resize(std::max<std::size_t>(line.triggers.size() + 2, 34), ' ');
         text.append("  ").append(line.triggers).append(line.help).append("\n");
     }

@@ -107,6 +107,7 @@ std::optional<Action> actionFor(const Trigger& trigger);
 struct HelpLine {
     std::string triggers; ///< "Space, P"
     std::string_view help;
+    std::string_view heading = {}; ///< of the group that begins with this line; empty = the group goes on
 };
 std::vector<HelpLine> helpLines();
 /// The help lines as one text.

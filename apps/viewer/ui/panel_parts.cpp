@@ -139,6 +139,12 @@ void help(float scale) {
         for (const HelpLine& line : helpLines()) {
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
+            if (!line.heading.empty()) {
+                ImGui::Dummy({0, 4 * scale});
+                ImGui::TextColored(accent(), "%s", std::string(line.heading).c_str());
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+            }
             ImGui::TextUnformatted(line.triggers.c_str());
             ImGui::TableNextColumn();
             wrapped(std::string(line.help), quiet());
