@@ -6,6 +6,7 @@
 #include "sim/device/gpu_compile.hpp"
 #include "support/device.hpp"
 #include "viewer/document/document.hpp"
+#include "viewer/jobs/gauges.hpp"
 #include "viewer/jobs/opened_scene.hpp"
 #include "viewer/jobs/replay.hpp"
 
@@ -109,6 +110,9 @@ TEST_F(SavedState, GoesOnWithTheSameBits) {
         Played again(file);
         EXPECT_EQ(again.hash(), played.hash());
         EXPECT_EQ(again.document.played(), played.document.played());
+        const double dt = double{again.opening.loaded.scene.dt};
+        const Facts facts = Gauges(again.document, dt).facts(again.document);
+        EXPECT_NEAR(facts.time, static_cast<double>(facts.steps) * dt, 1e-9) << "they are shown in one line";
         const std::uint64_t before = played.hash();
         played.take(15);
         again.take(15);

@@ -166,7 +166,7 @@ void Gauges::goOn(const Gauges& before) {
 
 Facts Gauges::facts(const Document& document) const {
     Facts facts = facts_;
-    facts.steps = document.steps();
+    facts.steps = document.played();
     facts.time = static_cast<double>(document.played()) * dt_;
     const auto& skipped = document.simulation().program().skipped;
     if (std::ranges::find(skipped, "contacts") == skipped.end()) {

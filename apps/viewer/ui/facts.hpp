@@ -127,9 +127,9 @@ struct Facts {
     /// the ratio of sides of the drawn image. Empty = full quality.
     std::optional<float> reduced;
     double framesPerSecond = 0;
-    double pace = 1;     ///< requested seconds of the scene per second of the clock
-    double keptPace = 1; ///< achieved pace
-    std::uint64_t steps = 0;
+    double pace = 1;                ///< requested seconds of the scene per second of the clock
+    double keptPace = 1;            ///< achieved pace
+    std::uint64_t steps = 0;        ///< of the scene: also those before a saved state
     double time = 0;                ///< of the scene [s]
     std::vector<PhaseCurve> phases; ///< of one step; empty if the device has no timestamps
     Curve frameMs;
