@@ -37,13 +37,13 @@ constinit const Tool tool::blade{
     .help = "blade: left drag cuts, through or to the set depth",
     .button = "Blade",
     .letGo = "put the blade away",
-    .offer = "cuts",
+    .offer = "or hold Ctrl: drag to cut",
     .addHints =
         [](HintLine& line, const std::optional<float>& depth) {
             line.add("left drag cuts " + depthText(depth));
+            line.add("undoes the cut", {Action::undo});
             line.add("changes its depth", {Action::toolSize});
-            line.add("puts the blade away", {actionOf(tool::blade)});
-            line.add("undoes a cut", {Action::undo});
+            line.add("puts the blade away", {Action::drop});
         },
     .setting = "depth",
     .settingHelp = "depth of the blade",

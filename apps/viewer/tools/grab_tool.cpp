@@ -9,7 +9,7 @@ constinit const Tool tool::hand{
     .name = "hand",
     .title = "holding",
     .letGo = "release the body",
-    .offer = "left drag grabs",
+    .offer = "drag to pull",
     .addHints =
         [](HintLine& line, const std::optional<float>&) {
             line.add("pull");

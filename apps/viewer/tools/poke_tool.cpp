@@ -28,7 +28,7 @@ constinit const Tool tool::poke{.name = "poke",
                                     [](HintLine& line, const std::optional<float>&) {
                                         line.add("left drag pushes");
                                         line.add("changes its size", {Action::toolSize});
-                                        line.add("puts the sphere away", {actionOf(tool::poke)});
+                                        line.add("puts the sphere away", {Action::drop});
                                     },
                                 .setting = "radius",
                                 .settingHelp = "radius of the sphere",
