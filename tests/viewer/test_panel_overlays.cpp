@@ -33,7 +33,7 @@ TEST_F(PanelsTest, ShowALengthBesideTheHint) {
     settle();
     EXPECT_EQ(shownWindow("scale"), nullptr) << "before anything is known";
     for (const float metersPerPixel : {1e-6f, 0.0013f, 7.0f})
-        for (const std::uint32_t width : {1280u, 800u}) {
+        for (const std::uint32_t width : {1280u, 1050u}) {
             facts.metersPerPixel = metersPerPixel;
             const VkExtent2D extent{width, 600};
             settle(extent);
@@ -44,7 +44,12 @@ TEST_F(PanelsTest, ShowALengthBesideTheHint) {
             EXPECT_LE(bar->Pos.x + bar->Size.x, ImGui::FindWindowByName("side")->Pos.x) << width;
             EXPECT_GT(bar->Size.x, 44) << "a bar of at least 44 pixels";
         }
-    settle(small);
+    constexpr VkExtent2D narrow{800, 600};
+    facts.hint.canUse.fill(true);
+    settle(narrow);
+    settle(narrow);
+    EXPECT_EQ(shownWindow("scale"), nullptr) << "hints come first";
+    EXPECT_GT(shownWindow("hint")->Size.x, 350);
     facts.metersPerPixel = 0;
     settle();
     EXPECT_EQ(shownWindow("scale"), nullptr);

@@ -18,7 +18,7 @@ namespace sinew::viewer {
 namespace {
 
 constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200, recordingWidth = 200,
-                legendWidth = 260, longestBar = 110, leastWithBar = 420; // at a scale of 1 [pixels]
+                legendWidth = 260, longestBar = 110, leastWithBar = 700; // at a scale of 1 [pixels]
 constexpr int mostPicturesUnfocused = 20; // that a text field may wait for keys
 constexpr float roomBeside = 2.6f;        // in panels: least width of a picture that shows panels at first
 
