@@ -52,6 +52,19 @@ TEST_F(SceneLoaderTest, OffersTheSceneFilesBesideTheOneOpened) {
     EXPECT_EQ(sceneLoader.current(), 1u);
 }
 
+TEST_F(SceneLoaderTest, SaysWhatHappensInAScene) {
+    write("a.toml", "# A chain falls\r\n# and swings. It is short.\n# More.\n[[chain]]\nparticles = 3\n");
+    const SceneLoader sceneLoader = libraryOf("b.toml");
+    EXPECT_EQ(sceneLoader.sentences(), (std::vector<std::string>{"A chain falls and swings.", "", ""}));
+    const SceneLoader builtIn = libraryOf("");
+    ASSERT_EQ(builtIn.sentences().size(), builtIn.names().size());
+    for (std::size_t i = 0; i < builtIn.names().size(); ++i)
+        EXPECT_TRUE(builtIn.sentences()[i].ends_with(".")) << builtIn.names()[i];
+    EXPECT_EQ(firstSentence("# Balls of 0.5 m fall"), "Balls of 0.5 m fall");
+    EXPECT_EQ(firstSentence("name = 1 # A comment."), "");
+    EXPECT_EQ(firstSentence("#"), "");
+}
+
 TEST_F(SceneLoaderTest, OffersTheBuiltInScenesWhereNoFileWasOpened) {
     const SceneLoader sceneLoader = libraryOf("");
     ASSERT_LT(sceneLoader.current(), sceneLoader.names().size());

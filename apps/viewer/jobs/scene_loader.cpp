@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 
 namespace sinew::viewer {
 
@@ -28,7 +29,31 @@ std::vector<fs::path> sceneFiles(const fs::path& folder) {
     return files;
 }
 
+constexpr std::size_t headLength = 2000; // of a file, for its first sentence [bytes]
+
+std::string headOf(const fs::path& file) {
+    std::string head(headLength, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(stream.gcount()));
+    return head;
+}
+
 } // namespace
+
+std::string firstSentence(std::string_view text) {
+    std::string sentence;
+    while (text.starts_with('#')) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, end);
+        line.remove_prefix(std::min(line.find_first_not_of("# "), line.size()));
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        sentence.append(sentence.empty() || line.empty() ? "" : " ").append(line);
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    if (const std::size_t stop = sentence.find(". "); stop != std::string::npos) sentence.resize(stop + 1);
+    return sentence;
+}
 
 SceneLoader::SceneLoader(Options options, Prepare prepare, Draw draw)
     : options_(std::move(options)), prepare_(std::move(prepare)), current_(none),
@@ -41,12 +66,14 @@ SceneLoader::SceneLoader(Options options, Prepare prepare, Draw draw)
         for (const fs::path& file : sceneFiles(opened.parent_path())) {
             names_.push_back(file.stem().string());
             files_.push_back(file.string());
+            sentences_.push_back(firstSentence(headOf(file)));
             if (file.filename() == opened.filename()) current_ = names_.size() - 1;
         }
     if (names_.empty())
         for (const std::string_view name : scenes::builtInNames())
             if (name != frameOfMeshes) {
                 names_.emplace_back(name);
+                sentences_.push_back(firstSentence(scenes::builtInText(name)));
                 if (opened.empty() && name == options_.builtIn) current_ = names_.size() - 1;
             }
     shown_ = Request{options_, current_};

@@ -10,6 +10,9 @@
 
 namespace sinew::viewer {
 
+/// The first sentence of the comment that a scene file begins with; empty if it begins with something else.
+std::string firstSentence(std::string_view text);
+
 /// Used by one thread; loads in another, which the destructor waits for.
 class SceneLoader {
 public:
@@ -28,6 +31,8 @@ public:
     /// Options of the scene on show.
     const Options& shown() const { return shown_->options; }
     const std::vector<std::string>& names() const { return names_; }
+    /// What happens in each: the first sentence of its file, without the #; empty = the file has none.
+    const std::vector<std::string>& sentences() const { return sentences_; }
     /// Index of the scene on show, or -1 if it is not in the list.
     std::size_t current() const { return current_; }
     /// Previews of names(), if there is a Draw.
@@ -74,7 +79,7 @@ private:
 
     Options options_;
     Prepare prepare_;
-    std::vector<std::string> names_, files_; // files_ is empty for built-in scenes
+    std::vector<std::string> names_, sentences_, files_; // files_ is empty for built-in scenes
     std::size_t current_;
     std::optional<Request> shown_, before_, asked_;
     std::future<std::unique_ptr<OpenedScene>> opening_;

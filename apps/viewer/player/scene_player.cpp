@@ -379,6 +379,7 @@ Facts ScenePlayer::facts(std::optional<float> reduced) const {
     }
     facts.undos = tools_.history().undos();
     facts.scenes = sceneLoader_.names();
+    facts.sentences = sceneLoader_.sentences();
     facts.scene = sceneLoader_.current();
     facts.isOpening = sceneLoader_.isOpening();
     facts.devices = devices_.list();

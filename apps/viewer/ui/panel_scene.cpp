@@ -6,6 +6,7 @@
 #include "viewer/ui/picture_sheet.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -14,6 +15,8 @@
 namespace sinew::viewer::parts {
 
 namespace {
+
+constexpr float listWidth = 2; // of the list of scenes, in widths of the panel
 
 // Writes a name in quiet text and leaves the right side for a control.
 void knob(const char* name) {
@@ -106,6 +109,26 @@ void preview(const Facts& facts, std::size_t scene, const ImVec2& from, const Im
                    {1, row(scene + 1)});
 }
 
+// The name of a scene, and below it what happens there in at most two lines.
+void sceneText(const Facts& facts, std::size_t scene, ImVec2 at, float height) {
+    const float line = ImGui::GetTextLineHeight();
+    const float room = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x - at.x;
+    const std::string sentence = scene < facts.sentences.size() ? facts.sentences[scene] : "";
+    const float lines =
+        sentence.empty()
+            ? 1
+            : 1 + std::min(2.0f,
+                           std::ceil(ImGui::CalcTextSize(sentence.c_str(), nullptr, false, room).y / line));
+    at.y += std::round((height - lines * line) / 2);
+    const ImVec4 color = scene == facts.scene ? accent() : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddText(at, ImGui::GetColorU32(color), facts.scenes[scene].c_str());
+    if (sentence.empty() || room < line) return;
+    const ImVec4 clip{at.x, at.y, at.x + room, at.y + lines * line};
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x, at.y + line}, ImGui::GetColorU32(quiet()),
+                 sentence.c_str(), nullptr, room, &clip);
+}
+
 // The list of scenes, with a preview beside each name.
 void sceneList(const Facts& facts, Wishes& wishes) {
     const float height = 3.6f * ImGui::GetFontSize(), between = ImGui::GetStyle().ItemSpacing.x;
@@ -121,9 +144,7 @@ void sceneList(const Facts& facts, Wishes& wishes) {
         ImGui::PopID();
         if (!isSeen) continue;
         preview(facts, i, at, {at.x + width, at.y + height}, wishes);
-        const ImVec2 text{at.x + width + 2 * between, at.y + (height - ImGui::GetFontSize()) / 2};
-        const ImVec4 color = i == facts.scene ? accent() : ImGui::GetStyleColorVec4(ImGuiCol_Text);
-        ImGui::GetWindowDrawList()->AddText(text, ImGui::GetColorU32(color), facts.scenes[i].c_str());
+        sceneText(facts, i, {at.x + width + 2 * between, at.y}, height);
     }
 }
 
@@ -152,7 +173,8 @@ void scenes(const SceneFacts& scene, const Facts& facts, PathField& path, Wishes
     heading(facts.isOpening ? "scene: opening ..." : "scene");
     const float step = 0.7f * buttonWidth(4), between = ImGui::GetStyle().ItemSpacing.x;
     ImGui::SetNextItemWidth(contentWidth() - 3 * (step + between));
-    ImGui::SetNextWindowSizeConstraints({contentWidth(), 0}, ImGui::GetIO().DisplaySize);
+    const ImVec2 all = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowSizeConstraints({std::min(listWidth * contentWidth(), all.x), 0}, all);
     if (ImGui::BeginCombo("##scenes", scene.name.c_str(), ImGuiComboFlags_HeightLargest)) {
         sceneList(facts, wishes);
         ImGui::EndCombo();
