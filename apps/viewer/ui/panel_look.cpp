@@ -2,7 +2,6 @@
 #include "viewer/ui/panel_parts.hpp"
 
 #include "viewer/render/layer.hpp"
-#include "viewer/render/length_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -146,11 +145,12 @@ void section(const Facts& facts, Wishes& wishes) {
     ImGui::SameLine();
     button(Action::faceSection, wishes, width);
     if (!section) return;
-    float offset = section->offset;
+    // In centimeters, so that a number that is typed has the unit on show; + 0 makes -0 a 0.
+    float shown = std::round(1e4f * section->offset) / 100 + 0.0f;
     const auto [low, high] = facts.sectionReach;
     ImGui::SetNextItemWidth(contentWidth());
-    if (ImGui::SliderFloat("##section", &offset, low, high, ("plane at " + lengthText(offset)).c_str()))
-        wishes.sectionOffset = offset;
+    if (ImGui::SliderFloat("##section", &shown, 100 * low, 100 * high, "plane at %.4g cm"))
+        wishes.sectionOffset = shown / 100;
     tip(std::string(keyOf(Action::moveSection)));
 }
 

@@ -1,5 +1,4 @@
 // The scene on show, the list of scenes, and the adjustable parameters.
-#include "viewer/render/length_text.hpp"
 #include "viewer/ui/knob_keys.hpp"
 #include "viewer/ui/panel_parts.hpp"
 #include "viewer/ui/panels.hpp"
@@ -85,11 +84,13 @@ bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
 bool bladeKnob(const Facts& facts, Knobs& turned) {
     const auto [least, most] = facts.bladeDepths;
     const float through = 1.05f * most;
-    float depth = turned.bladeDepth.value_or(through);
+    // In centimeters, so that a number that is typed has the unit on show.
+    float shown = 100 * turned.bladeDepth.value_or(through);
     knob("blade depth");
-    const bool isTurned = ImGui::SliderFloat("##depth", &depth, least, through,
-                                             turned.bladeDepth ? lengthText(depth).c_str() : "through",
-                                             ImGuiSliderFlags_Logarithmic);
+    const bool isTurned =
+        ImGui::SliderFloat("##depth", &shown, 100 * least, 100 * through,
+                           turned.bladeDepth ? "%.3g cm" : "through", ImGuiSliderFlags_Logarithmic);
+    const float depth = shown / 100;
     tip("depth below the surface under the pointer; right end: through; acts at once");
     if (isTurned) turned.bladeDepth = depth > most ? std::nullopt : std::optional(std::max(depth, least));
     return isTurned;
