@@ -54,18 +54,30 @@ std::string parted(const std::string& body) {
            body + "cuttable = true\n" + bladeAt("0.06", "0.01");
 }
 
-TEST(SceneFacts, SayThatLinksAreSofterThanAskedBeyondTheTolerance) {
-    SceneFacts facts;
-    setStiffness(facts, {.elastic = 100, .clamped = 3, .softest = 0.97, .neededSubsteps = 37});
-    EXPECT_EQ(facts.stiffness, "") << "within the tolerance";
-    EXPECT_EQ(facts.neededSubsteps, 0u);
-    setStiffness(facts,
-                 {.elastic = 100, .clamped = 90, .soft = 80, .softest = 0.0213, .neededSubsteps = 331});
-    EXPECT_EQ(facts.stiffness, "Softer than asked: the softest link has 2 % of its stiffness.");
-    EXPECT_EQ(facts.neededSubsteps, 331u);
-    setStiffness(facts, {.elastic = 100, .soft = 80, .softest = 0.001, .neededSubsteps = 4000});
-    EXPECT_EQ(facts.stiffness, "Softer than asked: the softest link has less than 1 % of its stiffness.");
-    EXPECT_EQ(facts.neededSubsteps, 0u) << "more than the panel allows";
+TEST(SceneFacts, SayThatMostLinksOfABodyAreSofterThanAsked) {
+    sim::BodyStiffness body;
+    body.elastic = 100;
+    const auto factsOf = [&body](std::size_t clamped, std::size_t soft, double softest,
+                                 std::uint32_t needed) {
+        body.soft = soft;
+        SceneFacts facts;
+        setStiffness(facts, {.elastic = 100,
+                             .clamped = clamped,
+                             .soft = soft,
+                             .softest = softest,
+                             .bodies = {body},
+                             .neededSubsteps = needed});
+        return facts;
+    };
+    EXPECT_EQ(factsOf(3, 0, 0.97, 37).stiffness, "") << "within the tolerance";
+    EXPECT_EQ(factsOf(3, 0, 0.97, 37).neededSubsteps, 0u);
+    EXPECT_EQ(factsOf(60, 50, 0.5, 60).stiffness, "") << "some links alone";
+    EXPECT_EQ(factsOf(0, 80, 0.5, 60).stiffness, "") << "of a solver without a clamp";
+    const SceneFacts soft = factsOf(90, 80, 0.0213, 331), hardly = factsOf(90, 80, 0.001, 4000);
+    EXPECT_EQ(soft.stiffness, "Softer than asked: the softest link has 2 % of its stiffness.");
+    EXPECT_EQ(soft.neededSubsteps, 331u);
+    EXPECT_EQ(hardly.stiffness, "Softer than asked: the softest link has less than 1 % of its stiffness.");
+    EXPECT_EQ(hardly.neededSubsteps, 0u) << "more than the panel allows";
 }
 
 TEST(CutGauges, ShowTheStrainOfLinksThatHold) {

@@ -61,7 +61,9 @@ void addProgram(SceneFacts& facts, const sim::StepProgram& program) {
 void setStiffness(SceneFacts& facts, const sim::StiffnessReport& report) {
     facts.stiffness.clear();
     facts.neededSubsteps = 0;
-    if (report.soft == 0) return;
+    // As in the warning of a scene file: a few clamped links are no news, and other solvers clamp none.
+    const auto isSoft = [](const sim::BodyStiffness& body) { return 2 * body.soft > body.elastic; };
+    if (report.clamped == 0 || std::ranges::none_of(report.bodies, isSoft)) return;
     const long percent = std::lround(100 * report.softest);
     facts.stiffness = "Softer than asked: the softest link has " +
                       (percent > 0 ? std::to_string(percent) : "less than 1") + " % of its stiffness.";

@@ -322,10 +322,9 @@ void ScenePlayer::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     for (std::uint32_t step = 0; step < plan.steps; ++step) {
         if (const auto material = document_.recordTurn(frame.commands)) {
             tools_.turned(*material);
-            const std::string before = prepared_.facts.stiffness;
+            const bool wasSoft = !prepared_.facts.stiffness.empty();
             setStiffness(prepared_.facts, document_.stiffness());
-            const std::string& now = prepared_.facts.stiffness;
-            if (!now.empty() && now != before) session_.tell(softText(prepared_.facts));
+            if (!wasSoft && !prepared_.facts.stiffness.empty()) session_.tell(softText(prepared_.facts));
         }
         const StepHands hands = tools_.takeStep(frame.commands, document_);
         if (hands.sweep) flight.sweeps.push_back(*hands.sweep);
