@@ -403,7 +403,7 @@ void Panels::buildLegend(const SceneFacts& scene, const Facts& facts, VkExtent2D
     ImGui::SetNextWindowSize({legendWidth * scale_, 0});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {legendWidth * scale_, std::max(foot - 5 * edge, 40.0f)});
     ImGui::SetNextWindowBgAlpha(0.85f);
-    ImGui::Begin("legend", nullptr, fixed | ImGuiWindowFlags_NoInputs);
+    ImGui::Begin("legend", nullptr, fixed);
     parts::legend(scene, facts);
     ImGui::End();
 }
