@@ -25,13 +25,13 @@ void Capture::recordPicture(const Presenter::Frame& frame, const Overlay& overla
         if (error.failure() != vk::Failure::outOfMemory) throw;
         return player_.session.warn(std::string("no picture: ") + error.what());
     }
-    pending.pictureStep = player_.document.steps();
+    pending.pictureStep = player_.document.played();
     recordShot(*pending.picture, frame.commands, frame.slot + 2 * Presenter::framesInFlight, overlay);
 }
 
 void Capture::recordFilm(const Presenter::Frame& frame, const Overlay& overlay) {
     recordShot(*cameras_[frame.slot], frame.commands, frame.slot + Presenter::framesInFlight, overlay);
-    pending_[frame.slot].filmStep = player_.document.steps();
+    pending_[frame.slot].filmStep = player_.document.played();
 }
 
 // With the simulation beside it, as the window shows both.
@@ -68,7 +68,7 @@ void Capture::beginFilm() {
     const VkExtent2D extent = player_.session.presenter().extent();
     player_.session.presenter().waitIdle(); // frames may still use the cameras of a film that failed
     try {
-        film_.emplace(nameAt(player_.opening.loaded.scene.name, player_.document.steps()), extent.width,
+        film_.emplace(nameAt(player_.opening.loaded.scene.name, player_.document.played()), extent.width,
                       extent.height, 1 / double{player_.document.scene().dt});
         for (auto& camera : cameras_) camera = std::make_unique<Shot>(player_.device, renderer(), extent);
         printLine("recording " + film_->target().string());
