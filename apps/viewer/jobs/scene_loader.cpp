@@ -23,7 +23,8 @@ std::vector<fs::path> sceneFiles(const fs::path& folder) {
     std::error_code error;
     for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
          entry.increment(error))
-        if (entry->path().extension() == ".toml" && entry->path().stem() != frameOfMeshes)
+        if (entry->path().extension() == ".toml" && entry->path().stem() != frameOfMeshes &&
+            entry->is_regular_file(error))
             files.push_back(entry->path());
     std::ranges::sort(files);
     return files;

@@ -20,7 +20,7 @@ void counts(const SceneFacts& scene, const Facts& facts) {
     if (facts.stepsRepeated > 0) row("contacts: steps repeated", grouped(facts.stepsRepeated));
     if (facts.slowed > 0) row("slowed down", grouped(facts.slowed), bad());
     ImGui::Dummy({0, 2});
-    if (!scene.substepsWhy.ends_with("as asked")) wrapped(scene.substepsWhy, quiet());
+    if (!scene.substepsWhy.ends_with(": as asked")) wrapped(scene.substepsWhy, quiet());
 }
 
 std::string debrisText(const Facts& facts) {
