@@ -95,6 +95,7 @@ echo "first use: a solver that was chosen and cannot play the scene is refused"
 start --beside gauss_seidel
 refused() { grep -q "^warning: Can't compare: .*solver gauss_seidel does not support" viewer.err; }
 await 60 refused
+(($(wc -l <viewer.err) == 1)) || fail "more was said on stderr: $(cat viewer.err)"
 : >viewer.err
 quit
 awaitEnd 0

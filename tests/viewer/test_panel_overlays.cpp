@@ -1,6 +1,8 @@
 // Tests of the panels' small windows over the picture: hint, scale bar, sign of a recording, tooltips.
 #include "panels_test.hpp"
 
+#include "viewer/render/length_text.hpp"
+
 namespace sinew::viewer {
 namespace {
 
@@ -42,7 +44,9 @@ TEST_F(PanelsTest, ShowALengthBesideTheHint) {
             ASSERT_TRUE(bar != nullptr && hint != nullptr) << width;
             EXPECT_LE(hint->Pos.x + hint->Size.x, bar->Pos.x) << width;
             EXPECT_LE(bar->Pos.x + bar->Size.x, ImGui::FindWindowByName("side")->Pos.x) << width;
-            EXPECT_GT(bar->Size.x, 44) << "a bar of at least 44 pixels";
+            const float length = roundLength(110 * metersPerPixel); // the longest bar has 110 pixels
+            const float text = ImGui::CalcTextSize(lengthText(length).c_str()).x;
+            EXPECT_NEAR(bar->Size.x, text + 28 + length / metersPerPixel, 2) << lengthText(length);
         }
     constexpr VkExtent2D narrow{800, 600};
     facts.hint.canUse.fill(true);
