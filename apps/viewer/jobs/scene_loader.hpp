@@ -31,7 +31,7 @@ public:
     /// Options of the scene on show.
     const Options& shown() const { return shown_->options; }
     const std::vector<std::string>& names() const { return names_; }
-    /// What happens in each: the first sentence of its file, without the #; empty = the file has none.
+    /// The first sentence of each scene's file, without the #; empty = the file has none.
     const std::vector<std::string>& sentences() const { return sentences_; }
     /// Index of the scene on show, or -1 if it is not in the list.
     std::size_t current() const { return current_; }

@@ -7,7 +7,7 @@ layout(std430, binding = SPEEDS_BINDING + 1) readonly buffer BodySums { vec4 bod
 layout(std430, binding = SPEEDS_BINDING + 2) readonly buffer Bodies { float bodies[]; };    // by slot: number of the body
 layout(constant_id = 1) const bool hasBodies = false; // sums exist
 
-// Of the sheet of particle i [m/s].
+// Speed of the sheet of particle i [m/s].
 vec3 sheetSpeedOf(uint i) {
     if (!hasBodies || (sheets[i] & SHEET_HELD) != 0u || bodies[i] < 0.0) return vec3(0.0);
     const uint first = uint(bodies[i]) * FRAME_SUMS;

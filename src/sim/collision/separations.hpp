@@ -1,7 +1,7 @@
 // Separations: what keeps a sheet from passing through itself, in `split`. Contacts divide a particle among
 // all that it touches, so layers that are pressed together hard may pass in one substep. At the start of a
 // substep each listed pair of a corner and a face of a sheet, or of two of its edges, has a plane halfway
-// between them. After contacts and constraints no corner ends a substep on the other side of such a plane.
+// between them. A pair that this plane does not separate at the end of the substep has its ways limited.
 // Two triangles pass each other only by a corner through a face, or by two edges, so listed pairs of a sheet
 // never pass. Two sheets, faces of voxel bodies and faces that never give way have the other rules of
 // docs/contact-rules.md. A scene without a moving sheet of at least eight particles has none of these passes.
@@ -17,7 +17,10 @@ struct Separations {
     body_frames::Frames frames; ///< of the lists of faces: their sums give the speed of a sheet
 
     /// Constants of the kernels that find contacts, which get `sheets` as well (collision/one_sheet.glsl).
-    ProgramBuilder::Constants constants() const { return {{6, exist()}}; }
+    ProgramBuilder::Constants constants() const {
+        constexpr std::uint32_t hasSheetsId = 6;
+        return {{hasSheetsId, exist()}};
+    }
     bool exist() const { return sheets != unbound; }
     bool hasBodies() const { return frames.chunks != BufferId{}; }
 };
