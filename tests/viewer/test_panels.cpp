@@ -63,6 +63,36 @@ TEST_F(PanelsTest, WarnThatBodiesAreSofterThanAskedAndOfferTheSubsteps) {
     EXPECT_TRUE(offered().contains(112));
 }
 
+// Another button under the pointer would get the next click.
+TEST_F(PanelsTest, KeepTheirControlsInPlaceWhileTextBelowThemComesAndGoes) {
+    facts.phases = {{"begin", {}}, {"solve", {}}, {"publish", {}}};
+    for (PhaseCurve& phase : facts.phases) phase.ms.add(1);
+    facts.knobs.substeps = 16;
+    settle();
+    const ImGuiWindow* side = shownWindow("side");
+    ASSERT_NE(side, nullptr);
+    const PanelInput over{.pointer = {1200, 100}}, away{.pointer = {200, 100}};
+    for (int i = 0; i < 200; ++i) picture({.pointer = over.pointer, .notches = -5});
+    const float end = side->Scroll.y;
+    ASSERT_GT(end, 100);
+    ASSERT_EQ(end, side->ScrollMax.y);
+
+    std::vector<PhaseCurve> none = facts.phases;
+    for (PhaseCurve& phase : none) phase.ms = {};
+    facts.phases.swap(none);
+    for (int i = 0; i < 3; ++i) picture(over);
+    EXPECT_EQ(side->Scroll.y, end) << "the plot is gone";
+    scene.stiffness = "Softer than asked: the softest link has 2 % of its stiffness.";
+    scene.neededSubsteps = 112;
+    for (int i = 0; i < 3; ++i) picture(over);
+    EXPECT_EQ(side->Scroll.y, end);
+    scene.stiffness.clear();
+    for (int i = 0; i < 3; ++i) picture(over);
+    EXPECT_EQ(side->Scroll.y, end) << "the warning is gone";
+    for (int i = 0; i < 3; ++i) picture(away);
+    EXPECT_LT(side->Scroll.y, end) << "no empty room at the end";
+}
+
 // A click anywhere on the slider sets it; its right end means a cut through the body.
 TEST_F(PanelsTest, TurnTheDepthOfTheBlade) {
     facts.bladeDepths = {0.01f, 0.5f};

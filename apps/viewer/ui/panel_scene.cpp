@@ -45,18 +45,6 @@ void bodyCombo(const SceneFacts& scene, int& body) {
     ImGui::EndCombo();
 }
 
-// A warning that bodies are softer than asked, and the cure. True if the cure was taken.
-bool softness(const SceneFacts& scene, Knobs& turned) {
-    if (scene.stiffness.empty()) return false;
-    wrapped(scene.stiffness, warning());
-    if (scene.neededSubsteps == 0) return false;
-    const auto needed = static_cast<int>(scene.neededSubsteps);
-    const std::string text = "Use " + std::to_string(needed) + " substeps";
-    const bool isTaken = turned.substeps != needed && ImGui::Button(text.c_str(), {contentWidth(), 0});
-    if (isTaken) turned.substeps = needed;
-    return isTaken;
-}
-
 bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
     bool isTurned = false;
     knob("stiffness");
@@ -69,7 +57,6 @@ bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
         bodyCombo(scene, turned.body);
         isTurned |= turned.body != before;
     }
-    isTurned |= softness(scene, turned);
     knob("damping");
     isTurned |= ImGui::SliderFloat("##damping", &turned.damping, 0, 20, "%.2f 1/s");
     tip("damping of all motion; acts at once");
@@ -199,6 +186,19 @@ void take(Knobs turned, const Facts& facts, Wishes& wishes) {
     if (turned != facts.knobs) wishes.knobs = turned;
 }
 
+// A warning that bodies are softer than asked, and the cure. True if the cure was taken. It is the last
+// control, so that none moves when it appears.
+bool softness(const SceneFacts& scene, Knobs& turned) {
+    if (scene.stiffness.empty()) return false;
+    wrapped(scene.stiffness, warning());
+    if (scene.neededSubsteps == 0) return false;
+    const auto needed = static_cast<int>(scene.neededSubsteps);
+    const std::string text = "Use " + std::to_string(needed) + " substeps";
+    const bool isTaken = turned.substeps != needed && ImGui::Button(text.c_str(), {contentWidth(), 0});
+    if (isTaken) turned.substeps = needed;
+    return isTaken;
+}
+
 } // namespace
 
 void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
@@ -241,6 +241,7 @@ void solver(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
         ImGui::EndCombo();
     }
     tip("acts once prepared");
+    isTurned |= softness(scene, turned);
     if (isTurned) take(turned, facts, wishes);
 }
 

@@ -345,7 +345,20 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     parts::counts(scene, facts);
     parts::speed(facts);
     parts::program(scene);
+    keepHeight();
     ImGui::End();
+}
+
+// Below the pointer the panel does not become shorter: scrolled to its end, all of it would move down, and
+// another button would come under the pointer.
+void Panels::keepHeight() {
+    const float height = ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y;
+    const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const bool isBelowPointer = ImGui::IsMouseHoveringRect(from, {from.x + size.x, from.y + size.y}, false);
+    if (!isBelowPointer || height > sideHeight_) sideHeight_ = height;
+    if (height == sideHeight_) return;
+    ImGui::SetCursorPosY(sideHeight_);
+    ImGui::Dummy({0, 0});
 }
 
 // A bar with its length, right of the hint; none in a narrow picture. Returns the width that it takes from

@@ -72,6 +72,7 @@ private:
     void feedKeys(const PanelInput& input);
     bool isAsking() const;
     void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
+    void keepHeight();
     float buildScaleBar(const Facts& facts, VkExtent2D extent);
     void buildHint(const Facts& facts, VkExtent2D extent, float taken);
     bool isLegendApart(VkExtent2D extent) const;
@@ -89,6 +90,7 @@ private:
     float scale_;
     std::optional<bool> isShown_;
     bool isHelpShown_ = false;
+    float sideHeight_ = 0; // of what the panel at the side holds [pixels]
     PathField path_;
     std::function<std::string()> paste_;
     std::string pasted_;
