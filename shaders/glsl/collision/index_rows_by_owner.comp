@@ -50,7 +50,7 @@ void complete(uint link) {
 
 // Points that go far along their headings make every search wide: the next lists look less far ahead.
 void planHorizon() {
-    const float far = 8.0 * uintBitsToFloat(apart[FACE_POINTS_UNIT]), most = mostMotion();
+    const float far = 4.0 * uintBitsToFloat(apart[FACE_POINTS_UNIT]), most = mostMotion();
     const float share = 1.0 + bounds.aheadShare;
     bounds.aheadShare = (most > far ? max(0.7 * share, 0.125) : min(1.4 * share, 1.0)) - 1.0;
 }

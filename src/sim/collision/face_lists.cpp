@@ -29,6 +29,9 @@ std::vector<float> pointsOf(std::span<const float> radii) {
 
 constexpr std::uint32_t none = ~0u;
 
+// Cells of the grid in sizes of most faces: with smaller ones a search reads more cells than points.
+constexpr float cellOfFaces = 1.5f;
+
 std::vector<std::uint32_t> largeFaces(std::span<const float> extents, float edge) {
     std::vector<std::uint32_t> faces;
     for (std::uint32_t f = 0; f < extents.size(); ++f)
@@ -113,7 +116,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     const std::vector<std::uint32_t> pairs = pairedFaces(request, edge);
     Lists lists{.grid = hash_grid::add(program, {.radii = points,
                                                  .margin = request.margin,
-                                                 .edge = edge,
+                                                 .edge = cellOfFaces * edge,
                                                  .others = static_cast<std::uint32_t>(paddedCount(faces)),
                                                  .bodies = request.bodies,
                                                  .watched = watched,

@@ -42,14 +42,14 @@ void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step, bool isLa
 constexpr float substepsAhead = 8;
 
 // Two bodies are in lists of their own only while no particle can leave its body's box (fit_frames), which
-// limits headings. Those of a body alone are limited to half a cell until the horizon, so that its points
-// stay in the grid. Items other than particles (edges) have no leeway.
+// limits headings. Those of a body alone are limited to a third of a cell until the horizon, so that its
+// points stay in the grid. Items other than particles (edges) have no leeway.
 void addHeadings(ProgramBuilder& program, Grid& grid, const Request& request) {
     const std::size_t count = request.particles > 0 ? request.particles : request.radii.size();
     grid.headings = program.scratch<layout::vec4>(std::string(request.name) + ".headings", count);
     const bool isAlone = grid.frames.push.bodies == 1;
     grid.push.ahead = substepsAhead;
-    grid.push.pace = std::max(0.5f * request.margin, isAlone ? 0.5f * grid.push.edge / substepsAhead : 0.0f);
+    grid.push.pace = std::max(0.5f * request.margin, isAlone ? grid.push.edge / (3 * substepsAhead) : 0.0f);
     if (request.particles == 0) grid.push.leeway = 3 * request.margin;
     layout::FramePush& frames = grid.frames.push;
     frames.ahead = grid.push.ahead;
