@@ -25,8 +25,11 @@ shared uint changed;
 
 #include "collision/frame_moments.glsl"
 
+// Particles that sleep are not checked, and stay.
+bool mustStand(uint b) { return bodies[b].kind == FRAME_STANDS || sums[b * FRAME_SUMS + FRAME_SUM_V].w > 0.0; }
+
 Fit ownFit(uint b) {
-    if (bodies[b].kind == FRAME_STANDS) return standing(originOf(b));
+    if (mustStand(b)) return standing(originOf(b));
     const Origin origin = originOf(b);
     Moments m = Moments(0.0, vec3(0.0), vec3(0.0), vec3(0.0), mat3(0.0), mat3(0.0), mat3(0.0));
     add(m, b, origin);
@@ -39,7 +42,7 @@ Fit clusterFit(uint b) {
     Moments m = Moments(0.0, vec3(0.0), vec3(0.0), vec3(0.0), mat3(0.0), mat3(0.0), mat3(0.0));
     for (uint other = 0u; other < push.bodies; ++other) {
         if (cluster[other] != mine) continue;
-        if (bodies[other].kind == FRAME_STANDS) return standing(origin);
+        if (mustStand(other)) return standing(origin);
         add(m, other, origin);
     }
     return fitOf(m, origin);

@@ -12,7 +12,10 @@ layout(std430, binding = 5) readonly buffer Radii { float radii[]; }; // below 0
 layout(std430, binding = 6) writeonly buffer Partial { vec4 partial[]; };
 layout(std430, binding = 7) readonly buffer Headings { vec4 headings[]; };
 layout(std430, binding = 8) readonly buffer Bounds { GridBounds bounds; };
+layout(constant_id = 2) const bool sleeps = false;
+layout(std430, binding = 9) readonly buffer Weights { float weights[]; }; // inverse mass, also of sleeping particles [1/kg]
 layout(push_constant) uniform Push { FramePush push; };
+#include "sleep/sleep.glsl"
 #include "collision/expected.glsl"
 
 // Position that the frame maps; without valid lists, the present position.
@@ -33,7 +36,7 @@ void main() {
     const FrameChunk chunk = chunks[c];
     const vec3 x0 = positions[chunk.origin].xyz, r0 = referenceOf(chunk.origin);
     vec3 sumR = vec3(0.0), sumX = vec3(0.0), sumV = vec3(0.0), speed = vec3(0.0), low = vec3(1e30), high = vec3(-1e30);
-    float count = 0.0;
+    float count = 0.0, sleepers = 0.0;
     mat3 rr = mat3(0.0), dr = mat3(0.0), vr = mat3(0.0);
     for (uint k = chunk.first; k < chunk.first + chunk.count; ++k) {
         const uint i = members[k];
@@ -44,6 +47,7 @@ void main() {
         sumX += x;
         sumV += v;
         speed += velocities[i].xyz;
+        if (sleeps && isAsleep(weights[i], velocities[i])) sleepers += 1.0;
         rr += outerProduct(r, r);
         dr += outerProduct(x - r, r);
         vr += outerProduct(v, r);
@@ -53,7 +57,7 @@ void main() {
     const uint first = c * FRAME_SUMS;
     partial[first + FRAME_SUM_R] = vec4(sumR, count);
     partial[first + FRAME_SUM_X] = vec4(sumX, 0.0);
-    partial[first + FRAME_SUM_V] = vec4(sumV, 0.0);
+    partial[first + FRAME_SUM_V] = vec4(sumV, sleepers);
     for (uint k = 0u; k < 3u; ++k) {
         partial[first + FRAME_SUM_RR + k] = vec4(rr[k], 0.0);
         partial[first + FRAME_SUM_DR + k] = vec4(dr[k], 0.0);

@@ -16,7 +16,7 @@ struct BodyFrame {
 #define FRAME_SUMS 15
 #define FRAME_SUM_R 0      // sum of r; w: particles
 #define FRAME_SUM_X 1      // sum of x
-#define FRAME_SUM_V 2      // sum of v
+#define FRAME_SUM_V 2      // sum of v; w: particles that sleep
 #define FRAME_SUM_RR 3     // sum of r r^T, three rows
 #define FRAME_SUM_DR 6     // sum of (x - r) r^T
 #define FRAME_SUM_VR 9     // sum of v r^T

@@ -62,6 +62,7 @@ struct Seen {
     BufferId radii;      ///< by slot; below 0 = touches nothing any more [m]
     BufferId bounds;     ///< one layout::GridBounds
     BufferId step;       ///< layout::StepParams
+    BufferId weights;    ///< by slot: inverse mass, also of sleeping particles [1/kg]; unbound = none sleeps
 };
 
 /// Appends the fit: once a step, before the first check of lists in it; nothing if nothing is fitted.

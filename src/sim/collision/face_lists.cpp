@@ -4,6 +4,7 @@
 #include "collision/face_points.h"
 #include "kernels.hpp"
 #include "sim/collision/row_contacts.hpp"
+#include "sim/sleep/sleep.hpp"
 
 #include <algorithm>
 #include <array>
@@ -154,7 +155,9 @@ Lists add(ProgramBuilder& program, const Request& request) {
 }
 
 void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
-    hash_grid::addFit(program, lists.grid, {particles.positions, particles.velocities, particles.step});
+    hash_grid::addFit(
+        program, lists.grid,
+        {particles.positions, particles.velocities, particles.step, sleep::weightsOf(particles)});
 }
 
 void addListCheck(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {

@@ -160,7 +160,7 @@ void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved, boo
 void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     body_frames::addFit(program, grid.frames,
                         {moved.positions, moved.velocities, grid.detected, grid.headings, grid.watched,
-                         grid.bounds, moved.step});
+                         grid.bounds, moved.step, moved.weights});
 }
 
 void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved) {

@@ -40,9 +40,10 @@ struct Request {
 
 /// Particles after the motion of a substep, whole work groups.
 struct Moved {
-    BufferId positions;  ///< xyz [m]
-    BufferId velocities; ///< of this motion, over step.h [m/s]; w = inverse mass [1/kg]
-    BufferId step;       ///< layout::StepParams
+    BufferId positions;         ///< xyz [m]
+    BufferId velocities;        ///< of this motion, over step.h [m/s]; w = inverse mass [1/kg]
+    BufferId step;              ///< layout::StepParams
+    BufferId weights = unbound; ///< inverse masses, also of sleeping particles [1/kg]; unbound = none sleeps
 };
 
 /// The largest radius in the grid [m]: twice the median, so that a few large particles do not enlarge all

@@ -152,7 +152,8 @@ void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk
 
 void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                    const ParticleBuffers& next, bool isFirst, bool isLast) {
-    const hash_grid::Moved moved{predicted.positions, predicted.velocities, predicted.step};
+    const hash_grid::Moved moved{predicted.positions, predicted.velocities, predicted.step,
+                                 sleep::weightsOf(predicted)};
     if (isFirst) hash_grid::addFit(program, contacts.lists.grid, moved);
     if (contacts.solvesListedGroups)
         addUncontactedEnd(program, contacts, predicted, next, true);

@@ -201,6 +201,10 @@ void addOpening(Build& build) {
     makeIndirect(program, particles.sleep);
 }
 
+BufferId weightsOf(const ParticleBuffers& particles) {
+    return particles.sleep ? particles.sleep->weights : unbound;
+}
+
 void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
     if (!predicted.sleep) return;
     Sleep& sleep = *predicted.sleep;

@@ -30,6 +30,9 @@ struct Sleep {
     std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`
 };
 
+/// Inverse masses by slot, also of sleeping particles [1/kg]; unbound if none can sleep.
+BufferId weightsOf(const ParticleBuffers& particles);
+
 /// Sets build.particles.sleep: adds the buffers. Nothing unless Settings::sleeps; the functions below then
 /// add nothing either.
 void add(Build& build);
