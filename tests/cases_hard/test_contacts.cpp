@@ -174,14 +174,15 @@ TEST(HardContacts, Case15ABodyThatPressesFastIntoOneThatHoldsGainsNoEnergy) {
     }
 }
 
-// The search along paths has room for 256 fast particles. With more, all of them are slowed down and counted,
-// and none is lost.
+// The search along paths has room for 256 particles that are fast against the motion that all share. With
+// more, all of them are slowed down and counted, and none is lost.
 TEST(HardContacts, Case15MoreFastParticlesThanThereIsRoomForAreSlowedDownAndCounted) {
     const auto swarm = [](std::uint32_t count, float speed) {
         Scene scene = weightless();
         for (std::uint32_t i = 0; i < count; ++i)
-            scene.particles.push_back(ballAt(
-                {0, 0.11f * static_cast<float>(i % 20), 0.11f * static_cast<float>(i / 20)}, {speed, 0, 0}));
+            scene.particles.push_back(
+                ballAt({0, 0.11f * static_cast<float>(i % 20), 0.11f * static_cast<float>(i / 20)},
+                       {i % 2 == 0 ? speed : -speed, 0, 0}));
         return scene;
     };
     const auto slowedOf = [&](const Scene& scene) {

@@ -184,11 +184,11 @@ TEST_F(Run, DoesAStepWithoutRoomForItsContactsAgainWithMore) {
 }
 
 TEST_F(Run, WarnsOfParticlesThatWereSlowedDownForSafety) {
-    // One particle more than the search along paths takes, faster than a radius a substep (48 m/s): 60 m/s.
+    // One particle more than the search along paths takes, faster than a radius a substep (48 m/s): +-60 m/s.
     const auto swarm = [](const std::string& speed) {
-        return "gravity = [0, 0, 0]\n[solver]\nsubsteps = 16\n[[particles]]\nradius = 0.05\nspacing = 0.2\n"
-               "count = [1, 1, 257]\nvelocity = [" +
-               speed + ", 0, 0]\n";
+        const std::string row = "[[particles]]\nradius = 0.05\nspacing = 0.4\n";
+        return "gravity = [0, 0, 0]\n[solver]\nsubsteps = 16\n" + row + "count = [1, 1, 129]\nvelocity = [" +
+               speed + ", 0, 0]\n" + row + "count = [1, 1, 128]\nvelocity = [-" + speed + ", 0, 0]\n";
     };
     write("fast.toml", swarm("60"));
     write("slow.toml", swarm("40"));

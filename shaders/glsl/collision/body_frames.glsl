@@ -49,10 +49,11 @@ float slackOf(mat3 a, mat3 turnOfSubstep, float reach, float margin, float pace)
 void advance(inout BodyFrame frame, float h, float reach, float margin, float pace) {
     const mat3 w = h * matrixOf(frame.rates);
     const vec3 to = placeOf(frame), u = frame.speed.xyz + h * frame.gravity.xyz, far = abs(to);
-    const mat3 before = matrixOf(frame.map), a = before + w * before;
+    const mat3 before = matrixOf(frame.map), change = w * before, a = before + change;
     frame.before = frame.map;
     setMap(frame, a, to + h * u);
     const float slack = min(slackOf(before, w, reach, margin, pace), slackOf(a, w, reach, margin, pace));
+    frame.gravity.w = sqrt(squaredNorm(change));
     frame.speed = vec4(u, slack - 1e-6 * max(far.x, max(far.y, far.z)));
 }
 

@@ -19,10 +19,11 @@ layout(std430, binding = 5) writeonly buffer Fast { uint fast[]; };
 layout(std140, binding = 6) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
 #define FRAMES_BINDING 7
+#define WAYS_BINDING 8
 #define HEADING(i) vec4(0.0)
 #include "collision/list_check.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
-    checkLists(i, POSITION(i).xyz, VELOCITY(i).xyz, push.quiet, push.most);
+    checkLists(i, POSITION(i).xyz, VELOCITY(i).xyz);
 }

@@ -26,6 +26,6 @@ layout(constant_id = 1) const bool hasHeadings = false;
 void main() {
     const uint i = itemIndex(push.count);
     if (i == ~0u) return;
-    float farthest;
-    if (hasStrayed(i, POSITION(i).xyz, VELOCITY(i).xyz, farthest)) atomicMax(bounds.moved, floatBitsToUint(clamp(farthest, 1e-30, 1e30)));
+    Stray stray;
+    if (hasStrayed(i, POSITION(i).xyz, VELOCITY(i).xyz, stray)) atomicMax(bounds.moved, floatBitsToUint(clamp(stray.farthest, 1e-30, 1e30)));
 }

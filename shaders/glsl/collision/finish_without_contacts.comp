@@ -20,8 +20,8 @@ layout(std430, binding = 4) readonly buffer Radii { float radii[]; };
 layout(std430, binding = 5) writeonly buffer Fast { uint fast[]; };
 layout(std140, binding = 6) uniform Step { StepParams step; };
 #define FRAMES_BINDING 7
+#define WAYS_BINDING 14
 #define HEADING(i) vec4(0.0)
-#include "collision/list_check.glsl"
 layout(std430, binding = 8) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 9) writeonly buffer NextPositions { vec4 nextPositions[]; };
 layout(std430, binding = 10) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
@@ -34,6 +34,7 @@ layout(constant_id = 13) const bool hasRebound = false;
 #include "forces/forces.glsl"
 #include "collision/finish_substep.glsl"
 layout(push_constant) uniform Push { GridPush push; };
+#include "collision/list_check.glsl"
 layout(constant_id = 3) const bool checksLists = true; // false: only particles that were slowed down since
 
 void main() {
@@ -41,5 +42,5 @@ void main() {
     if (i == ~0u) return;
     const vec4 x = POSITION(i), velocity = VELOCITY(i);
     finish(i, x.xyz, x.w, velocity, vec3(0.0), velocity.xyz + vec3(0.0));
-    if (checksLists) checkLists(i, x.xyz, velocity.xyz, push.quiet, push.most);
+    if (checksLists) checkLists(i, x.xyz, velocity.xyz);
 }

@@ -4,9 +4,10 @@
 // Distance up to which a pair with this sum of radii is listed [m]: it counts in shares a little beyond touching.
 float listedUpTo(float touching) { return (1.0 + SHARE_BAND) * touching + push.margin; }
 
-bool isNear(uint i, uint j, float radius, vec3 d) {
+// onWay: or nearer than touching on its path.
+bool isNear(uint i, uint j, float radius, vec3 d, bool onWay) {
     const float touching = radius + (hasOneRadius ? radius : RADIUS(j)), listed = listedUpTo(touching);
-    return i != j && (dot(d, d) < listed * listed || wasNear(i, j, touching, d)) && !isExcluded(i, j);
+    return i != j && (dot(d, d) < listed * listed || onWay && wasNear(i, j, touching, d)) && !isExcluded(i, j);
 }
 
 void list(uint i, uint j) {
@@ -52,7 +53,7 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, int layer, Frame frame
             const ivec3 cell = cellOf(xj, frame);
             const ivec3 rowStart = firstCellOf(home, layer, visit < second ? 0 : visit < third ? 1 : 2);
             if (cell.yz != rowStart.yz || cell == home && other.w <= i) continue; // in one cell the smaller index lists the pair
-            if (isFast(other.w) || !isNear(i, other.w, radius, x - xj)) continue;
+            if (isFast(other.w) || !isNear(i, other.w, radius, x - xj, isSwept)) continue;
             list(i, other.w);
         }
     }

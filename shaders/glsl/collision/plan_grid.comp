@@ -40,7 +40,7 @@ void noteLists(bool needsPasses) {
 
 void planPasses(bool isBuilt, bool isComplete) {
     atomicMax(status.candidates, bounds.lacking);
-    const bool isSwept = bounds.sweeping > 0u, isSlowed = bounds.hurrying > MOST_FAST;
+    const bool areFew = bounds.sweepers <= MOST_SWEEPERS, isSlowed = bounds.hurrying > MOST_FAST;
     noteLists(!isComplete || isSlowed);
     plan(GRID_PARTICLES, isBuilt, push.count);
     plan(GRID_PARTICLE_CHUNKS, isBuilt, (push.count - 1u) / GRID_CHUNK + 1u);
@@ -48,24 +48,23 @@ void planPasses(bool isBuilt, bool isComplete) {
     plan(GRID_ONE_GROUP, isBuilt, 1u);
     if (push.others > 0u) plan(GRID_OTHERS, isBuilt, push.others);
     plan(GRID_SLOWED, isSlowed, push.count);
-    plan(GRID_SWEPT, isBuilt && isSwept, push.count);
-    plan(GRID_UNSWEPT, isBuilt && !isSwept, push.count);
+    plan(GRID_SWEPT, isBuilt && !areFew, push.count);
+    plan(GRID_UNSWEPT, isBuilt && areFew, push.count);
     if (isBuilt) {
         bounds.listed = bounds.listedParticles = 0u; // the passes that make lists count again
         bounds.pairs = bounds.entries = bounds.links = 0u;
         bounds.lowX = bounds.lowY = bounds.lowZ = ~0u;
         bounds.highX = bounds.highY = bounds.highZ = 0u;
-        bounds.edge = isSwept ? push.edge : push.quietEdge;
+        bounds.edge = areFew ? push.quietEdge : push.edge;
         ++bounds.builds;
         bounds.drift -= strayOf(bounds.moved);
     }
     touching[0] = DispatchArguments(bounds.listed, 1u, 1u, 0u);
     touching[1] = DispatchArguments(bounds.listedParticles, 1u, 1u, 0u);
     touching[2] = DispatchArguments(min((bounds.entries + GROUP_SIZE - 1u) / GROUP_SIZE, uint(ROWS_MOST_GROUPS)), 1u, 1u, 0u);
-    bounds.moved = bounds.sweeping = 0u;
-    bounds.isSwept = isSwept ? 1u : 0u;
-    bounds.fast = isSlowed ? 0u : bounds.hurrying;
-    bounds.hurrying = 0u;
+    bounds.isSwept = bounds.sweeping;
+    bounds.fast = isSlowed ? 0u : areFew ? bounds.sweepers : bounds.hurrying;
+    bounds.moved = bounds.sweeping = bounds.sweepers = bounds.hurrying = 0u;
 }
 
 // The time for which particles follow their headings, in the substep that is checked next.

@@ -8,7 +8,7 @@ struct BodyFrame {
     vec4 speed;     // velocity of `to` [m/s]; w: slack [m], below 0 = no valid lists
     vec4 rates[3];  // rows of dA/dt A^-1 [1/s]; w: to [m]
     vec4 from;      // [m]
-    vec4 gravity;   // [m/s^2], 0 where the frame stands still
+    vec4 gravity;   // [m/s^2], 0 where the frame stands still; w: change of A in the substep
 };
 
 // Sums over particles of a body. x: positions, r: positions when lists were made, v: velocities; x and r are relative

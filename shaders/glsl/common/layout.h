@@ -270,10 +270,10 @@ struct GridBounds {
     uint lowX, lowY, lowZ, highX, highY, highZ; // keys
     uint moved;                                 // bits of a float [m]
     uint builds;                                // number of builds since the simulation began
-    // Results for the next substep: 1 if particles move so far that contacts may lie on their paths, and the number
-    // listed as too fast for cells. plan_grid moves them to:
-    uint sweeping, hurrying;
-    uint isSwept, fast; // the same for the substep that is solved
+    // Results for the next substep: 1 if particles move so far that contacts may lie on their paths, the number of such
+    // particles of the grid, and of those too fast for cells. plan_grid moves them to:
+    uint sweeping, sweepers, hurrying;
+    uint isSwept, fast; // the first for the substep that is solved, and the number of particles to be searched one by one
     uint listed, listedParticles; // work groups with an owner of a list, with a particle, that has a candidate
     uint lacking; // StatusWords::candidates of a step of this simulation that lacked capacity, else 0: no later step may finish either
     float drift;  // distance that particles may still stray, in sum, from their expected positions in this step [m]
@@ -309,6 +309,8 @@ struct GridBounds {
 
 // Largest number of particles too fast for cells; if there are more, all of them are slowed down.
 #define MOST_FAST 256
+// Up to so many particles on whose path contacts may lie are searched one by one; if there are more, all are, in wide cells.
+#define MOST_SWEEPERS 32
 
 struct GridPush {
     uint count;  // number of particles; whole work groups

@@ -77,6 +77,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                  .quiet = quietWay(request),
                                                  .bodies = request.bodies,
                                                  .reach = wide * largestOf(request.radii),
+                                                 .hasWays = request.hasWays,
                                                  .substeps = request.substeps}),
                 .quietMost = quietMost,
                 .hasOneRadius = hasOneRadius(request.radii)};
@@ -123,13 +124,13 @@ void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Move
     std::vector<BufferId> buffers{grid.sorted, grid.starts,   moved.positions, grid.radii,
                                   grid.bounds, pooled.chains, pooled.pairs,    lists.large};
     const bool hasExclusions = lists.excluded != BufferId{};
-    buffers.push_back(boundIf(hasExclusions, lists.excluded));
-    const ProgramBuilder::Constants constants{{hasOneRadiusId, lists.hasOneRadius},
-                                              {hasExclusionsId, hasExclusions}};
+    buffers.insert(buffers.end(), {boundIf(hasExclusions, lists.excluded), moved.velocities, grid.fast,
+                                   moved.step, grid.ways});
+    ProgramBuilder::Constants constants = grid.wayConstants();
+    constants.insert({{hasOneRadiusId, lists.hasOneRadius}, {hasExclusionsId, hasExclusions}});
     layout::FindPush quiet = lists.push;
     quiet.most = lists.quietMost;
     program.dispatchIndirect(k::findContacts, grid.unswept, buffers, quiet, constants);
-    buffers.insert(buffers.end(), {moved.velocities, grid.fast, moved.step});
     program.dispatchIndirect(k::findContactsSwept, grid.swept, buffers, lists.push, constants);
     addSorting(program, lists);
 }

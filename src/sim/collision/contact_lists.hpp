@@ -31,6 +31,7 @@ struct Request {
     std::uint32_t capacity = 0;   ///< mean capacity, in candidates of a particle
     Exclusions exclusions;
     const body_frames::Bodies* bodies = nullptr; ///< as in hash_grid::Request
+    bool hasWays = false;                        ///< as in hash_grid::Request
     std::uint32_t substeps = 1;                  ///< of a step
     bool hasMemory = false;                      ///< whether contacts have memory
     pooled_lists::Initial initial;

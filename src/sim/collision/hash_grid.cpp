@@ -131,7 +131,10 @@ Grid add(ProgramBuilder& program, const Request& request) {
     grid.push.margin = request.margin;
     grid.headings = unbound;
     if (request.hasHeadings) addHeadings(program, grid, request);
-    if (request.quiet >= 0) grid.fast = program.scratch<std::uint32_t>(name + ".fast", MOST_FAST);
+    if (request.quiet >= 0)
+        grid.fast = program.scratch<std::uint32_t>(name + ".fast", MOST_FAST + MOST_SWEEPERS);
+    grid.ways = request.hasWays ? program.scratch<float>(name + ".ways", count) : unbound;
+    grid.motions = request.hasWays ? program.scratch<layout::vec4>(name + ".motions", count) : unbound;
     program.program().grids.push_back({.name = name,
                                        .bounds = grid.bounds,
                                        .starts = grid.starts,
@@ -145,15 +148,16 @@ void addListCheck(ProgramBuilder& program, const Grid& grid, const Moved& moved)
     namespace k = kernels;
     program.dispatch(k::checkPairLists, grid.push.count,
                      {moved.positions, grid.detected, moved.velocities, grid.bounds, grid.radii, grid.fast,
-                      moved.step, grid.frames.frames},
-                     grid.push, grid.frames.constants());
+                      moved.step, grid.frames.frames, grid.ways, grid.motions},
+                     grid.push, grid.checkConstants());
 }
 
 void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved, bool isLast) {
     addPlan(program, grid, moved.step, isLast);
-    program.dispatchIndirect(
-        kernels::clampSpeeds, grid.slowed,
-        {moved.positions, moved.velocities, grid.radii, program.program().status, moved.step}, grid.push);
+    program.dispatchIndirect(kernels::clampSpeeds, grid.slowed,
+                             {moved.positions, moved.velocities, grid.radii, program.program().status,
+                              moved.step, grid.ways, grid.motions},
+                             grid.push, grid.wayConstants());
     addCells(program, grid, moved.positions, moved);
 }
 

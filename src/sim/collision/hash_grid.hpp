@@ -33,6 +33,8 @@ struct Request {
     float reach = 0;                ///< the largest distance at which two touch [m]
     /// Whether particles are expected to keep their velocities for some substeps (headings.glsl).
     bool hasHeadings = false;
+    /// Whether the speed of a particle counts against its frame. Else it counts as it is.
+    bool hasWays = false;
     std::uint32_t substeps = 1;               ///< of a step
     const char* name = "grid";                ///< of its buffers
     const char* radiiName = "contacts.radii"; ///< of the buffer of radii
@@ -53,9 +55,13 @@ float largestInGrid(std::span<const float> radii);
 float largestUpTo(std::span<const float> radii, float most);
 constexpr std::size_t mostLarge = 64;
 
+constexpr std::uint32_t hasWaysId = 14; // constant_id of kernels that check particles or read `ways`
+
 struct Grid {
     layout::GridPush push{};
     BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
+    BufferId ways;     ///< by which particles move in the substep against their frames [m]; unbound = none
+    BufferId motions;  ///< those motions, of particles too fast for cells; unbound = none
     BufferId headings; ///< velocities of particles relative to frames when lists were made; unbound = none
     IndirectItems particles, particleChunks, cellChunks, oneGroup,
         others; ///< of passes that run with a build
@@ -69,6 +75,14 @@ struct Grid {
     IndirectItems swept, unswept; ///< one item a particle: contacts may lie on its way, or cannot
     IndirectItems slowed;         ///< if too many particles are too fast
     body_frames::Frames frames;
+
+    /// Constants of kernels that check particles, and of those that read `ways`.
+    ProgramBuilder::Constants wayConstants() const { return {{hasWaysId, ways != unbound}}; }
+    ProgramBuilder::Constants checkConstants() const {
+        ProgramBuilder::Constants constants = frames.constants();
+        constants.merge(wayConstants());
+        return constants;
+    }
 };
 
 Grid add(ProgramBuilder& program, const Request& request);

@@ -126,10 +126,11 @@ void addUncontactedEnd(ProgramBuilder& program, const Contacts& contacts, const 
                                   next.positions,      next.velocities};
     ProgramBuilder::Constants constants = remainderConstants(next.layout);
     buffers.push_back(boundIf(contacts.hasRebound, contacts.before));
-    buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
+    buffers.insert(buffers.end(),
+                   {contacts.planes.planes, contacts.planes.contactOffsets, grid.ways, grid.motions});
     constants.merge(contacts.planes.constants());
     constants.insert({{checksListsId, checksLists}, {hasReboundId, contacts.hasRebound}});
-    constants.merge(grid.frames.constants());
+    constants.merge(grid.checkConstants());
     layout::GridPush push = grid.push;
     push.count = contacts.particleCount;
     buffers.push_back(contacts.particles);
@@ -261,6 +262,7 @@ Contacts add(ProgramBuilder& program, const SceneModel& model) {
                                     .capacity = room,
                                     .exclusions = std::move(exclusions),
                                     .bodies = &bodies,
+                                    .hasWays = !settings.sleeps,
                                     .substeps = settings.substeps,
                                     .hasMemory = surfaces.hasFriction || hasRecovery,
                                     .initial = first,

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -174,6 +175,48 @@ TEST(BodyFrames, MissNoPairOfSheets) {
     const std::uint64_t hash = test::hashOfRun(scene, settingsWith(), 40);
     for (const float margin : {0.15f, 1.0f, 2.0f})
         EXPECT_EQ(test::hashOfRun(scene, settingsWith(margin), 40), hash) << "margin " << margin;
+}
+
+// The speed that counts is that against the frame. A body of more particles than are searched one by one
+// (MOST_FAST) was slowed down once it flew by more than a radius in a substep.
+TEST(BodyFrames, SlowNothingDownThatFliesAsAWhole) {
+    for (const float speed : {30.0f, 100.0f, 1000.0f})
+        for (const Vec3 spin : {Vec3{}, Vec3{4, -5, 3}}) {
+            Scene scene;
+            scene.gravity = {};
+            addBox(scene, {0, 0, 0}, {7, 6, 6}, {.velocity = {speed, 0, 0}, .spin = spin});
+            ASSERT_GT(scene.particles.size(), std::size_t{MOST_FAST});
+            test::Runner runner(scene, settingsWith());
+            std::uint32_t slowed = 0;
+            for (int step = 0; step < 20; ++step) slowed += runner.run(1).slowed;
+            EXPECT_EQ(slowed, 0u) << speed << " m/s";
+            double mass = 0, momentum = 0;
+            const auto v = runner.velocities();
+            for (std::size_t i = 0; i < v.size(); ++i) {
+                const double m = 1 / double{scene.particles[i].inverseMass};
+                mass += m;
+                momentum += m * v[i].x();
+            }
+            EXPECT_NEAR(momentum / mass, double{speed}, 1e-4 * double{speed});
+        }
+}
+
+// Two large bodies meet: what both share as a motion must not hide what they meet.
+TEST(BodyFrames, MissNoPairOfLargeBodiesThatMeetFast) {
+    for (const float speed : {2.0f, 8.0f, 15.0f}) {
+        Scene scene;
+        scene.gravity = {};
+        addBox(scene, {0, 0, 0}, {6, 6, 6}, {.velocity = {speed, 0, 0}});
+        addBox(scene, {0.6f, 0.02f, 0.01f}, {6, 6, 6}, {.velocity = {-speed, 0, 0}});
+        std::optional<std::uint64_t> hash;
+        for (const float margin : {0.25f, 0.5f, 1.0f}) {
+            test::Runner runner(scene, settingsWith(margin));
+            ASSERT_FALSE(runner.run(20).isUndone);
+            const std::uint64_t one = runner.stateHash();
+            EXPECT_EQ(hash.value_or(one), one) << "margin " << margin << ", " << speed << " m/s";
+            hash = one;
+        }
+    }
 }
 
 } // namespace sinew::sim
