@@ -109,6 +109,20 @@ TEST(HeldMarks, AreThereForEachHeldParticleAndNoOther) {
     EXPECT_TRUE(openText(block).light.marks.ranges.empty());
 }
 
+TEST(HeldMarks, ShowWhatABodyHangsOnButNoBodyThatNeverMoves) {
+    sim::Scene scene;
+    scene.particles.resize(6, {.inverseMass = 1});
+    scene.particles[1].inverseMass = scene.particles[4].inverseMass = scene.particles[5].inverseMass = 0;
+    scene.bodies = {{.name = "chain", .firstParticle = 0, .particleCount = 4},
+                    {.name = "floor", .firstParticle = 4, .particleCount = 2}};
+    scene.distances = {{.a = 1, .b = 2, .restLength = 0.02f}, {.a = 4, .b = 5, .restLength = 0.02f}};
+    const BallList hung = marksOf(scene, {}, 0.1f);
+    EXPECT_EQ(markedIn(hung), std::vector<std::uint32_t>{1});
+    EXPECT_EQ(hung.radii[1], 0.1f) << "there is no mark beside it";
+    const std::vector<sim::NamedHold> beside{{"hold", {2}}};
+    EXPECT_EQ(marksOf(scene, beside, 0.1f).radii[1], 0.35f * 0.02f) << "there is one";
+}
+
 TEST(HeldMarks, AreOneDrawWhereGapsAreShortAndApartWhereTheyAreLong) {
     sim::Scene scene;
     scene.particles.resize(100);

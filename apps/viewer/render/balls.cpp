@@ -1,6 +1,7 @@
 // Uses fewer triangles per ball if there are many balls, which are then small in the picture.
 #include "viewer/render/balls.hpp"
 
+#include "sinew/inverse_masses.hpp"
 #include "viewer/render/geometry.hpp"
 #include "viewer/render/mesh_buffer.hpp"
 
@@ -138,6 +139,19 @@ void cut(BallMesh& ball) {
     ball.triangles = std::move(quarters);
 }
 
+// What a body hangs on: the particles of it that never move, if others do.
+std::vector<std::uint32_t> fixedInMovingBodies(const sim::Scene& scene) {
+    const std::vector<float> inverseMasses = sim::inverseMasses(scene);
+    std::vector<std::uint32_t> all;
+    for (const sim::Body& body : scene.bodies) {
+        std::vector<std::uint32_t> fixed;
+        for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
+            if (inverseMasses[i] == 0) fixed.push_back(i);
+        if (fixed.size() < body.particleCount) all.insert(all.end(), fixed.begin(), fixed.end());
+    }
+    return all;
+}
+
 } // namespace
 
 BallList ballsOf(const sim::Scene& scene) {
@@ -150,11 +164,17 @@ BallList allBallsOf(const sim::Scene& scene) {
 
 BallList marksOf(const sim::Scene& scene, std::span<const sim::NamedHold> holds, float radius) {
     constexpr std::uint32_t longestGap = 8;
-    if (holds.empty()) return {};
-    const std::vector<float> shortest = shortestLinks(scene);
-    BallList list{.ranges = {}, .radii = std::vector<float>(scene.particles.size())};
+    std::vector<std::uint32_t> marked = fixedInMovingBodies(scene);
     for (const sim::NamedHold& hold : holds)
-        for (const std::uint32_t i : hold.particles) list.radii[i] = std::min(radius, 0.35f * shortest[i]);
+        marked.insert(marked.end(), hold.particles.begin(), hold.particles.end());
+    if (marked.empty()) return {};
+    BallList list{.ranges = {}, .radii = std::vector<float>(scene.particles.size())};
+    for (const std::uint32_t i : marked) list.radii[i] = radius;
+    for (const sim::DistanceConstraint& link : scene.distances) {
+        if (!(link.restLength > 0) || list.radii[link.a] == 0 || list.radii[link.b] == 0) continue;
+        for (const std::uint32_t end : {link.a, link.b})
+            list.radii[end] = std::min(list.radii[end], 0.35f * link.restLength);
+    }
     for (std::uint32_t i = 0; i < list.radii.size(); ++i) {
         if (list.radii[i] == 0) continue;
         if (list.ranges.empty() || i - list.ranges.back().first >= list.ranges.back().count + longestGap)

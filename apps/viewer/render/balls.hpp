@@ -25,9 +25,9 @@ BallList ballsOf(const sim::Scene& scene);
 /// apart.
 BallList allBallsOf(const sim::Scene& scene);
 
-/// Marks of held particles: balls of `radius` [m], smaller where links are short, so that marks of a lattice
-/// stay apart. One draw covers a run of them; gaps of a few particles, whose balls have size 0, join two
-/// runs.
+/// Marks of held particles, and of those of moving bodies that never move: balls of `radius` [m], smaller
+/// where two of them are linked, so that they stay apart. One draw covers a run of them; gaps of a few
+/// particles, whose balls have size 0, join two runs.
 BallList marksOf(const sim::Scene& scene, std::span<const sim::NamedHold> holds, float radius);
 
 /// A triangle mesh of a ball of radius 1, counter-clockwise seen from outside: an icosahedron whose triangles
