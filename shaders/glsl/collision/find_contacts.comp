@@ -53,12 +53,14 @@ void searchOne(uint i, vec3 x, float radius, bool isSmall, uint j) {
 
 // Fast particles in batches: most are near none, so a batch is measured first.
 void searchFast(uint i, vec3 x, float radius, bool isSmall) {
-    const float own = listedUpTo(radius) + farOf(i);
+    const float own = listedUpTo(radius);
+    const vec3 way = wayOf(i);
     for (uint first = 0u; first < fastParticles; first += 32u) {
         uint near = 0u;
         for (uint f = first; f < min(first + 32u, fastParticles); ++f) {
             const uint j = fast[FIRST_FAST + f];
-            const float reach = own + (1.0 + SHARE_BAND) * RADIUS(j) + farOf(j);
+            const vec3 against = way - wayOf(j); // a stray may come near a body that has another frame
+            const float reach = own + (1.0 + SHARE_BAND) * RADIUS(j) + 1.001 * length(against);
             const vec3 d = x - POSITION(j).xyz;
             near |= uint(dot(d, d) < reach * reach) << f - first;
         }
