@@ -12,17 +12,18 @@ layout(std430, binding = 2) readonly buffer Radii { float radii[]; };
 layout(std430, binding = 3) buffer Status { StatusWords status; };
 layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(constant_id = 14) const bool hasWays = false;
-layout(std430, binding = 5) buffer Ways { float ways[]; };               // as in list_check.glsl
-layout(std430, binding = 6) readonly buffer Motions { vec4 motions[]; }; // the same
+layout(std430, binding = 5) writeonly buffer Ways { float ways[]; }; // as in list_check.glsl
 layout(push_constant) uniform Push { GridPush push; };
 
+// Speeds count as they are: nothing at rest moves on with others. So do the ways of all particles then.
 void main() {
     const uint i = itemIndex(push.count);
     const vec3 v = velocities[i].xyz;
-    const float way = hasWays ? ways[i] : wayOf(step.h, v);
+    const float way = wayOf(step.h, v);
+    if (hasWays) ways[i] = way;
     if (!isHurrying(radii[i], way, push.quiet, push.most)) return;
     const float share = 0.999 * max(push.most - radii[i], push.quiet) / way;
-    const vec3 change = (share - 1.0) * (hasWays ? motions[i].xyz / step.h : v);
+    const vec3 change = (share - 1.0) * v;
     velocities[i].xyz = v + change;
     positions[i].xyz += step.h * change;
     if (hasWays) ways[i] = share * way;

@@ -134,7 +134,6 @@ Grid add(ProgramBuilder& program, const Request& request) {
     if (request.quiet >= 0)
         grid.fast = program.scratch<std::uint32_t>(name + ".fast", MOST_FAST + MOST_SWEEPERS);
     grid.ways = request.hasWays ? program.scratch<float>(name + ".ways", count) : unbound;
-    grid.motions = request.hasWays ? program.scratch<layout::vec4>(name + ".motions", count) : unbound;
     program.program().grids.push_back({.name = name,
                                        .bounds = grid.bounds,
                                        .starts = grid.starts,
@@ -148,16 +147,17 @@ void addListCheck(ProgramBuilder& program, const Grid& grid, const Moved& moved)
     namespace k = kernels;
     program.dispatch(k::checkPairLists, grid.push.count,
                      {moved.positions, grid.detected, moved.velocities, grid.bounds, grid.radii, grid.fast,
-                      moved.step, grid.frames.frames, grid.ways, grid.motions},
+                      moved.step, grid.frames.frames, grid.ways,
+                      boundIf(grid.ways != unbound, grid.frames.ofSlots)},
                      grid.push, grid.checkConstants());
 }
 
 void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved, bool isLast) {
     addPlan(program, grid, moved.step, isLast);
-    program.dispatchIndirect(kernels::clampSpeeds, grid.slowed,
-                             {moved.positions, moved.velocities, grid.radii, program.program().status,
-                              moved.step, grid.ways, grid.motions},
-                             grid.push, grid.wayConstants());
+    program.dispatchIndirect(
+        kernels::clampSpeeds, grid.slowed,
+        {moved.positions, moved.velocities, grid.radii, program.program().status, moved.step, grid.ways},
+        grid.push, grid.wayConstants());
     addCells(program, grid, moved.positions, moved);
 }
 

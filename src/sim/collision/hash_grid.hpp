@@ -60,8 +60,7 @@ constexpr std::uint32_t hasWaysId = 14; // constant_id of kernels that check par
 struct Grid {
     layout::GridPush push{};
     BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
-    BufferId ways;     ///< by which particles move in the substep against their frames [m]; unbound = none
-    BufferId motions;  ///< those motions, of particles too fast for cells; unbound = none
+    BufferId ways;     ///< by which particles may come near others in the substep [m]; unbound = none
     BufferId headings; ///< velocities of particles relative to frames when lists were made; unbound = none
     IndirectItems particles, particleChunks, cellChunks, oneGroup,
         others; ///< of passes that run with a build

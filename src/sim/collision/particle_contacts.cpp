@@ -126,8 +126,8 @@ void addUncontactedEnd(ProgramBuilder& program, const Contacts& contacts, const 
                                   next.positions,      next.velocities};
     ProgramBuilder::Constants constants = remainderConstants(next.layout);
     buffers.push_back(boundIf(contacts.hasRebound, contacts.before));
-    buffers.insert(buffers.end(),
-                   {contacts.planes.planes, contacts.planes.contactOffsets, grid.ways, grid.motions});
+    buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets, grid.ways,
+                                   boundIf(grid.ways != unbound, grid.frames.ofSlots)});
     constants.merge(contacts.planes.constants());
     constants.insert({{checksListsId, checksLists}, {hasReboundId, contacts.hasRebound}});
     constants.merge(grid.checkConstants());

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -181,7 +182,7 @@ TEST(BodyFrames, MissNoPairOfSheets) {
 // (MOST_FAST) was slowed down once it flew by more than a radius in a substep.
 TEST(BodyFrames, SlowNothingDownThatFliesAsAWhole) {
     for (const float speed : {30.0f, 100.0f, 1000.0f})
-        for (const Vec3 spin : {Vec3{}, Vec3{4, -5, 3}}) {
+        for (const Vec3 spin : {Vec3{}, Vec3{4, -5, 3}, Vec3{20, 0, 15}}) {
             Scene scene;
             scene.gravity = {};
             addBox(scene, {0, 0, 0}, {7, 6, 6}, {.velocity = {speed, 0, 0}, .spin = spin});
@@ -199,6 +200,59 @@ TEST(BodyFrames, SlowNothingDownThatFliesAsAWhole) {
             }
             EXPECT_NEAR(momentum / mass, double{speed}, 1e-4 * double{speed});
         }
+}
+
+// Before lists exist a particle has no body in its list entry. All were measured against the first frame,
+// here that of a bullet, and a lattice at rest was thrown along.
+TEST(BodyFrames, LeaveAtRestWhatABulletFarAwayDoesNotTouch) {
+    Scene scene;
+    scene.gravity = {};
+    scene.particles.push_back(
+        {.position = {0, 8, 0}, .velocity = {90, 0, 0}, .inverseMass = 1, .radius = 0.02f});
+    addBox(scene, {0, 0, 0}, {7, 6, 6}, {});
+    test::Runner runner(scene, settingsWith());
+    EXPECT_EQ(runner.run(1).slowed + runner.run(1).slowed, 0u);
+    const auto v = runner.velocities();
+    EXPECT_NEAR(v[0].x(), 90, 1e-3);
+    for (std::size_t i = 1; i < v.size(); ++i) ASSERT_LE(v[i].norm(), 1e-3) << i;
+}
+
+// An undone step leaves no lists either: none of both bodies may be slowed down in the next one.
+TEST(BodyFrames, SlowNothingDownAfterAStepThatIsUndone) {
+    Scene scene;
+    scene.gravity = {};
+    addBox(scene, {0, 0, 0}, {7, 6, 6}, {.velocity = {60, 0, 0}});
+    addBox(scene, {0, 30, 0}, {3, 3, 3}, {});
+    test::Runner runner(scene, settingsWith());
+    std::uint32_t slowed = 0;
+    for (int step = 0; step < 4; ++step) slowed += runner.run(1).slowed;
+    runner.writePosition(5, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_TRUE(runner.run(1).isUndone);
+    for (int step = 0; step < 4; ++step) {
+        const Status status = runner.run(1);
+        EXPECT_FALSE(status.isUndone);
+        slowed += status.slowed;
+    }
+    EXPECT_EQ(slowed, 0u);
+    const auto v = runner.velocities();
+    for (std::size_t i = 0; i < 392; ++i) ASSERT_NEAR(v[i].x(), 60, 1e-2) << i;
+}
+
+// If too much is too fast, what moves is slowed down. A body at rest that shares a frame with it must not
+// move on with it.
+TEST(BodyFrames, LeaveAtRestWhatAFastBodyPasses) {
+    Scene scene;
+    scene.gravity = {};
+    addBox(scene, {0, 0, 0}, {7, 6, 6}, {});
+    const std::size_t second = scene.particles.size();
+    addBox(scene, {-0.6f, 0.5f, 0}, {7, 6, 6}, {.velocity = {64, 0, 0}}); // 3 radii a substep
+    test::Runner runner(scene, settingsWith());
+    for (int step = 0; step < 3; ++step) ASSERT_FALSE(runner.run(1).isUndone);
+    const auto v = runner.velocities();
+    double most = 0;
+    for (std::size_t i = 0; i < second; ++i) most = std::max(most, v[i].norm());
+    EXPECT_LE(most, 1e-2);
+    EXPECT_GT(v[second].x(), 1);
 }
 
 // Two large bodies meet: what both share as a motion must not hide what they meet.
