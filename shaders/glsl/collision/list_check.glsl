@@ -8,7 +8,7 @@
 layout(constant_id = 14) const bool hasWays = false;
 layout(std430, binding = WAYS_BINDING) writeonly buffer Ways { float ways[]; };          // see wayOf() [m]
 layout(std430, binding = WAYS_BINDING + 1) readonly buffer Bodies { float bodies[]; }; // by slot, with a frame each
-#define UNLISTED_BODY(i, r) bodies[i]
+#define UNLISTED_BODY(i, r) (hasWays ? bodies[i] : 0.0)
 #include "collision/strays.glsl"
 
 // The part of the way of one of two particles by which they may come near each other [m]. In a substep the frame adds
