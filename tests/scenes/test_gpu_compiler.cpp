@@ -259,7 +259,9 @@ TEST(Kernels, AccessNoBindingThatADispatchLeavesEmpty) {
         last = &gaps;
         ASSERT_TRUE(accessed) << "spirv-opt is missing or refuses " << gaps.code->name;
         for (const std::uint32_t binding : gaps.bindings)
-            EXPECT_FALSE(accessed->contains(binding)) << gaps.code->name << ", binding " << binding;
+            EXPECT_FALSE(accessed->contains(binding))
+                << gaps.code->name << ", binding " << binding << ", constants "
+                << testing::PrintToString(gaps.constants);
     }
 }
 
