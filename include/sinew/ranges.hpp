@@ -50,7 +50,7 @@ inline constexpr Range colliderSize{.low = 0, .high = largest, .isLowOpen = true
 inline constexpr Range colliderLength{0, largest};                                 // [m]
 inline constexpr Range margin{0, largest};                                         // [m]
 inline constexpr Range pathTime{0, largest};                                       // [s]
-inline constexpr std::uint32_t mostGrabs = 8, mostHostColliders = 8;
+inline constexpr std::uint32_t mostGrabs = 8, mostHostColliders = 8, mostFields = 16;
 /// Limit of colliders: every particle tests all of them.
 inline constexpr std::size_t mostColliders = 64;
 inline constexpr Range recoverySpeed{.low = 0, .high = largest, .isLowOpen = true}; // [m/s]

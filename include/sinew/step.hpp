@@ -47,6 +47,37 @@ struct HostColliderState {
     std::uint32_t changes = 0; ///< how often it appeared, disappeared, or changed its shape
 };
 
+/// Accelerates particles, or blows at them. The forces of wind are not part of Simulation::forces.
+enum class FieldKind {
+    uniform,   ///< accelerates by `vector`
+    radial,    ///< accelerates by `strength` away from `center`; below 0 = towards it
+    wind,      ///< air that moves at `vector` presses on the surfaces of bodies on a grid (Scene::grids)
+    turbulence ///< accelerates by at most `strength` along each axis, smoothly and at random in space
+};
+
+/// A force field in one step. The host lists fields anew in every step, so that it can move and change them.
+/// An impulse J on a body of mass M is a uniform field of J / (M dt) in one step.
+struct ForceField {
+    static constexpr std::uint32_t allBodies = 0xffffffff;
+
+    FieldKind kind = FieldKind::uniform;
+    std::uint32_t body = allBodies; ///< index into Scene::bodies, or allBodies: loose particles too
+    /// uniform: acceleration [m/s^2]. wind: velocity of the air [m/s]. turbulence: displacement of the
+    /// pattern [m]; a host that adds velocity x dt in each step lets it drift. radial: not used.
+    Vec3 vector{};
+    /// radial: origin. Any kind, if `radius` > 0: centre of the region [m].
+    Vec3 center{};
+    /// 0 = everywhere; else the field has the share (1 - (d / radius)^2)^2 at a distance d < radius from
+    /// `center`, and none beyond [m].
+    float radius = 0;
+    /// radial, turbulence: acceleration [m/s^2]. wind: half the density of the air times the drag
+    /// coefficient [kg/m^3], 0 or more, about 0.6 for air; the pressure is `strength` times the square of the
+    /// air's speed along the normal of the surface. Sheets feel both sides, closed bodies their windward
+    /// side. A surface that a cut lays open feels none.
+    float strength = 0;
+    float scale = 1; ///< turbulence: distance over which it changes [m], above 0
+};
+
 /// The surface that the edge of a blade sweeps in a step: quads between two poly-lines, each split into two
 /// triangles by the diagonal from a point of `from` to the next point of `to`. It cuts links of cuttable
 /// bodies (Grid::isCuttable) at their positions at the start of the step, and may end inside a body. Both
@@ -82,9 +113,12 @@ struct Step {
     /// Host colliders 0, 1, ..., at most Settings::hostColliders; a host collider that is not listed, has a
     /// non-finite number or an invalid size, is absent and touches nothing. Read only during record().
     std::span<const HostCollider> hostColliders{};
+    /// Force fields of this step, at most Settings::fields. A field with a non-finite number, a negative
+    /// radius, no such body, or a size out of range has no effect. Read only during record().
+    std::span<const ForceField> fields{};
     /// Wakes all sleeping particles (Settings::sleeps). Not needed for changes that the step itself contains:
-    /// another gravity or dt wakes all; a moving anchor, collider or host collider wakes what it holds or
-    /// comes near.
+    /// another gravity or dt, and other fields than in the step before, wake all; a moving anchor, collider
+    /// or host collider wakes what it holds or comes near.
     bool wakes = false;
     /// Declares that the host reads Status::lacksLists of every step. When all recorded steps have finished,
     /// it must record the first step with lacksLists again, with the same frame and input, and all steps

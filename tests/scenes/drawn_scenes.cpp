@@ -185,6 +185,7 @@ DrawnScene drawScene(std::uint32_t seed) {
     drawn.settings.forms.chunk = 16;
     addBodies(drawn.scene, lots, drawn.settings.solver == Solver::split);
     addWorld(drawn.scene, lots);
+    drawn.settings.fields = lots.extraIn(3) ? 1 : 0;
     return drawn;
 }
 

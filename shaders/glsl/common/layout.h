@@ -12,8 +12,7 @@ struct alignas(16) vec4 {
 };
 #endif
 
-// Work-group size of every kernel.
-#define GROUP_ITEMS 128
+#define GROUP_ITEMS 128 // work-group size of every kernel
 
 #include "common/bindings.h"
 
@@ -588,6 +587,7 @@ struct DampColorPush {
 };
 
 #include "common/forces_layout.h"
+#include "common/field_layout.h"
 
 struct SkinPush {
     uint count;

@@ -6,6 +6,7 @@
 #include "sim/constraints/tether.hpp"
 #include "sim/cutting/cut.hpp"
 #include "sim/cutting/cut_lists.hpp"
+#include "sim/fields/fields.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/grabs/grab.hpp"
 #include "sim/rigid/colliders.hpp"
@@ -26,6 +27,10 @@ constexpr Feature rows[] = {
     {.name = "attachments",
      .open = constraints::attachment::add,
      .afterContacts = constraints::attachment::addPass},
+    {.name = "fields",
+     .begin = fields::add,
+     .substepBegin = fields::addPass,
+     .afterContacts = fields::addOpenPass},
     {.name = "grabs", .begin = grabs::add, .afterContacts = grabs::addPass},
     {.name = "contacts", .cutEnd = solvers::addCutFilters, .end = solvers::addContactMemory},
     {.name = "cuts of listed links", .cutEnd = cutting::addListFilters},

@@ -81,6 +81,9 @@ void checkGrabs(const Settings& settings, Complaints& complaints) {
         complaints.add("settings.hostColliders", "is " + number(settings.hostColliders) +
                                                      ", must be at most " +
                                                      number(ranges::mostHostColliders));
+    if (settings.fields > ranges::mostFields)
+        complaints.add("settings.fields",
+                       "is " + number(settings.fields) + ", must be at most " + number(ranges::mostFields));
 }
 
 void checkSleep(const Settings& settings, Complaints& complaints) {

@@ -75,9 +75,11 @@ enum class HostData : std::uint32_t {
     hostColliderArguments,
     grabs,
     blade,
-    bladePoints
+    bladePoints,
+    fields,
+    fieldArguments
 };
-constexpr std::size_t hostDataCount = 8;
+constexpr std::size_t hostDataCount = 10;
 
 /// One of the ways to record a step, each with its own barriers.
 struct Recording {
@@ -243,6 +245,11 @@ struct HostColliderGroups {
     std::uint32_t placed = 0, touching = 0; ///< once a step, once a substep
 };
 
+/// Group counts of the passes of force fields.
+struct FieldGroups {
+    std::uint32_t areas = 0, applied = 0; ///< once a step, once a substep
+};
+
 /// Buffers of sleeping bodies (sleep.hpp); invalid if no body can sleep.
 struct SleepBuffers {
     BufferId arguments; ///< of dispatches that run only while a particle is awake
@@ -290,6 +297,7 @@ struct StepProgram {
     std::vector<GridBuffers> grids; ///< one for each contact search that uses a grid
     SleepBuffers sleep;
     HostColliderGroups hostColliders;
+    FieldGroups fields;
     ForceBuffers forces;
     CuttingBuffers cutting;
     CutSurfaceBuffers cutSurface;
@@ -437,6 +445,10 @@ public:
         update(arguments, HostData::hostColliderArguments);
     }
     void updateGrabs(BufferId requests) { update(requests, HostData::grabs); }
+    void updateFields(BufferId requests, BufferId arguments) {
+        update(requests, HostData::fields);
+        update(arguments, HostData::fieldArguments);
+    }
     void updateBlade(BufferId blade, BufferId points) {
         update(blade, HostData::blade);
         update(points, HostData::bladePoints);

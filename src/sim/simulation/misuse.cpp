@@ -30,6 +30,8 @@ std::string sentenceOf(Misuse kind, std::uint64_t given, std::uint64_t allowed) 
         return listed(given, "grabs", allowed, "grabs", ranges::mostGrabs);
     case Misuse::tooManyHostColliders:
         return listed(given, "host colliders", allowed, "hostColliders", ranges::mostHostColliders);
+    case Misuse::tooManyFields:
+        return listed(given, "force fields", allowed, "fields", ranges::mostFields);
     case Misuse::tooManyAnchors:
         return number(given) + " anchors are given, the scene has " + number(allowed) +
                " attachments: the further ones are ignored: give one for each attachment, in their order";

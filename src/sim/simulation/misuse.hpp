@@ -15,6 +15,7 @@ enum class Misuse {
     tooManyInFlight,      ///< `frame` took the slot of step `given`, which had not finished
     tooManyGrabs,         ///< `given` listed, `allowed` by Settings
     tooManyHostColliders, ///< `given` listed, `allowed` by Settings
+    tooManyFields,        ///< `given` listed, `allowed` by Settings
     tooManyAnchors,       ///< more than the scene's attachments
     badBlade,             ///< `given` points in `from` and `allowed` points in `to`, or not finite
     nothingToCut,         ///< a blade or a ray, but no cuttable body

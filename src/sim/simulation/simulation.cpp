@@ -75,6 +75,7 @@ void Simulation::State::noteBefore(std::uint64_t frame) noexcept {
     slot.hostColliders = hostColliders.states();
     std::ranges::copy(anchors.values(), slot.anchors.begin());
     slot.grabs = grabs;
+    slot.fields = fields;
     slot.isUncut = isUncut;
     slot.hasNewTopology = hasNewTopology;
     slot.isChanged = isChanged;
@@ -94,6 +95,7 @@ void Simulation::State::goBack() noexcept {
     colliders.moveTo(slot.time, slot.hostColliders);
     anchors.restore(slot.anchors);
     grabs.restore(*slot.grabs);
+    fields = *slot.fields;
     isUncut = slot.isUncut && topologies == slot.topologies;
     hasNewTopology = slot.hasNewTopology || topologies != slot.topologies;
     isChanged = slot.isChanged || changes != slot.changes;
@@ -108,6 +110,7 @@ void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
     state_->hasState = true;
     state_->anchors.reset();
     state_->grabs.reset();
+    state_->fields.reset();
     state_->colliders.moveTo(0);
     state_->isUncut = true;
 }
@@ -133,6 +136,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->nextFrame = step.frame + 1;
     state_->anchors.advance(step.anchors, dt);
     state_->grabs.advance(step.grabs, dt);
+    state_->fields.advance(step.fields);
     const bool isCalm =
         step.repeats && !isAgain && !isBlade && state_->mayBeCalm(dt / static_cast<float>(state_->substeps));
     const std::uint32_t lists = (step.repeats ? LISTS_REPEATS : 0) | (isCalm ? LISTS_CALM : 0) |
@@ -159,7 +163,8 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
                            std::as_bytes(colliders.ways()), std::as_bytes(colliders.hostColliders().shapes()),
                            std::as_bytes(std::span(hostColliderArguments)),
                            std::as_bytes(state_->grabs.values()), state_->blade.head(),
-                           state_->blade.points()},
+                           state_->blade.points(), std::as_bytes(state_->fields.values()),
+                           std::as_bytes(state_->fields.arguments())},
                           timestamps, {.hasBlade = hasBlade, .isCalm = isCalm});
     commands.barrier();
     state_->recordStatus(commands, step.frame);

@@ -7,6 +7,7 @@
 #include "sim/cutting/blade.hpp"
 #include "sim/device/gpu_compile.hpp"
 #include "sim/device/gpu_executor.hpp"
+#include "sim/fields/fields.hpp"
 #include "sim/grabs/grab.hpp"
 #include "sim/model/rounding.hpp"
 #include "sim/model/scene_key.hpp"
@@ -57,6 +58,7 @@ struct Simulation::State {
     std::vector<SkinRange> skins, wholeSkins;
     constraints::attachment::Anchors anchors;
     grabs::GrabRequests grabs;
+    fields::FieldRequests fields;
     rigid::ColliderPaths colliders;
     cutting::BladeWords blade;
     bool hasNewTopology = false; // loaded since the last step
@@ -92,6 +94,7 @@ struct Simulation::State {
         rigid::HostColliderStates hostColliders{};
         std::vector<layout::vec4> anchors;
         std::optional<grabs::GrabRequests> grabs;
+        std::optional<fields::FieldRequests> fields;
         bool isUncut = false, hasNewTopology = false, isChanged = false;
         std::uint32_t changes = 0, topologies = 0;
         std::optional<std::uint64_t> frame; // of that step
@@ -117,6 +120,7 @@ struct Simulation::State {
           ring(d, settings.framesInFlight, program.cutting.counts != BufferId{}, forceCount(program)),
           skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
           anchors(scene.attachments), grabs(settings.grabs, scene.particles.size()),
+          fields(settings.fields, scene.bodies.size(), program.fields),
           colliders(scene.colliders, scene.driven, settings.hostColliders),
           budget(dampedBudget(scene, settings)), theta(settings.solver == Solver::split ? settings.theta : 0),
           omega(settings.omega), damping(scene.damping), substeps(settings.substeps),
@@ -150,7 +154,7 @@ struct Simulation::State {
                     static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
                 .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
                 .thetaHStored = storesPlaces ? 0 : theta * h,
-                .wakes = step.wakes || hasNewTopology || isChanged ? 1u : 0u,
+                .wakes = step.wakes || hasNewTopology || isChanged || fields.areNew() ? 1u : 0u,
                 .lists = lists};
     }
 
@@ -185,6 +189,7 @@ struct Simulation::State {
         };
         noteMore(Misuse::tooManyGrabs, step.grabs.size(), chosen.grabs);
         noteMore(Misuse::tooManyHostColliders, step.hostColliders.size(), chosen.hostColliders);
+        noteMore(Misuse::tooManyFields, step.fields.size(), chosen.fields);
         noteMore(Misuse::tooManyAnchors, step.anchors.size(), anchors.count());
         const bool asksForBlade = !step.blade.from.empty() || !step.blade.to.empty();
         if ((asksForBlade || step.ray.radius > 0) && !mayBeCut())

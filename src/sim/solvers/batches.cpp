@@ -111,8 +111,9 @@ void appendBody(Batch& batch, const lattice::Box& box, std::vector<layout::Latti
 } // namespace
 
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids) {
-    // attachments, grabs, tethers, colliders, host colliders and driven bodies need passes between substeps
-    if (settings.keepsForces || !scene.attachments.empty() || settings.grabs > 0 ||
+    // attachments, grabs, fields, tethers, colliders, host colliders and driven bodies need passes between
+    // substeps
+    if (settings.keepsForces || !scene.attachments.empty() || settings.grabs > 0 || settings.fields > 0 ||
         settings.hostColliders > 0 || !scene.tethers.empty() || !scene.colliders.empty() ||
         !scene.driven.empty())
         return false;
