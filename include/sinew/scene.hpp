@@ -83,7 +83,7 @@ struct ContactSettings {
     /// holds from then on. For a point behind a solid face the distance is negative; a point farther behind
     /// the face than the usual contact distance in front of it has no contact there.
     float recoverySpeed = 0.5f;
-    std::vector<Surface> surfaces; ///< surfaces that Particle::surface refers to, at most 64
+    std::vector<Surface> surfaces{}; ///< surfaces that Particle::surface refers to, at most 64
 };
 
 /// |x_a - x_b| = restLength, with energy (|x_a - x_b| - restLength)^2 / (2 compliance). Permanent.
@@ -173,7 +173,7 @@ struct Collider {
 /// simulation. `split` only.
 struct DrivenBody {
     std::uint32_t firstParticle = 0, particleCount = 0;
-    std::vector<Keyframe> path; ///< poses of the frame in which the particles stay in place; as in Collider
+    std::vector<Keyframe> path{}; ///< poses of the frame in which the particles stay in place; as in Collider
     PathEnd pathEnd = PathEnd::hold;
     std::vector<std::uint32_t> particles = {}; ///< more particles, in any order
 };
@@ -182,16 +182,16 @@ struct DrivenBody {
 /// topology a solver may compute instead of reading it (addLattice, addCloth). It repeats what the scene's
 /// lists of particles and constraints hold; validate() compares the two.
 struct Grid {
-    std::string name;
+    std::string name{};
     std::array<std::uint32_t, 3> nodes{}; ///< along x, y, z; a sheet has nodes[1] = 1
     std::uint32_t firstParticle = 0;
     std::vector<std::uint32_t>
-        node; ///< grid node of particle firstParticle + i: x + nodes[0] (y + nodes[1] z); ascending
+        node{}; ///< grid node of particle firstParticle + i: x + nodes[0] (y + nodes[1] z); ascending
     std::uint32_t firstDistance = 0, distanceCount = 0;
     /// Share of each cell that is material, in 1/15, x fastest. A link's stiffness is the mean over the cells
     /// that can contain it (4 for an edge, 2 for a face diagonal, 1 for a body diagonal); a link with mean 0
     /// does not exist. A link of a sheet has its whole stiffness if any of its cells contains it.
-    std::vector<std::uint8_t> fill;
+    std::vector<std::uint8_t> fill{};
     std::uint32_t kinds = 2;           ///< 2: edges and face diagonals; 3: body diagonals too
     std::array<float, 3> compliance{}; ///< of a whole link of each kind [m/N]; 0 = rigid
     std::array<float, 3> restLength{}; ///< [m]
@@ -218,7 +218,7 @@ inline bool hasCellVolumes(const Grid& grid) {
 
 /// A named range of particles, for reports and messages.
 struct Body {
-    std::string name;
+    std::string name{};
     std::uint32_t firstParticle = 0, particleCount = 0;
     float restVolume = 0;            ///< [m^3]; 0 = encloses no volume (cloth)
     Vec3 color{0.62f, 0.62f, 0.60f}; ///< linear RGB, used if no skin shows the body
@@ -228,7 +228,7 @@ struct Body {
 /// k has the offset (k & 1, k >> 1 & 1, k >> 2) in the cell.
 struct CellEmbedding {
     std::array<std::uint32_t, 8> particles{};
-    Vec3 weights; ///< local coordinates in the cell, each in [0, 1]
+    Vec3 weights{}; ///< local coordinates in the cell, each in [0, 1]
     float share(std::size_t corner) const {
         return ((corner & 1) != 0 ? weights.x : 1 - weights.x) *
                ((corner & 2) != 0 ? weights.y : 1 - weights.y) *
@@ -239,33 +239,33 @@ struct CellEmbedding {
 /// The visible triangle mesh of a body. Its vertices are either particles (`particles`) or points in lattice
 /// cells (`cells`); exactly one of the two lists is filled, one entry a vertex.
 struct Skin {
-    std::string name;
-    std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
-    std::vector<std::uint32_t> particles;
-    std::vector<CellEmbedding> cells;
+    std::string name{};
+    std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< counter-clockwise seen from outside
+    std::vector<std::uint32_t> particles{};
+    std::vector<CellEmbedding> cells{};
     /// Empty, or the particle that each vertex of a skin in cells follows when the body is cut: a corner of
     /// its cell. Such a skin is clipped along cuts and closed with the cut surface, provided that it is
     /// closed and the anchors of every triangle are corners of one tetrahedron (lattice::isKuhn) of a filled
     /// cell; mesh::addMesh splits skins to achieve that. Any other skin stretches over a cut.
-    std::vector<std::uint32_t> anchors;
+    std::vector<std::uint32_t> anchors{};
     /// Empty, or the same surface in fewer triangles between the first of the vertices: the skin before
     /// mesh::addMesh split it, drawn while nothing is cut (SkinDetail::drawn).
-    std::vector<std::array<std::uint32_t, 3>> wholeTriangles;
+    std::vector<std::array<std::uint32_t, 3>> wholeTriangles{};
     /// Empty, or for each of `triangles` the whole triangle that it is a part of: after a cut, parts away
     /// from it are lit as their whole triangle was.
-    std::vector<std::uint32_t> wholeOf;
+    std::vector<std::uint32_t> wholeOf{};
     Vec3 color{0.78f, 0.36f, 0.32f}; ///< linear RGB
     std::size_t vertexCount() const { return particles.empty() ? cells.size() : particles.size(); }
 };
 
 /// A name for a set of fixed or driven particles.
 struct NamedHold {
-    std::string name;
-    std::vector<std::uint32_t> particles; ///< ascending
+    std::string name{};
+    std::vector<std::uint32_t> particles{}; ///< ascending
 };
 
 struct Scene {
-    std::string name;
+    std::string name{};
     Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]
     float dt = 1.0f / 60.0f;    ///< length of a step [s], 0 < dt <= 0.1
     float damping = 0;          ///< rate c of velocity decay exp(-c t) [1/s]
@@ -274,28 +274,28 @@ struct Scene {
     /// damping ratio w dampingTime / 2. `split` limits it to what keeps its substep stable (dampingBudget in
     /// substeps.hpp).
     float dampingTime = 0;
-    std::vector<Particle> particles;
-    std::vector<DistanceConstraint> distances;
-    std::vector<BendConstraint> bends;
-    std::vector<Attachment> attachments;
-    std::vector<Tether> tethers;
-    std::vector<FixedConstraint> fixed;
-    std::vector<Plane> planes;
-    std::vector<Collider> colliders;
-    std::vector<DrivenBody> driven;
-    std::vector<Face> faces;
-    ContactSettings contacts;
+    std::vector<Particle> particles{};
+    std::vector<DistanceConstraint> distances{};
+    std::vector<BendConstraint> bends{};
+    std::vector<Attachment> attachments{};
+    std::vector<Tether> tethers{};
+    std::vector<FixedConstraint> fixed{};
+    std::vector<Plane> planes{};
+    std::vector<Collider> colliders{};
+    std::vector<DrivenBody> driven{};
+    std::vector<Face> faces{};
+    ContactSettings contacts{};
     /// A cut removes pieces of fewer particles than this at the end of the step that separates them:
     /// contacts, grabs, drawing and counts then ignore them. Their particles stay in the state with their
     /// mass, belong to no piece, and move on under gravity, planes and colliders, or sleep
     /// (Settings::sleeps). An undo of the cut restores them. 0 = removes none.
     std::uint32_t debris = 0;
-    std::vector<Body> bodies;
-    std::vector<Grid> grids;
-    std::vector<Skin> skins;
+    std::vector<Body> bodies{};
+    std::vector<Grid> grids{};
+    std::vector<Skin> skins{};
     /// Names for fixed particles; the force on each is reported separately (Settings::keepsForces). A
     /// NamedHold does not fix its particles: FixedConstraint and DrivenBody do.
-    std::vector<NamedHold> holds;
+    std::vector<NamedHold> holds{};
 };
 
 enum class Solver { jacobi, split, gaussSeidel };

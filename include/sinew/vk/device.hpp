@@ -52,16 +52,16 @@ struct HostDevice {
     std::uint32_t apiVersion = VK_API_VERSION_1_2; ///< that the host requested, not the driver's maximum
     std::uint32_t queueFamily = 0; ///< family to which recorded steps are submitted; needs compute
     std::span<const char* const>
-        enabledInstanceExtensions; ///< must contain VK_EXT_debug_utils for names and labels
-    BufferHook buffers{};          ///< both empty = Sinew's block allocator
+        enabledInstanceExtensions{}; ///< must contain VK_EXT_debug_utils for names and labels
+    BufferHook buffers{};            ///< both empty = Sinew's block allocator
 };
 
 /// Device request of a program without an engine.
 struct DeviceRequest {
     std::string device{};       ///< index as printed by `sinew devices`, or part of a name; empty = best
     bool hasValidation = false; ///< VK_LAYER_KHRONOS_validation: core, synchronisation, queue submit
-    std::vector<std::string> instanceExtensions,
-        deviceExtensions; ///< required (for a window); missing = Error(noDevice)
+    std::vector<std::string> instanceExtensions{},
+        deviceExtensions{}; ///< required (for a window); missing = Error(noDevice)
     /// True if a queue family of a device is suitable beyond graphics + compute (a window requires present
     /// support).
     std::function<bool(VkInstance, VkPhysicalDevice, std::uint32_t family)> canUseFamily{};
