@@ -2,13 +2,14 @@
 // appended to a Scene.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/scene.hpp"
 
 namespace sinew::sim {
 
 /// A rectangular sheet of columns x rows particles in the plane of `right` and `down`, with edge and diagonal
 /// links.
-struct ClothSheet {
+struct SINEW_API ClothSheet {
     std::string name = "cloth";
     Vec3 origin{};                             ///< position of particle (0, 0) [m]
     Vec3 right{1, 0, 0}, down{0, 0, 1};        ///< unit directions of a row and of a column
@@ -36,11 +37,11 @@ struct ClothSheet {
 
 /// Appends particles, constraints, a body, a grid and a two-sided skin. Returns the index of the first
 /// particle.
-std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet);
+SINEW_API std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet);
 
 /// A triangle mesh that is static or follows a path. Particles with a radius touch it from both sides, and
 /// its vertices touch moving faces.
-struct MeshCollider {
+struct SINEW_API MeshCollider {
     std::string name = "collider";
     std::vector<Vec3> vertices{}; ///< [m]
     std::vector<std::array<std::uint32_t, 3>> triangles{};
@@ -54,10 +55,10 @@ struct MeshCollider {
 /// Appends a particle for each vertex, a face for each triangle with three distinct corners, a body, a skin
 /// and, with a path, a driven body: its particles are then at the start of the path. Returns the index of the
 /// first particle. Throws std::invalid_argument for a triangle with a vertex that does not exist.
-std::uint32_t addMeshCollider(Scene& scene, const MeshCollider& mesh);
+SINEW_API std::uint32_t addMeshCollider(Scene& scene, const MeshCollider& mesh);
 
 /// Equal masses in a straight line, each linked to the next.
-struct Chain {
+struct SINEW_API Chain {
     std::string name = "chain";
     Vec3 origin{};                       ///< position of the first particle [m]
     Vec3 direction{0, -1, 0};            ///< unit direction from the first to the last
@@ -71,13 +72,13 @@ struct Chain {
 
 /// Appends particles, constraints and a body, and no skin: a line has no surface. Returns the index of the
 /// first particle.
-std::uint32_t addChain(Scene& scene, const Chain& chain);
+SINEW_API std::uint32_t addChain(Scene& scene, const Chain& chain);
 
 /// Compliance [m/N] of the bends of a row of particles `spacing` [m] apart: of a plate sampled by rows at
 /// that distance, of `stiffness` [N m] (energy stiffness / 2 x curvature^2 an area), or of a rod of
 /// `stiffness` [N m^2].
-float bendComplianceOfPlate(float stiffness, float spacing);
-float bendComplianceOfRod(float stiffness, float spacing);
+SINEW_API float bendComplianceOfPlate(float stiffness, float spacing);
+SINEW_API float bendComplianceOfRod(float stiffness, float spacing);
 
 /// How the length of a tether is measured.
 enum class TetherLength : std::uint8_t {
@@ -88,22 +89,23 @@ enum class TetherLength : std::uint8_t {
 /// Ties every particle that moves to the nearest `perParticle` static ones that links connect it to, among
 /// the particles of the range `first`, `count`. `slack` is the share by which tethers are longer than the
 /// rest distance.
-struct TetherPlan {
+struct SINEW_API TetherPlan {
     std::uint32_t first = 0, count = 0;
     std::uint32_t perParticle = 1;
     TetherLength length = TetherLength::alongLinks;
     float slack = 0;
 };
-void addTethers(Scene& scene, const TetherPlan& plan);
+SINEW_API void addTethers(Scene& scene, const TetherPlan& plan);
 
 /// Gains of a spring that pulls a particle of a body of `mass` [kg] towards a moving point, equal for light
 /// and heavy bodies.
-struct DragFeel {
+struct SINEW_API DragFeel {
     float frequency = 5;         ///< of the body on the spring [Hz]
     float maxAcceleration = 100; ///< of the body [m/s^2]
     float maxSpeed = 5;          ///< of the point [m/s]
 };
-Attachment makeDrag(const Scene& scene, std::uint32_t particle, float mass, const DragFeel& feel = {});
+SINEW_API Attachment makeDrag(const Scene& scene, std::uint32_t particle, float mass,
+                              const DragFeel& feel = {});
 
 /// A voxel body: cubic cells of a regular grid, with particles on their corners. Each filled cell adds a
 /// share of the stiffness of its 12 edges and 12 face diagonals, and an eighth of its mass to each corner. An
@@ -111,7 +113,7 @@ Attachment makeDrag(const Scene& scene, std::uint32_t particle, float mass, cons
 /// ratio 1/4 (a = spacing, k1 edges, k2 face diagonals); so is a lattice with body diagonals k3 = k2 and k1 =
 /// 11/3 k2. Links alone give lambda = mu, the Lame constants. For a larger Poisson ratio nu each cell adds
 /// lambda_v = mu (2 nu / (1 - 2 nu) - 1), and mu = E / (2 (1 + nu)) scales the links.
-struct Lattice {
+struct SINEW_API Lattice {
     std::string name = "lattice";
     Vec3 origin{};                               ///< position of grid corner (0, 0, 0) [m]
     std::array<std::uint32_t, 3> cells{1, 1, 1}; ///< grid size in cells
@@ -137,7 +139,7 @@ struct Lattice {
 
 /// Result of addLattice: the particle on each grid corner, or noParticle. Corner (i, j, k) is at i +
 /// (cells[0] + 1) * (j + (cells[1] + 1) * k).
-struct LatticeCorners {
+struct SINEW_API LatticeCorners {
     static constexpr std::uint32_t noParticle = 0xffffffffu;
     std::array<std::uint32_t, 3> cells{};
     std::vector<std::uint32_t> particle{};
@@ -152,29 +154,30 @@ struct LatticeCorners {
 /// origin that float32 rounds positions by 1e-4 of the spacing, the links have the lengths between the
 /// rounded positions and the body gets no grid. Throws std::invalid_argument for values out of range and
 /// std::domain_error if a body without a grid would need volumes of cells or be cuttable.
-LatticeCorners addLattice(Scene& scene, const Lattice& lattice);
+SINEW_API LatticeCorners addLattice(Scene& scene, const Lattice& lattice);
 
 /// Appends a skin of the boundary faces of a lattice (for bodies without a mesh of their own), creased at its
 /// edges.
-void addLatticeSkin(Scene& scene, const Lattice& lattice, const LatticeCorners& corners, Vec3 color);
+SINEW_API void addLatticeSkin(Scene& scene, const Lattice& lattice, const LatticeCorners& corners,
+                              Vec3 color);
 
 /// Whether `skin` of the scene is clipped along cuts of the body of `grid`, and closed with the cut surface;
 /// if not, it stretches over cuts. Both are indices.
-bool showsInside(const Scene& scene, std::size_t skin, std::size_t grid);
+SINEW_API bool showsInside(const Scene& scene, std::size_t skin, std::size_t grid);
 
 /// Appends the outer faces of a voxel body, given by its grid, as triangles between its particles: solid
 /// faces as thick as the radius of these particles. Objects smaller than the voxels then stay outside, and
 /// the body touches itself. When a blade breaks cells, the outer faces of the remaining cells become the
 /// surface in the same step.
-void addSurfaceFaces(Scene& scene, const Grid& grid);
+SINEW_API void addSurfaceFaces(Scene& scene, const Grid& grid);
 
 /// Grids of the scene that need addSurfaceFaces: voxel bodies with gaps between particles through which a
 /// moving object in contact with them could pass if their surface were stretched by a fifth.
-std::vector<std::uint32_t> gridsWithHoles(const Scene& scene);
+SINEW_API std::vector<std::uint32_t> gridsWithHoles(const Scene& scene);
 
 /// Particles without links that touch each other: in rows, or at random positions in a cuboid. Their radius
 /// also keeps them from colliders.
-struct LooseParticles {
+struct SINEW_API LooseParticles {
     std::string name = "particles";
     Vec3 center{};                                  ///< of the rows or the cuboid [m]
     std::array<std::uint32_t, 3> count{10, 10, 10}; ///< along x, y and z
@@ -192,6 +195,6 @@ struct LooseParticles {
 /// Appends particles and a body, but no skin. Returns the index of the first particle. Throws
 /// std::invalid_argument for values out of range, including rows so close that neighbours could overlap, and
 /// std::domain_error if no positions are found: random ones fill at most about a third of a cuboid.
-std::uint32_t addParticles(Scene& scene, const LooseParticles& particles);
+SINEW_API std::uint32_t addParticles(Scene& scene, const LooseParticles& particles);
 
 } // namespace sinew::sim

@@ -2,6 +2,7 @@
 // same bits, so that a host may also skip this, or reuse earlier measurements.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/simulation.hpp"
 
 #include <functional>
@@ -13,14 +14,14 @@ namespace sinew::sim {
 using TimedSubmit = std::function<double(const std::function<void(VkCommandBuffer)>& record)>;
 
 /// A form and the shortest time of a trial step [ms].
-struct Trial {
+struct SINEW_API Trial {
     Forms forms;
     double ms = 0;
 };
 
 /// Trials in the order in which they were made; the first has the form of the given settings. Empty if the
 /// scene has no choice of forms.
-struct Tuning {
+struct SINEW_API Tuning {
     std::vector<Trial> trials;
     Forms fastest;
 };
@@ -29,18 +30,19 @@ struct Tuning {
 /// 8 substeps on a simulation of its own; prefers another form only if it is at least 3 % faster. Creates the
 /// pipelines of the given form, and the few that other forms add; while vk::KeptKernels exists, a later
 /// simulation reuses them all. Throws what Simulation throws.
-Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings,
-            const TimedSubmit& submit);
+SINEW_API Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings,
+                      const TimedSubmit& submit);
 
 /// Tries the forms that suit the given kind of device.
-Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings, const TimedSubmit& submit,
-            DeviceKind kind);
+SINEW_API Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings,
+                      const TimedSubmit& submit, DeviceKind kind);
 
 /// The duration [ms] of what `record` records into `commands`: by timestamps on a GPU whose queue has them;
 /// else by the host's clock, submission included, since timestamps cost a software device a flush.
 /// `submitAndWait` returns when `commands` have finished.
-double timed(const vk::Device& device, VkCommandBuffer commands,
-             const std::function<void(VkCommandBuffer)>& record, const std::function<void()>& submitAndWait);
+SINEW_API double timed(const vk::Device& device, VkCommandBuffer commands,
+                       const std::function<void(VkCommandBuffer)>& record,
+                       const std::function<void()>& submitAndWait);
 
 /// Returns `settings` with the forms that timed() measured as fastest. `queue` has begin(), submit() and
 /// wait() as vk::Queue; nothing may be in flight on it.

@@ -3,6 +3,7 @@
 // header; they may change with any version.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/simulation.hpp"
 
 #include <string>
@@ -11,15 +12,15 @@
 namespace sinew::sim {
 
 /// Order of the particles in private buffers.
-struct ParticleSlots {
+struct SINEW_API ParticleSlots {
     std::vector<std::uint32_t> slot; ///< by particle
     std::size_t count = 0;           ///< slots; some hold no particle
 };
 /// That order in every simulation of a valid scene with these settings.
-ParticleSlots particleSlots(const Scene& scene, const Settings& settings);
+SINEW_API ParticleSlots particleSlots(const Scene& scene, const Settings& settings);
 
 /// The hash grid of a contact search, as last built.
-struct InspectedGrid {
+struct SINEW_API InspectedGrid {
     std::string name; ///< "grid" of particles, "faces.grid" of points, "edges.grid" of edges
     /// First entry in `sorted` by slot of the table, then the entry count; bits of a position and an index,
     /// ordered by slot; capacity of `sorted`.
@@ -29,7 +30,7 @@ struct InspectedGrid {
 };
 
 /// Contact lists, as last built; a view is empty if the scene has no such contacts.
-struct InspectedContacts {
+struct SINEW_API InspectedContacts {
     vk::BufferView pairs, pairLists;     ///< particles near a particle
     vk::BufferView faces;                ///< layout::ContactFace, between slots
     vk::BufferView facePairs, faceLists; ///< faces near a particle
@@ -39,12 +40,12 @@ struct InspectedContacts {
 };
 
 /// The vertices of a sheet's skin along cuts.
-struct InspectedSheet {
+struct SINEW_API InspectedSheet {
     vk::BufferView vertices; ///< layout::SheetVertex
     std::uint32_t first = 0; ///< index in Simulation::skinVertices()
 };
 
-struct InspectedBuffers {
+struct SINEW_API InspectedBuffers {
     std::uint32_t particles = 0;
     vk::BufferView liveLinks;    ///< by slot: bits of the live links of a grid; empty if nothing can be cut
     vk::BufferView wholeIndices; ///< of all skins while nothing is cut; empty without skins
@@ -54,6 +55,6 @@ struct InspectedBuffers {
 };
 /// The views are valid as long as the simulation. Contents are those of the newest recorded step, visible as
 /// Simulation::positions() are. Allocates; reads nothing from the device.
-InspectedBuffers inspect(const Simulation& simulation);
+SINEW_API InspectedBuffers inspect(const Simulation& simulation);
 
 } // namespace sinew::sim

@@ -2,6 +2,7 @@
 // numbers, for Simulation::prepareChange.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/scene.hpp"
 
 #include <optional>
@@ -10,7 +11,7 @@
 namespace sinew::sim {
 
 /// Material overrides; the default changes nothing.
-struct Material {
+struct SINEW_API Material {
     /// Factor on Young's modulus, above 0: on the stiffness of links and bends, and on the pressures of
     /// cells. Rigid constraints stay rigid, and attachments keep their compliance.
     float stiffness = 1;
@@ -24,6 +25,6 @@ struct Material {
 
 /// Returns `scene` with the overrides. A link between two bodies has the geometric mean of their factors.
 /// Stiffness is limited to the range of the device; nothing else is checked (validate() does).
-Scene withMaterial(Scene scene, const Material& material);
+SINEW_API Scene withMaterial(Scene scene, const Material& material);
 
 } // namespace sinew::sim

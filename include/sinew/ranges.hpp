@@ -2,6 +2,8 @@
 // documentation read it.
 #pragma once
 
+#include "sinew/export.hpp"
+
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -9,7 +11,7 @@
 namespace sinew::sim {
 
 /// An interval of finite numbers, closed unless an end is open.
-struct Range {
+struct SINEW_API Range {
     double low = std::numeric_limits<double>::lowest();
     double high = std::numeric_limits<double>::max();
     bool isLowOpen = false, isHighOpen = false;
@@ -21,7 +23,7 @@ struct Range {
 };
 
 /// Text after "must be": "from 1 to 1000", "above 0 and at most 0.1", "at least 0", "a finite number".
-std::string toText(const Range& range);
+SINEW_API std::string toText(const Range& range);
 
 namespace ranges {
 

@@ -2,6 +2,7 @@
 // cuts. Says how much its successor gets and keeps the counts for reports. Touches no device.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/scene.hpp"
 
 #include <cstdint>
@@ -10,21 +11,21 @@
 namespace sinew::sim {
 
 /// Capacity of the lists of contact candidates (Settings::contactRoom).
-struct ContactRoom {
+struct SINEW_API ContactRoom {
     std::uint32_t room = 0;   ///< candidates a particle, face or edge, on average
     std::uint32_t needed = 0; ///< largest Status::contactRoom so far; 0 = the room was always enough
     std::uint32_t grown = 0;  ///< number of successors with more
 };
 
 /// Capacity for the surface of cuts (Settings::cutSurfaceRoom).
-struct SurfaceRoom {
+struct SINEW_API SurfaceRoom {
     std::uint32_t room = 0;   ///< triangles and vertices; 0 = the default of the scene
     std::uint32_t needed = 0; ///< largest Status::cutSurfaceMissing so far; 0 = the room was always enough
     std::uint32_t grown = 0;  ///< number of successors with more
     bool isShort = false;     ///< no successor can have enough: the surface is drawn as far as it fits
 };
 
-class Rooms {
+class SINEW_API Rooms {
 public:
     explicit Rooms(const Settings& settings);
 
@@ -53,8 +54,8 @@ private:
 };
 
 /// `settings` with both rooms at least those of `other`.
-Settings withRoomsOf(Settings settings, const Settings& other) noexcept;
+SINEW_API Settings withRoomsOf(Settings settings, const Settings& other) noexcept;
 /// True if both rooms of `settings` are at least those of `other`.
-bool haveRoomsOf(const Settings& settings, const Settings& other) noexcept;
+SINEW_API bool haveRoomsOf(const Settings& settings, const Settings& other) noexcept;
 
 } // namespace sinew::sim

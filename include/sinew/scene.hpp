@@ -4,6 +4,8 @@
 // values.
 #pragma once
 
+#include "sinew/export.hpp"
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -11,23 +13,23 @@
 
 namespace sinew::sim {
 
-struct Vec3 {
+struct SINEW_API Vec3 {
     float x = 0, y = 0, z = 0;
 };
 
 /// A rotation: a unit quaternion.
-struct Quaternion {
+struct SINEW_API Quaternion {
     float x = 0, y = 0, z = 0, w = 1;
 };
 
 /// The pose of a rigid body: its local point s is at position + rotation s.
-struct Pose {
+struct SINEW_API Pose {
     Vec3 position{}; ///< of the centre [m]
     Quaternion rotation{};
 };
 
 /// A point mass.
-struct Particle {
+struct SINEW_API Particle {
     Vec3 position{};       ///< [m]
     Vec3 velocity{};       ///< [m/s]
     float inverseMass = 1; ///< [1/kg]; 0 = never moves
@@ -48,7 +50,7 @@ struct Particle {
 
 /// Contact properties of a particle or a face. A pair has the geometric mean of both frictions, so that a
 /// smooth surface slides on everything, and the larger restitution. Planes have their own values.
-struct Surface {
+struct SINEW_API Surface {
     float friction = 0;       ///< Coulomb coefficient while sliding, >= 0
     float restitution = 0;    ///< 0 (no rebound) to 1 (elastic)
     float staticFriction = 0; ///< coefficient before sliding starts; below `friction` = `friction`
@@ -62,7 +64,7 @@ struct Surface {
 /// cuttable body, between a solid face and a particle linked to one of its corners. A face has the surface of
 /// its first corner. If a face is at least as thick as a corner's radius, others touch the face instead of
 /// the corner. A face thinner than a thousandth of its length touches nothing.
-struct Face {
+struct SINEW_API Face {
     std::array<std::uint32_t, 3> particles{};
     float thickness = 0; ///< from its middle plane [m]
     /// Part of the surface of a solid body (addSurfaceFaces), with corners counter-clockwise seen from the
@@ -72,7 +74,7 @@ struct Face {
 };
 
 /// Settings of contacts between particles, faces and edges.
-struct ContactSettings {
+struct SINEW_API ContactSettings {
     float friction = 0;       ///< where Particle::surface is 0; see Surface
     float restitution = 0;    ///< where Particle::surface is 0
     float staticFriction = 0; ///< where Particle::surface is 0
@@ -87,7 +89,7 @@ struct ContactSettings {
 };
 
 /// |x_a - x_b| = restLength, with energy (|x_a - x_b| - restLength)^2 / (2 compliance). Permanent.
-struct DistanceConstraint {
+struct SINEW_API DistanceConstraint {
     std::uint32_t a = 0, b = 0;
     float restLength = 0; ///< [m]
     float compliance = 0; ///< [m/N]; 0 = rigid
@@ -96,13 +98,13 @@ struct DistanceConstraint {
 /// Three particles in a row: C = x_a - 2 x_b + x_c, energy |C|^2 / (2 compliance). Straight at rest. A plate
 /// of bending stiffness B [N m] sampled every s [m] has compliance s^2 / B, a rod of stiffness EI [N m^2] has
 /// s^3 / EI: see bodies.hpp. Permanent.
-struct BendConstraint {
+struct SINEW_API BendConstraint {
     std::uint32_t a = 0, b = 0, c = 0; ///< b is the middle particle
     float compliance = 0;              ///< [m/N]; 0 = as straight as the solver can
 };
 
 /// A spring from a particle to a point that the host may move in each step (Step::anchors). Permanent.
-struct Attachment {
+struct SINEW_API Attachment {
     static constexpr float unlimited = 3.402823466e38f;
     std::uint32_t particle = 0;
     Vec3 anchor{};              ///< initial position of the point [m]
@@ -113,7 +115,7 @@ struct Attachment {
 
 /// |x_particle - x_anchor| <= length: keeps pinned cloth and chains from stretching with one constraint a
 /// particle (long-range attachments, Kim 2012). Permanent; dissipates energy when it is taut.
-struct Tether {
+struct SINEW_API Tether {
     std::uint32_t particle = 0;
     std::uint32_t anchor = 0; ///< a particle that never moves
     float length = 0;         ///< [m]; rest distance from anchor to particle, measured along the body
@@ -121,13 +123,13 @@ struct Tether {
 
 /// Holds a particle at its position in the scene. Permanent. Compiles to inverse mass 0 and therefore to no
 /// pass.
-struct FixedConstraint {
+struct SINEW_API FixedConstraint {
     std::uint32_t particle = 0;
 };
 
 /// A half space that particles must stay in: normal . x >= offset + contactOffset. Contacts are found anew in
 /// each substep.
-struct Plane {
+struct SINEW_API Plane {
     Vec3 normal{0, 1, 0};     ///< unit length, pointing into the free side
     float offset = 0;         ///< [m]
     float friction = 0;       ///< Coulomb coefficient while sliding, >= 0
@@ -137,7 +139,7 @@ struct Plane {
 
 /// The pose of a collider at one time. Between two keyframes the collider moves at constant speed and turns
 /// at constant rate the shorter way; a rotation of half a turn or more needs a keyframe in between.
-struct Keyframe {
+struct SINEW_API Keyframe {
     float time = 0; ///< since the start of the simulation [s]
     Pose pose{};
 };
@@ -152,7 +154,7 @@ enum class PathEnd {
 /// friction and restitution are relative to the velocity of its surface at the contact. Contacts are found
 /// anew in each substep; fast particles do not pass through. A particle that is inside when the simulation
 /// begins leaves by the nearest side at 1 m/s and keeps no velocity from that.
-struct Collider {
+struct SINEW_API Collider {
     ColliderShape shape = ColliderShape::sphere;
     float radius = 0;             ///< [m], > 0: of a sphere, or of a capsule and its ends. Unused by a box
     float halfLength = 0;         ///< [m]: from a capsule's middle to the centres of its ends, along its y
@@ -171,7 +173,7 @@ struct Collider {
 /// (addMeshCollider), or a support that others hang from (drive() in holds.hpp). Each particle must be fixed:
 /// its inverse mass is 0 or a FixedConstraint names it. The scene holds their positions at the start of the
 /// simulation. `split` only.
-struct DrivenBody {
+struct SINEW_API DrivenBody {
     std::uint32_t firstParticle = 0, particleCount = 0;
     std::vector<Keyframe> path{}; ///< poses of the frame in which the particles stay in place; as in Collider
     PathEnd pathEnd = PathEnd::hold;
@@ -181,7 +183,7 @@ struct DrivenBody {
 /// Particles on the nodes of a regular grid, linked to their neighbours by distance constraints: a body whose
 /// topology a solver may compute instead of reading it (addLattice, addCloth). It repeats what the scene's
 /// lists of particles and constraints hold; validate() compares the two.
-struct Grid {
+struct SINEW_API Grid {
     std::string name{};
     std::array<std::uint32_t, 3> nodes{}; ///< along x, y, z; a sheet has nodes[1] = 1
     std::uint32_t firstParticle = 0;
@@ -217,7 +219,7 @@ inline bool hasCellVolumes(const Grid& grid) {
 }
 
 /// A named range of particles, for reports and messages.
-struct Body {
+struct SINEW_API Body {
     std::string name{};
     std::uint32_t firstParticle = 0, particleCount = 0;
     float restVolume = 0;            ///< [m^3]; 0 = encloses no volume (cloth)
@@ -226,7 +228,7 @@ struct Body {
 
 /// Position of a skin vertex in a lattice cell: x = sum over corners k of N_k(weights) x_k, trilinear. Corner
 /// k has the offset (k & 1, k >> 1 & 1, k >> 2) in the cell.
-struct CellEmbedding {
+struct SINEW_API CellEmbedding {
     std::array<std::uint32_t, 8> particles{};
     Vec3 weights{}; ///< local coordinates in the cell, each in [0, 1]
     float share(std::size_t corner) const {
@@ -238,7 +240,7 @@ struct CellEmbedding {
 
 /// The visible triangle mesh of a body. Its vertices are either particles (`particles`) or points in lattice
 /// cells (`cells`); exactly one of the two lists is filled, one entry a vertex.
-struct Skin {
+struct SINEW_API Skin {
     std::string name{};
     std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< counter-clockwise seen from outside
     std::vector<std::uint32_t> particles{};
@@ -259,12 +261,12 @@ struct Skin {
 };
 
 /// A name for a set of fixed or driven particles.
-struct NamedHold {
+struct SINEW_API NamedHold {
     std::string name{};
     std::vector<std::uint32_t> particles{}; ///< ascending
 };
 
-struct Scene {
+struct SINEW_API Scene {
     std::string name{};
     Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]
     float dt = 1.0f / 60.0f;    ///< length of a step [s], 0 < dt <= 0.1
@@ -302,7 +304,7 @@ enum class Solver { jacobi, split, gaussSeidel };
 
 /// The choice between kernels that do the same work; which one is fastest depends on the device (tune()
 /// measures). Only usesGrids changes rounding, because it changes the order in which links are summed.
-struct Forms {
+struct SINEW_API Forms {
     bool usesTexels =
         true; ///< fetch positions, links, contacts, skins and cuts through the texture path, not by loads
     bool usesGrids = true; ///< compute the neighbours of bodies on a grid instead of listing them
@@ -332,7 +334,7 @@ constexpr Forms completed(Forms forms, DeviceKind kind) {
 inline constexpr std::uint32_t usualFramesInFlight = 4;
 
 /// How to solve a scene; determines the step program. Ranges are in ranges.hpp.
-struct Settings {
+struct SINEW_API Settings {
     Solver solver = Solver::split;
     std::uint32_t substeps = 0; ///< per step, 1..1000; 0 = chosen by stiffness and tolerance (chooseSubsteps)
     float tolerance = 0.05f;    ///< with substeps 0: allowed share of lost link stiffness, above 0, below 1

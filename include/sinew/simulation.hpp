@@ -2,6 +2,7 @@
 // read views.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/scene.hpp"
 #include "sinew/step.hpp"
 #include "sinew/vk/buffer.hpp"
@@ -22,7 +23,7 @@ struct StepProgram;
 struct BufferId;
 
 /// Results of a finished step that the host can read.
-struct Status {
+struct SINEW_API Status {
     std::uint32_t frame = 0; ///< low 32 bits of Step::frame
     /// False if the step has not finished on the device, was never recorded, or is so old that another one
     /// has its slot (Settings::framesInFlight); all other members are then 0.
@@ -67,14 +68,14 @@ using StepStatus = Status;
 
 /// Impulse of one step and its moment. Divided by the length of the step they are the mean force [N] and
 /// torque [N m].
-struct Impulse {
+struct SINEW_API Impulse {
     Vec3 linear{};  ///< [N s]
     Vec3 angular{}; ///< [N m s]
 };
 
 /// Impulses on a body. Angular ones are about its centre of mass at the end of the step, or about the mean
 /// position of its particles if none of them moves.
-struct BodyImpulses {
+struct SINEW_API BodyImpulses {
     Impulse contacts{}; ///< of other particles, faces and edges, including those of the same body (which
                         ///< cancel)
     Impulse planes{}, colliders{}; ///< host colliders count as colliders
@@ -87,7 +88,7 @@ struct BodyImpulses {
 /// damping. A pass that moves a particle without changing its velocity contributes no impulse. All are 0 if
 /// the step was undone. Scene::damping also reduces what gravity adds in a substep of length h, so that
 /// weights at rest are too small by a share of at most 1 - exp(-damping h).
-struct Impulses {
+struct SINEW_API Impulses {
     bool isFinished = false;          ///< as Status::isFinished; if false the lists are empty
     std::vector<BodyImpulses> bodies; ///< one for each of Scene::bodies
     /// Impulses on planes, colliders and host colliders, opposite to those on the particles. Angular ones are
@@ -98,14 +99,14 @@ struct Impulses {
 };
 
 /// The range of one Skin of the scene in the skin buffers.
-struct SkinRange {
+struct SINEW_API SkinRange {
     std::string name{};
     Vec3 color{};
     std::uint32_t firstIndex = 0, indexCount = 0;
 };
 
 /// The host's part of a saved state, in addition to the copy that recordSaveState() makes.
-struct SavedState {
+struct SINEW_API SavedState {
     float h = 0;                 ///< substep of the last step [s]; 0 = before the first step
     double colliderTime = 0;     ///< time of the colliders on their paths [s]
     std::vector<Vec3> anchors{}; ///< of the scene's attachments [m]
@@ -125,7 +126,7 @@ enum class SkinDetail { all, drawn };
 /// degenerate. Both parts together form a closed two-sided surface: each piece has its own side. Views are
 /// empty if no skin is clipped. Cuttable bodies have such a surface if their skin is the outer faces of their
 /// cells (addLatticeSkin), or a closed mesh with Skin::anchors (mesh::addMesh).
-struct CutSurface {
+struct SINEW_API CutSurface {
     vk::BufferView vertices{}; ///< layout::SkinVertex (position, normal; stride 32)
     /// layout::CutVertex of each vertex (stride 64). Its first vec4 is for a solid texture: position in the
     /// body when the scene was loaded [m], w = index of the skin that the vertex belongs to.
@@ -140,7 +141,7 @@ struct CutSurface {
 
 /// New material values for a simulation, ready to be copied (Simulation::prepareChange). Owns device buffers;
 /// the device must outlive it.
-class SceneChange {
+class SINEW_API SceneChange {
 public:
     SceneChange(SceneChange&&) noexcept;
     SceneChange& operator=(SceneChange&&) noexcept;
@@ -148,7 +149,7 @@ public:
 
 private:
     friend class Simulation;
-    struct Parts;
+    struct SINEW_LOCAL Parts;
     explicit SceneChange(std::unique_ptr<Parts> parts);
     std::unique_ptr<Parts> parts_;
 };
@@ -159,7 +160,7 @@ private:
 /// vkQueueWaitIdle() or, with a vk::Queue, a vk::Drain that is declared after the simulation.
 /// oldestInFlight() names the missing step; a debug build reports it on stderr. One thread per Simulation;
 /// different ones are independent. Recorded commands must be submitted once, in order, on one queue family.
-class Simulation {
+class SINEW_API Simulation {
 public:
     /// Default of Settings::framesInFlight.
     static constexpr std::uint32_t framesInFlight = usualFramesInFlight;
@@ -322,7 +323,7 @@ public:
     std::vector<std::string> phases() const; ///< names of the spans of `timestamps`
 
 private:
-    struct State;
+    struct SINEW_LOCAL State;
     std::unique_ptr<State> state_;
 };
 

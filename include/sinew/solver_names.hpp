@@ -1,6 +1,7 @@
 // Names of the solvers, in scene files and on command lines.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/scene.hpp"
 
 #include <string>
@@ -9,12 +10,12 @@
 namespace sinew::sim {
 
 /// "jacobi", "split" or "gauss_seidel".
-const char* solverName(Solver solver);
+SINEW_API const char* solverName(Solver solver);
 
 /// Returns false for an unknown name, and leaves `solver` as it is.
-bool parseSolver(const std::string& name, Solver& solver);
+SINEW_API bool parseSolver(const std::string& name, Solver& solver);
 
 /// All names, in the order of Solver.
-std::vector<std::string> solverNames();
+SINEW_API std::vector<std::string> solverNames();
 
 } // namespace sinew::sim

@@ -1,6 +1,7 @@
 // The input of a step: its length, gravity, grabs, host colliders and blade.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/scene.hpp"
 
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace sinew::sim {
 /// nearer to the first one are held more strongly. Gains are accelerations of all linked particles, so that
 /// light and heavy bodies feel alike. The pull is implicit and limited, hence stable for any target up to 1e9
 /// m; gains are taken as at most 1e8. Particles that never move are not held.
-struct Grab {
+struct SINEW_API Grab {
     std::uint32_t particle = 0;
     float radius = 0;            ///< [m] around the particle when the grab begins; 0 = this particle alone
     Vec3 target{};               ///< of the held point at the end of the step [m]
@@ -29,7 +30,7 @@ struct Grab {
 /// after a change of shape, leaves by the nearest side at 1 m/s and keeps no velocity from that. Planes take
 /// precedence: a particle pushed through a plane is put back. A particle between it and a Collider is put in
 /// front of the Collider.
-struct HostCollider {
+struct SINEW_API HostCollider {
     ColliderShape shape = ColliderShape::sphere;
     float radius = 0; ///< [m]; sizes as in Collider
     float halfLength = 0;
@@ -41,7 +42,7 @@ struct HostCollider {
 };
 
 /// The state of a host collider after a step.
-struct HostColliderState {
+struct SINEW_API HostColliderState {
     HostCollider hostCollider{}; ///< as last listed, with its pose at the end of that step
     bool isThere = false;
     std::uint32_t changes = 0; ///< how often it appeared, disappeared, or changed its shape
@@ -82,7 +83,7 @@ struct ForceField {
 /// triangles by the diagonal from a point of `from` to the next point of `to`. It cuts links of cuttable
 /// bodies (Grid::isCuttable) at their positions at the start of the step, and may end inside a body. Both
 /// poly-lines [m] have the same number of points, 2 to ranges::mostBladePoints; any other blade is ignored.
-struct Blade {
+struct SINEW_API Blade {
     std::span<const Vec3> from{}, to{};
     /// True if `from` continues from the last blade's `to`, moved with the material since then: a stroke over
     /// several steps then leaves no link between its sweeps. False begins a stroke.
@@ -91,13 +92,13 @@ struct Blade {
 
 /// Cuts every link that is nearer than `radius` to a segment, such as a pointer's ray of limited depth: the
 /// simple cut, without a surface. [m]; radius 0 = none.
-struct RayCut {
+struct SINEW_API RayCut {
     Vec3 from{}, to{};
     float radius = 0;
 };
 
 /// Input of one step.
-struct Step {
+struct SINEW_API Step {
     float dt =
         1.0f / 60.0f; ///< length of the step [s], 1e-6 to 0.1; a value outside is taken as the nearer end
     Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]

@@ -2,12 +2,13 @@
 // functions of Scene and Settings: reports, compile() and Simulation use the same numbers.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/scene.hpp"
 
 namespace sinew::sim {
 
 /// The share of one body in a StiffnessReport.
-struct BodyStiffness {
+struct SINEW_API BodyStiffness {
     std::string name; ///< of the body
     std::size_t elastic = 0, soft = 0;
     double softest = 1, mean = 1;
@@ -19,7 +20,7 @@ struct BodyStiffness {
 ///   gauss_seidel  k (1 - (1 - r)^iterations), r = 1 / (1 + k h^2 (w_a + w_b)); a model of one link that
 ///                 others pull back to its old length after each sweep
 ///   jacobi        k (1 - (1 - s r)^iterations); the same model, s = a particle's share of a correction
-struct StiffnessReport {
+struct SINEW_API StiffnessReport {
     std::size_t elastic = 0;           ///< constraints with a compliance and an end that moves
     std::size_t clamped = 0;           ///< constraints of `split` with k_eff < k; other solvers have no clamp
     std::size_t soft = 0;              ///< constraints with k_eff < (1 - tolerance) k
@@ -32,7 +33,7 @@ struct StiffnessReport {
 };
 
 /// `settings.substeps` may be 0.
-StiffnessReport inspectStiffness(const Scene& scene, const Settings& settings);
+SINEW_API StiffnessReport inspectStiffness(const Scene& scene, const Settings& settings);
 
 /// The rule that decided the number of substeps.
 enum class SubstepReason : std::uint8_t {
@@ -47,7 +48,7 @@ enum class SubstepReason : std::uint8_t {
     most,      ///< a rule asks for more than ranges::mostChosen
 };
 
-struct SubstepChoice {
+struct SINEW_API SubstepChoice {
     std::uint32_t substeps = 1;
     std::uint32_t wanted = 1; ///< before the limits fewestChosen and mostChosen
     SubstepReason reason = SubstepReason::asked;
@@ -64,7 +65,7 @@ inline constexpr double dragTolerance = 0.05;
 
 /// Smallest number of substeps for which the error of a terminal speed g / damping is at most dragTolerance.
 /// In substeps of h the relative error is damping h / 2: `split` falls slower by that, other solvers faster.
-std::uint32_t dragSubsteps(const Scene& scene);
+SINEW_API std::uint32_t dragSubsteps(const Scene& scene);
 
 /// The number of substeps if settings.substeps is 0: the smallest one with which, at scene.dt,
 /// - every elastic link has k_eff >= (1 - tolerance) k; if the share s_m = 1 - (1 - s)^iterations of `jacobi`
@@ -81,43 +82,43 @@ std::uint32_t dragSubsteps(const Scene& scene);
 /// - it is at least ranges::fewestTouching if particles may touch each other or faces.
 /// The result is limited to the range from fewestChosen to mostChosen; a scene with only free particles has
 /// the number that drag needs. Longer or shorter steps keep the number.
-SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings);
+SINEW_API SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings);
 
 /// Returns `settings` with the chosen number if substeps is 0.
-Settings withSubsteps(const Scene& scene, Settings settings);
+SINEW_API Settings withSubsteps(const Scene& scene, Settings settings);
 
 /// The effect of more substeps than were chosen, and an alternative: "would keep the tolerance of 5 %",
 /// "larger voxels or spacing, or a softer material".
-struct SubstepCure {
+struct SINEW_API SubstepCure {
     std::string would, otherwise;
 };
-SubstepCure cureOf(const SubstepChoice& choice, const Settings& settings);
+SINEW_API SubstepCure cureOf(const SubstepChoice& choice, const Settings& settings);
 
 /// The number that contacts alone need, as `wanted`, by the rule `contacts` or `folds`, without the limits of
 /// chooseSubsteps(). 1 if nothing may touch.
-SubstepChoice contactSubsteps(const Scene& scene);
+SINEW_API SubstepChoice contactSubsteps(const Scene& scene);
 
 /// The choice as a sentence: "64 substeps: so that no link is more than 5 % softer than asked".
-std::string toText(const SubstepChoice& choice, const Settings& settings);
+SINEW_API std::string toText(const SubstepChoice& choice, const Settings& settings);
 
 /// The factor of `jacobi` on corrections averaged over a particle's constraints: overRelaxation x weight x
 /// the largest number of constraints of a particle, or overRelaxation alone if weight is 0. Convergence is
 /// proven below ranges::provenRelaxation.
-double jacobiRelaxation(const Scene& scene, const Settings& settings);
+SINEW_API double jacobiRelaxation(const Scene& scene, const Settings& settings);
 
 /// Bounds of the largest eigenvalue that each kind of constraint contributes to h^2 M^-1 K in `split`:
 /// min(kind x h^2, omegaKind), with D_c the sum of w |grad|^2 / share. Bends use the part of the stability
 /// bound that links leave, so that links in a scene with bends are as stiff as without.
-struct SplitBudget {
+struct SINEW_API SplitBudget {
     double links = 0, bends = 0;           ///< largest k_c D_c; infinite for rigid ones
     double omegaLinks = 0, omegaBends = 0; ///< clamps of h^2 k_c D_c
 };
-SplitBudget splitBudget(const Scene& scene, const Settings& settings);
+SINEW_API SplitBudget splitBudget(const Scene& scene, const Settings& settings);
 
 /// Bound of the damping of links in a substep of `split` of length h: every damping coefficient c obeys h c D
 /// <= this. A mode has the quadratic z^2 - (2 - s (1 + theta) - d) z + (1 - s theta - d), with s, d the
 /// Rayleigh quotients of h^2 K and h C, so that the two need not commute; it is stable for s (1 + 2 theta) +
 /// 2 d <= 4. 5 % of that are held in reserve.
-double dampingBudget(const SplitBudget& budget, double theta, double h);
+SINEW_API double dampingBudget(const SplitBudget& budget, double theta, double h);
 
 } // namespace sinew::sim

@@ -2,6 +2,7 @@
 // device or more room. It is made on a thread, while the other one goes on.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/simulation.hpp"
 
 #include <functional>
@@ -12,7 +13,7 @@
 namespace sinew::sim {
 
 /// A simulation to be made.
-struct SuccessorRequest {
+struct SINEW_API SuccessorRequest {
     const vk::Device& device; ///< must outlive the simulation; may move
     /// Returns the scene. Called on the thread, once or, if another request came first, not at all. All that
     /// it refers to must outlive the Successor.
@@ -21,7 +22,7 @@ struct SuccessorRequest {
 };
 
 /// At most one simulation of a Successor exists at a time, finished or not. One thread uses it.
-class Successor {
+class SINEW_API Successor {
 public:
     /// A finished simulation. Its state arrives with Simulation::recordTakeOver().
     struct Made {

@@ -1,12 +1,13 @@
 // A storage buffer with an element count and a stride, both checked against a kernel's declaration.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/vk/device.hpp"
 
 namespace sinew::vk {
 
 /// A range of a VkBuffer for a kernel, a copy or a vertex input. Owns nothing.
-struct BufferView {
+struct SINEW_API BufferView {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize offset = 0, size = 0; ///< [B]
     std::uint32_t stride = 0;          ///< [B]
@@ -14,7 +15,7 @@ struct BufferView {
     static constexpr std::uint32_t anyStride = 0xffffffffu;
 };
 
-struct BufferRequest {
+struct SINEW_API BufferRequest {
     std::string name{};
     VkDeviceSize count = 0;   ///< elements; at least one is allocated so that a binding is never empty
     std::uint32_t stride = 0; ///< [B]; 4-byte multiple
@@ -23,7 +24,7 @@ struct BufferRequest {
 };
 
 /// RAII buffer. Can be moved, not copied. Must not outlive its Device, which may be moved meanwhile.
-class Buffer {
+class SINEW_API Buffer {
 public:
     /// Throws Error(outOfMemory) if count x stride exceeds maxStorageBufferRange, naming the buffer and both
     /// figures; Error(misuse) if the stride is no multiple of 4.

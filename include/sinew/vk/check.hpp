@@ -1,6 +1,8 @@
 // Failures of the machine at set-up: one exception type with the call, its result and the object's name.
 #pragma once
 
+#include "sinew/export.hpp"
+
 #include <vulkan/vulkan_core.h>
 
 #include <stdexcept>
@@ -16,7 +18,7 @@ enum class Failure {
     misuse,      ///< a call that the specification forbids: a bug in Sinew (exit code 70)
 };
 
-class Error : public std::runtime_error {
+class SINEW_API Error : public std::runtime_error {
 public:
     Error(Failure failure, const std::string& message) : std::runtime_error(message), failure_(failure) {}
     Failure failure() const noexcept { return failure_; }
@@ -26,9 +28,9 @@ private:
 };
 
 /// The specification's name of a result, such as "VK_ERROR_DEVICE_LOST".
-const char* resultName(VkResult result) noexcept;
+SINEW_API const char* resultName(VkResult result) noexcept;
 
 /// Throws Error("<call> of <object>: <result name>") unless `result` is a success code (>= 0).
-void check(VkResult result, const char* call, const std::string& object);
+SINEW_API void check(VkResult result, const char* call, const std::string& object);
 
 } // namespace sinew::vk

@@ -1,12 +1,13 @@
 // Records commands into a caller's command buffer. The only place that names pipeline stages and barriers.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/vk/kernel.hpp"
 
 namespace sinew::vk {
 
 /// A thin view of a recording VkCommandBuffer; owns nothing, never throws.
-class Commands {
+class SINEW_API Commands {
 public:
     Commands(const Device& device, VkCommandBuffer commands) noexcept;
 

@@ -1,6 +1,7 @@
 // A Vulkan device for compute: borrowed from a host engine, or created for our own programs.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/vk/functions.hpp"
 
 #include <array>
@@ -23,7 +24,7 @@ class KernelStore;
 enum class MemoryKind { device, upload, readback };
 
 /// A buffer with its memory range, as returned by the allocator.
-struct BufferAllocation {
+struct SINEW_API BufferAllocation {
     VkBuffer buffer = VK_NULL_HANDLE;
     std::byte* mapped = nullptr; ///< null for MemoryKind::device unless the memory happens to be host visible
     std::uint64_t token = 0;     ///< for the allocator's own use
@@ -38,13 +39,13 @@ struct BufferAllocation {
 /// returns a bound buffer, or throws vk::Error. Both are called at set-up and tear-down only, from the
 /// calling thread, one call at a time. Mapped memory that is not host coherent must be named
 /// (BufferAllocation::memory): else neither side sees what the other writes.
-struct BufferHook {
+struct SINEW_API BufferHook {
     std::function<BufferAllocation(const VkBufferCreateInfo&, MemoryKind, const char* name)> create{};
     std::function<void(const BufferAllocation&)> destroy{};
 };
 
 /// Handles created by a host engine. They must outlive the Device; Sinew destroys none of them.
-struct HostDevice {
+struct SINEW_API HostDevice {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
@@ -57,7 +58,7 @@ struct HostDevice {
 };
 
 /// Device request of a program without an engine.
-struct DeviceRequest {
+struct SINEW_API DeviceRequest {
     std::string device{};       ///< index as printed by `sinew devices`, or part of a name; empty = best
     bool hasValidation = false; ///< VK_LAYER_KHRONOS_validation: core, synchronisation, queue submit
     std::vector<std::string> instanceExtensions{},
@@ -75,7 +76,7 @@ struct DeviceRequest {
 inline constexpr std::uint32_t mostStorageBuffers = 16;
 
 /// Description of a physical device, for `sinew devices`.
-struct DeviceDescription {
+struct SINEW_API DeviceDescription {
     std::uint32_t index = 0;
     std::string name{}, driver{},
         type{}; ///< type: "discrete GPU", "integrated GPU", "virtual GPU", "software"
@@ -86,7 +87,7 @@ struct DeviceDescription {
 };
 
 /// Limits of the device that the core checks, read once.
-struct Limits {
+struct SINEW_API Limits {
     VkDeviceSize maxStorageBufferRange = 0; ///< [B]
     std::uint32_t maxStorageBuffersPerStage = 0;
     std::uint32_t maxTexels = 0;     ///< elements of a texel buffer
@@ -111,7 +112,7 @@ template <typename Handle> std::uint64_t handleValue(Handle handle) noexcept {
 /// objects made with it, including a Simulation and a Queue, refer to parts with a fixed address
 /// (anchored()), and must be destroyed before it. A Device that was moved from may only be assigned or
 /// destroyed.
-class Device {
+class SINEW_API Device {
 public:
     /// Makes an instance and a device through the loader's entry point (vk::Loader opens one). Prefers a GPU
     /// to a software device. Mapped buffers are host coherent. Throws Error(noDevice) with what is missing.
@@ -150,7 +151,7 @@ public:
     std::vector<std::string> validationMessages() const;
 
 private:
-    struct State;
+    struct SINEW_LOCAL State;
     struct Release { // anchored() refers to the state without owning it
         bool isOwner;
         void operator()(State* state) const noexcept;
@@ -164,7 +165,7 @@ private:
 
 /// Describes every physical device, with what it lacks. Throws Error(noDevice) if there is no loader or
 /// driver.
-std::vector<DeviceDescription> listDevices(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
-                                           const DeviceRequest& request);
+SINEW_API std::vector<DeviceDescription> listDevices(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
+                                                     const DeviceRequest& request);
 
 } // namespace sinew::vk

@@ -3,18 +3,20 @@
 // place that names functions.
 #pragma once
 
+#include "sinew/export.hpp"
+
 #include <vulkan/vulkan_core.h>
 
 namespace sinew::vk {
 
-struct InstanceFunctions {
+struct SINEW_API InstanceFunctions {
 #define SINEW_VK(name) PFN_##name name = nullptr;
 #define SINEW_VK_DEVICE(name)
 #define SINEW_VK_DRAWING(name)
 #include "sinew/vk/functions.inc"
 };
 
-struct DeviceFunctions {
+struct SINEW_API DeviceFunctions {
 #define SINEW_VK(name)
 #define SINEW_VK_DEVICE(name) PFN_##name name = nullptr;
 #define SINEW_VK_DRAWING(name) PFN_##name name = nullptr;
@@ -24,7 +26,8 @@ struct DeviceFunctions {
 /// Fills the table through the host's or the loader's `vkGetInstanceProcAddr`. A missing function of an
 /// extension, or one that only drawing uses (SINEW_VK_DRAWING), stays null; any other missing function throws
 /// Error(noDevice) with its name.
-InstanceFunctions loadInstanceFunctions(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance);
-DeviceFunctions loadDeviceFunctions(PFN_vkGetDeviceProcAddr getDeviceProcAddr, VkDevice device);
+SINEW_API InstanceFunctions loadInstanceFunctions(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
+                                                  VkInstance instance);
+SINEW_API DeviceFunctions loadDeviceFunctions(PFN_vkGetDeviceProcAddr getDeviceProcAddr, VkDevice device);
 
 } // namespace sinew::vk

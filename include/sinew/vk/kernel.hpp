@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/vk/buffer.hpp"
 #include "sinew/vk/spirv.hpp"
 
@@ -11,7 +12,7 @@
 namespace sinew::vk {
 
 /// Creates its pipeline at construction. Movable. Must not outlive its Device, which may be moved meanwhile.
-class Kernel {
+class SINEW_API Kernel {
 public:
     /// Throws Error(noDevice) if the device's limits are below the kernel's needs (bindings, group size, push
     /// constants, shared memory), with both figures; Error(misuse) on a specialisation id that the kernel
@@ -42,14 +43,14 @@ private:
 };
 
 /// The buffers of one dispatch, in binding order.
-struct BindingRequest {
+struct SINEW_API BindingRequest {
     const Kernel* kernel = nullptr;
     std::vector<BufferView> buffers{};
 };
 
 /// A descriptor pool made once for a known list of requests; sets are written at construction and never
 /// again.
-class BindingSets {
+class SINEW_API BindingSets {
 public:
     /// Throws Error(misuse) with kernel and binding if a count, a stride or an offset's alignment disagrees,
     /// Error(outOfMemory) if a range exceeds maxStorageBufferRange or maxTexelBufferElements.

@@ -2,6 +2,7 @@
 // different forms, or one after another, differ in a few of about fifty kernels.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/vk/kernel.hpp"
 
 #include <map>
@@ -12,7 +13,7 @@
 namespace sinew::vk {
 
 /// The kernels of a Device (Device::kernels). Any thread.
-class KernelStore {
+class SINEW_API KernelStore {
 public:
     /// Returns the kernel for this code and these constants, in their order, if it is in use or kept, else
     /// makes a new one. Code is identified by the address of its words: these must stay valid as long as the
@@ -43,7 +44,7 @@ private:
 
 /// While an instance exists, the store keeps all kernels that it returns, even unused: between a simulation
 /// and the next. Must not outlive the Device. Any thread.
-class KeptKernels {
+class SINEW_API KeptKernels {
 public:
     explicit KeptKernels(const Device& device);
     KeptKernels(const KeptKernels&) = delete;

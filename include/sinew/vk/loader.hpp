@@ -2,6 +2,7 @@
 // one.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/vk/functions.hpp"
 
 #include <string>
@@ -9,7 +10,7 @@
 namespace sinew::vk {
 
 /// Keeps libvulkan open; must outlive every Device made through it.
-class Loader {
+class SINEW_API Loader {
 public:
     /// Opens `library` with dlopen; without a name the first existing one of libvulkan.so.1, libvulkan.so,
     /// libvulkan.1.dylib and libMoltenVK.dylib. Throws Error(noDevice) with the library and the reason.
@@ -28,6 +29,6 @@ private:
 /// Sets VK_LAYER_ENABLES so that synchronisation validation also works across submissions. The layer reads
 /// the variable when an instance is made and has no other switch for this, so a program must call this before
 /// Device::create and before it starts threads; a library must not change its host's environment.
-void enableQueueSubmitValidation();
+SINEW_API void enableQueueSubmitValidation();
 
 } // namespace sinew::vk

@@ -2,6 +2,7 @@
 // command buffers.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/vk/commands.hpp"
 
 #include <functional>
@@ -10,7 +11,7 @@ namespace sinew::vk {
 
 /// Owns a command pool and a timeline semaphore on queue 0 of the device's family. One thread. The Device may
 /// be moved, but must outlive the Queue. Needs the feature timelineSemaphore, which Device::create enables.
-class Queue {
+class SINEW_API Queue {
 public:
     /// Throws Error if Vulkan cannot create pool or semaphore.
     explicit Queue(const Device& device);
@@ -61,7 +62,7 @@ private:
 /// Waits for all submissions to a queue in its destructor. Declare it after the buffers, pipelines and
 /// queries that the submissions use: these then outlive them, also if an exception leaves the scope or the
 /// constructor.
-class Drain {
+class SINEW_API Drain {
 public:
     explicit Drain(Queue& queue) noexcept : queue_(queue) {}
     ~Drain() { queue_.drain(); }

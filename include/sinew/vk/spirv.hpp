@@ -2,6 +2,7 @@
 // size. Pure: includes no Vulkan header, so that sim/program can plan barriers from it without a device.
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/vk/shader_code.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ constexpr std::uint32_t texelTwins = 32;
 /// shaders/glsl/common/layout.h.
 constexpr std::uint32_t firstLoose = 27;
 
-struct KernelBinding {
+struct SINEW_API KernelBinding {
     std::uint32_t binding = 0;
     std::string name;                  ///< the block's name in GLSL, such as "Positions"
     Access access = Access::readWrite; ///< from readonly / writeonly, the only declaration of access
@@ -56,11 +57,11 @@ struct KernelBinding {
     }
 };
 
-struct SpecialisationConstant {
+struct SINEW_API SpecialisationConstant {
     std::uint32_t id = 0, value = 0; ///< bools and floats are passed as their 32 bits
 };
 
-struct KernelInterface {
+struct SINEW_API KernelInterface {
     std::vector<KernelBinding> bindings;             ///< descriptor set 0, sorted; no gaps below firstLoose
     std::uint32_t pushConstantSize = 0;              ///< [B], rounded up to the block's std430 alignment
     std::array<std::uint32_t, 3> groupSize{1, 1, 1}; ///< with the values of the specialisation constants
@@ -76,6 +77,7 @@ struct KernelInterface {
 /// Throws std::runtime_error with the shader's name if the module breaks a rule: a set other than 0, a gap in
 /// the bindings, anything but buffers, a block of fixed members and a run-time array, a row-major matrix, a
 /// capability that is an optional feature, an unknown opcode in a type, a truncated module.
-KernelInterface readInterface(const ShaderCode& code, std::span<const SpecialisationConstant> constants = {});
+SINEW_API KernelInterface readInterface(const ShaderCode& code,
+                                        std::span<const SpecialisationConstant> constants = {});
 
 } // namespace sinew::vk

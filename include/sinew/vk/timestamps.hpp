@@ -2,13 +2,14 @@
 // software devices).
 #pragma once
 
+#include "sinew/export.hpp"
 #include "sinew/vk/commands.hpp"
 
 namespace sinew::vk {
 
 /// Records begin and end of numbered spans in one command buffer; they can be read after that submission has
 /// finished.
-class Timestamps {
+class SINEW_API Timestamps {
 public:
     /// For at most `spans` spans; on a family without timestamps every call is a no-op and `milliseconds` is
     /// empty.
