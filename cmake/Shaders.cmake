@@ -5,10 +5,26 @@
 # compiles every file for Vulkan 1.2, runs spirv-val on it (SINEW_CHECK_KERNELS) and adds one `const
 # vk::ShaderCode` for each file to <target>: solve_distance.comp becomes <namespace>::solveDistance, skin.vert
 # becomes <namespace>::skinVert.
-find_program(GLSLANG glslangValidator REQUIRED)
+#
+# A release archive has the compiled kernels in kernels/<target> (cmake/Archive.cmake). They are used, and glslang is not
+# needed, unless shader files or the list of kernels have changed since.
 option(SINEW_CHECK_KERNELS "Run spirv-val on every kernel that is compiled" ${PROJECT_IS_TOP_LEVEL})
 if(SINEW_CHECK_KERNELS)
     find_program(SPIRV_VAL spirv-val REQUIRED)
+endif()
+set(SINEW_SHIPPED_KERNELS ${PROJECT_SOURCE_DIR}/kernels)
+include(${CMAKE_CURRENT_LIST_DIR}/HashShaders.cmake)
+if(EXISTS ${SINEW_SHIPPED_KERNELS}/sources.sha256)
+    file(STRINGS ${SINEW_SHIPPED_KERNELS}/sources.sha256 shipped)
+    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/glsl/*)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${shaders})
+    sinew_hash_shaders(hash ${PROJECT_SOURCE_DIR}/shaders/glsl)
+    if(NOT shipped STREQUAL hash)
+        message(STATUS "Shader files differ from those of the compiled kernels in ${SINEW_SHIPPED_KERNELS}: kernels are compiled anew")
+        unset(SINEW_SHIPPED_KERNELS)
+    endif()
+else()
+    unset(SINEW_SHIPPED_KERNELS)
 endif()
 set(SINEW_SHADER_INCLUDE ${PROJECT_SOURCE_DIR}/shaders/glsl)
 set(SINEW_EMBED ${CMAKE_CURRENT_LIST_DIR}/EmbedShader.cmake)
@@ -31,9 +47,19 @@ function(add_kernels target)
     cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER" "SOURCES;VARIANTS")
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
     file(MAKE_DIRECTORY ${folder})
+    string(REPLACE "${PROJECT_SOURCE_DIR}/" "" list "${ARG_SOURCES};${ARG_VARIANTS}")
+    string(SHA256 list "${list}")
+    set(shipped "")
+    if(SINEW_SHIPPED_KERNELS AND EXISTS ${SINEW_SHIPPED_KERNELS}/${target}/list.sha256)
+        file(STRINGS ${SINEW_SHIPPED_KERNELS}/${target}/list.sha256 shipped)
+    endif()
+    if(NOT shipped STREQUAL list)
+        find_program(GLSLANG glslangValidator REQUIRED)
+    endif()
     set(declarations "")
     set(all "")
     set(embeddings "")
+    set(modules "")
     foreach(entry IN LISTS ARG_SOURCES ARG_VARIANTS)
         if(entry MATCHES "^([a-z0-9_]+): +([^ ]+) *(.*)$")
             set(source ${CMAKE_MATCH_2})
@@ -54,19 +80,25 @@ function(add_kernels target)
             string(APPEND identifier Frag)
         endif()
         set(spirv ${folder}/${stem}${stage}.spv)
-        set(embedded ${folder}/${stem}${stage}.cpp)
-        set(check "")
-        if(SINEW_CHECK_KERNELS)
-            set(check COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spirv})
+        if(shipped STREQUAL list)
+            set(spirv ${SINEW_SHIPPED_KERNELS}/${target}/${stem}${stage}.spv)
         endif()
-        add_custom_command(
-            OUTPUT ${spirv}
-            COMMAND ${GLSLANG} --quiet -V --target-env vulkan1.2 ${macros} -I${SINEW_SHADER_INCLUDE} --depfile ${spirv}.d -o ${spirv} ${source}
-            ${check}
-            DEPENDS ${source}
-            DEPFILE ${spirv}.d
-            COMMENT "Kernel ${stem}${stage}"
-            VERBATIM)
+        list(APPEND modules ${spirv})
+        set(embedded ${folder}/${stem}${stage}.cpp)
+        if(NOT shipped STREQUAL list)
+            set(check "")
+            if(SINEW_CHECK_KERNELS)
+                set(check COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spirv})
+            endif()
+            add_custom_command(
+                OUTPUT ${spirv}
+                COMMAND ${GLSLANG} --quiet -V --target-env vulkan1.2 ${macros} -I${SINEW_SHADER_INCLUDE} --depfile ${spirv}.d -o ${spirv} ${source}
+                ${check}
+                DEPENDS ${source}
+                DEPFILE ${spirv}.d
+                COMMENT "Kernel ${stem}${stage}"
+                VERBATIM)
+        endif()
         add_custom_command(
             OUTPUT ${embedded}
             COMMAND ${CMAKE_COMMAND} -DSPIRV=${spirv} -DOUTPUT=${embedded} -DNAMESPACE=${ARG_NAMESPACE}
@@ -81,6 +113,13 @@ function(add_kernels target)
         string(APPEND declarations "extern const vk::ShaderCode ${identifier};\n")
         string(APPEND all "    &${identifier},\n")
     endforeach()
+    if(NOT CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/tests") # for a release archive
+        add_custom_target(${target}_kernels DEPENDS ${modules})
+        set_property(GLOBAL APPEND PROPERTY SINEW_KERNEL_TARGETS ${target})
+        list(GET modules 0 module)
+        cmake_path(GET module PARENT_PATH module_folder)
+        set_target_properties(${target}_kernels PROPERTIES SINEW_FOLDER ${module_folder} SINEW_LIST ${list})
+    endif()
     # Files of kernels that no longer exist are deleted: a test reads the whole folder.
     file(GLOB files ${folder}/*.spv ${folder}/*.spv.d ${folder}/*.comp.cpp)
     foreach(file IN LISTS files)

@@ -152,7 +152,7 @@ public:
 
 private:
     struct SINEW_LOCAL State;
-    struct Release { // anchored() refers to the state without owning it
+    struct SINEW_LOCAL Release { // anchored() refers to the state without owning it
         bool isOwner;
         void operator()(State* state) const noexcept;
     };

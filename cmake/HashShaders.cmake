@@ -1,0 +1,12 @@
+# sinew_hash_shaders(<variable> <folder>): a hash of the names and contents of all shader files.
+function(sinew_hash_shaders out folder)
+    file(GLOB_RECURSE files RELATIVE ${folder} ${folder}/*)
+    list(SORT files)
+    set(text "")
+    foreach(name IN LISTS files)
+        file(SHA256 ${folder}/${name} hash)
+        string(APPEND text "${name} ${hash}\n")
+    endforeach()
+    string(SHA256 hash "${text}")
+    set(${out} ${hash} PARENT_SCOPE)
+endfunction()

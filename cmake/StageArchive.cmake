@@ -1,0 +1,18 @@
+# Gathers the files of a release archive that are not in a folder of sources: those at the top, and the compiled kernels.
+#   cmake -DSOURCE=<sources> -DLIST=<file: target, hash of its list, folder of its modules, a line each> -DOUTPUT=<folder> -P StageArchive.cmake
+include(${CMAKE_CURRENT_LIST_DIR}/HashShaders.cmake)
+file(REMOVE_RECURSE ${OUTPUT})
+foreach(name CHANGELOG.md CMakeLists.txt CMakePresets.json LICENSE README.md .clang-format)
+    file(COPY ${SOURCE}/${name} DESTINATION ${OUTPUT})
+endforeach()
+sinew_hash_shaders(hash ${SOURCE}/shaders/glsl)
+file(WRITE ${OUTPUT}/kernels/sources.sha256 "${hash}\n")
+file(STRINGS ${LIST} targets)
+foreach(line IN LISTS targets)
+    if(NOT line MATCHES "^([^ ]+) ([^ ]+) (.+)$")
+        message(FATAL_ERROR "not a line of ${LIST}: ${line}")
+    endif()
+    file(WRITE ${OUTPUT}/kernels/${CMAKE_MATCH_1}/list.sha256 "${CMAKE_MATCH_2}\n")
+    file(GLOB modules ${CMAKE_MATCH_3}/*.spv)
+    file(COPY ${modules} DESTINATION ${OUTPUT}/kernels/${CMAKE_MATCH_1})
+endforeach()
