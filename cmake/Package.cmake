@@ -1,9 +1,10 @@
 # The libraries as hosts use them, and their installation as a CMake package (docs/embedding.md, "Install").
 #
-#   sinew_package(<component> <name> OUTPUT <file name> OBJECTS <targets...> [LINKS <targets...>])
+#   sinew_package(<component> <name> [STATIC] OUTPUT <file name> OBJECTS <targets...> [LINKS <targets...>])
 #
 # makes the library sinew::<name> of the objects of other targets, which are compiled once for it, for the
-# programs and for the tests. BUILD_SHARED_LIBS is its kind. With SINEW_INSTALL the component installs it.
+# programs and for the tests. BUILD_SHARED_LIBS is its kind, unless STATIC is given. With SINEW_INSTALL the
+# component installs it.
 option(SINEW_INSTALL "Make install rules" ${PROJECT_IS_TOP_LEVEL})
 set(SINEW_ABI ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}) # before 1.0 a minor version may change interfaces
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/sinew.map @ONLY CONTENT
@@ -15,16 +16,21 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/sinew.map @ONLY CONTENT
 set(SINEW_PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/sinew)
 
 function(sinew_package component name)
-    cmake_parse_arguments(PARSE_ARGV 2 ARG "" "OUTPUT" "OBJECTS;LINKS")
+    cmake_parse_arguments(PARSE_ARGV 2 ARG "STATIC" "OUTPUT" "OBJECTS;LINKS")
     set(target sinew_package_${name})
     list(TRANSFORM ARG_OBJECTS REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>")
-    add_library(${target} ${ARG_OBJECTS})
+    set(kind STATIC)
+    if(BUILD_SHARED_LIBS AND NOT ARG_STATIC)
+        set(kind SHARED)
+    endif()
+    add_library(${target} ${kind} ${ARG_OBJECTS})
     if(NOT TARGET sinew::${name}) # for our own programs that is a static library of the same objects
         add_library(sinew::${name} ALIAS ${target})
     endif()
     target_link_libraries(${target} PUBLIC ${ARG_LINKS})
-    set_target_properties(${target} PROPERTIES OUTPUT_NAME ${ARG_OUTPUT} EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
-    if(BUILD_SHARED_LIBS)
+    set_target_properties(${target} PROPERTIES OUTPUT_NAME ${ARG_OUTPUT} EXPORT_NAME ${name} LINKER_LANGUAGE CXX
+        ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/package LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/package)
+    if(kind STREQUAL "SHARED")
         target_compile_definitions(${target} INTERFACE SINEW_SHARED)
         set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${SINEW_ABI})
         # Symbols get a version. Instances of the standard library's templates are not exported.

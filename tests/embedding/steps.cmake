@@ -38,6 +38,10 @@ function(use_by_cmake prefix folder)
     step("a program cannot be built with the package" ${HOST_CMAKE} --build ${folder}/build)
     step("the program fails" ${folder}/build/consumer)
     message(STATUS "${step_output}")
+    if(EXISTS ${prefix}/include/sinew/mesh)
+        step("the program with a mesh fails" ${folder}/build/mesh)
+        message(STATUS "${step_output}")
+    endif()
 endfunction()
 
 # use_by_pkg_config(<prefix> <folder>): the same by pkg-config and one call of the compiler.
