@@ -35,6 +35,7 @@ class PanelsTest : public testing::Test {
 protected:
     // Clicks the left button at a point, over as many pictures as needed.
     Wishes click(const Vector2& at, VkExtent2D extent = large) {
+        if (areSectionsOpen) panels.fold({}); // an earlier click may have folded one
         PanelInput input{.pointer = at};
         picture(input, extent);
         input.isDown[0] = true;
@@ -53,6 +54,7 @@ protected:
     }
     // Builds two pictures, because Dear ImGui measures sizes in the first.
     void settle(VkExtent2D extent = large) {
+        if (areSectionsOpen) panels.fold({});
         picture({}, extent);
         picture({}, extent);
     }
@@ -60,6 +62,7 @@ protected:
     Panels panels{1};
     SceneFacts scene = someScene();
     Facts facts;
+    bool areSectionsOpen = true; // before every click
 };
 
 } // namespace sinew::viewer

@@ -40,14 +40,21 @@ protected:
 const Preferences chosen{.width = 1600,
                          .height = 900,
                          .arePanelsShown = false,
+                         .folded = Folds().set(indexOf(Fold::view)).set(indexOf(Fold::record)),
                          .scale = 1.265625f,
                          .isVsync = false,
                          .scene = "/home/some body/a = b # c.toml"};
 
 TEST(Preferences, AreReadAsTheyWereWritten) {
     EXPECT_EQ(parse(toText(chosen)), chosen);
-    EXPECT_EQ(parse(toText({})), Preferences{});
+    EXPECT_EQ(parse(toText(Preferences{})), Preferences{});
     EXPECT_EQ(parse(""), Preferences{});
+}
+
+TEST(Preferences, KeepThatNoSectionIsFolded) {
+    EXPECT_EQ(parse("").folded, foldedAtFirst);
+    EXPECT_EQ(parse(toText(Preferences{.folded = {}})).folded, Folds());
+    EXPECT_EQ(parse("folded = none").folded, Folds());
 }
 
 TEST(Preferences, TakeCommentsAndBlanks) {
@@ -64,6 +71,7 @@ TEST(Preferences, IgnoreLinesThatMakeNoSenseAndSayWhich) {
     EXPECT_NE(complaintAbout("scale = nan").find("nan"), std::string::npos);
     EXPECT_NE(complaintAbout("scale = 0").find("0.5"), std::string::npos);
     EXPECT_NE(complaintAbout("panels = maybe").find("maybe"), std::string::npos);
+    EXPECT_NE(complaintAbout("folded = view attic").find("attic"), std::string::npos);
     EXPECT_NE(complaintAbout("colour = red").find("no setting"), std::string::npos);
     EXPECT_NE(complaintAbout("[window]").find("key = value"), std::string::npos);
     std::vector<std::string> complaints;

@@ -33,6 +33,7 @@ Session::Session(Window& window, std::unique_ptr<WindowOutput> output, const Tim
       panels_(window.scale() * preferences.scale), ownScale_(preferences.scale), windowScale_(window.scale()),
       isVsync_(preferences.isVsync) {
     panels_.choose(preferences.arePanelsShown);
+    panels_.fold(preferences.folded);
     output_->painter.setAtlas(panels_.atlas());
     panels_.setPaste([this] { return window_.clipboard(); });
     panels_.setCopy([this](const std::string& text) { window_.setClipboard(text); });
@@ -110,7 +111,10 @@ Preferences Session::preferences() const {
     const auto isSensible = [](std::uint32_t side) {
         return side >= Preferences::smallest && side <= Preferences::largest;
     };
-    Preferences preferences{.arePanelsShown = panels_.choice(), .scale = ownScale_, .isVsync = isVsync_};
+    Preferences preferences{.arePanelsShown = panels_.choice(),
+                            .folded = panels_.folds(),
+                            .scale = ownScale_,
+                            .isVsync = isVsync_};
     if (isSensible(size.width) && isSensible(size.height)) {
         preferences.width = size.width;
         preferences.height = size.height;

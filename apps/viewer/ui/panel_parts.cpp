@@ -2,6 +2,8 @@
 #include "viewer/ui/panel_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string_view>
 
 namespace sinew::viewer::parts {
 
@@ -46,6 +48,44 @@ void heading(const char* name) {
     ImGui::TextUnformatted(name);
     ImGui::PopStyleColor();
     rule();
+}
+
+namespace {
+
+// A triangle before a heading: it points down if the section is open.
+void foldMark(const ImVec2& at, float height, bool isOpen, ImU32 color) {
+    const ImVec2 middle{at.x + 0.3f * height, at.y + height / 2};
+    const float half = 0.28f * height;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (isOpen)
+        list.AddTriangleFilled({middle.x - half, middle.y - 0.6f * half},
+                               {middle.x + half, middle.y - 0.6f * half}, {middle.x, middle.y + half}, color);
+    else
+        list.AddTriangleFilled({middle.x - 0.6f * half, middle.y - half},
+                               {middle.x - 0.6f * half, middle.y + half}, {middle.x + half, middle.y}, color);
+}
+
+} // namespace
+
+bool section(Fold fold, Folds& folds, const std::string& text, const ImVec4& color) {
+    const std::size_t index = indexOf(fold);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float line = ImGui::GetTextLineHeight(), width = contentWidth();
+    const float height = std::floor(1.6f * line);
+    const std::string id = "##fold" + std::to_string(index);
+    if (ImGui::InvisibleButton(id.c_str(), {width, height})) folds.flip(index);
+    const ImU32 ink =
+        ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : accent());
+    const float top = at.y + std::floor((height - line) / 2);
+    foldMark({at.x, top}, line, !folds[index], ink);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const std::string_view title = foldTitles[index];
+    list.AddText({at.x + line, top}, ink, title.data(), title.data() + title.size());
+    list.AddText({std::floor(at.x + width - ImGui::CalcTextSize(text.c_str()).x), top},
+                 ImGui::ColorConvertFloat4ToU32(color), text.c_str());
+    list.AddRectFilled({at.x, at.y + height - 1}, {at.x + width, at.y + height},
+                       ImGui::GetColorU32(ImGuiCol_Separator));
+    return !folds[index];
 }
 
 void row(const char* name, const std::string& value, const ImVec4& color) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/ui/facts.hpp"
+#include "viewer/ui/folds.hpp"
 
 #include <imgui.h>
 
@@ -30,6 +31,9 @@ float contentWidth();
 void rule();
 /// Writes quiet text above a line, with room above.
 void heading(const char* name);
+/// The heading of a section, which folds or opens when it is clicked, with a short text on its right. True if
+/// the section is open.
+bool section(Fold fold, Folds& folds, const std::string& text = "", const ImVec4& color = quiet());
 /// Writes text with line breaks at the panel's width.
 void wrapped(const std::string& text, const ImVec4& color);
 
@@ -65,6 +69,8 @@ void cuts(const Facts& facts);
 void window(const Facts& facts, Wishes& wishes);
 void solver(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void speed(const Facts& facts);
+/// "12.3 ms a step"; empty if it is not measured.
+std::string stepText(const Facts& facts);
 void counts(const SceneFacts& scene, const Facts& facts);
 void program(const SceneFacts& scene);
 

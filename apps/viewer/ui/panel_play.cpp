@@ -78,7 +78,6 @@ void camera(Wishes& wishes) {
 }
 
 void files(const Facts& facts, Wishes& wishes) {
-    heading("save and record");
     const float width = buttonWidth(2);
     button(Action::screenshot, wishes, width);
     ImGui::SameLine();
@@ -87,7 +86,6 @@ void files(const Facts& facts, Wishes& wishes) {
 }
 
 void window(const Facts& facts, Wishes& wishes) {
-    heading("window");
     const float width = buttonWidth(3);
     button(Action::help, wishes, width);
     ImGui::SameLine();

@@ -158,7 +158,6 @@ void pathLine(PathField& path, Wishes& wishes) {
 } // namespace
 
 void scenes(const SceneFacts& scene, const Facts& facts, PathField& path, Wishes& wishes) {
-    heading(facts.isOpening ? "scene: opening ..." : "scene");
     const float step = 0.7f * buttonWidth(4), between = ImGui::GetStyle().ItemSpacing.x;
     ImGui::SetNextItemWidth(contentWidth() - 3 * (step + between));
     const ImVec2 all = ImGui::GetIO().DisplaySize;
@@ -202,7 +201,6 @@ bool softness(const SceneFacts& scene, Knobs& turned) {
 } // namespace
 
 void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
-    heading("parameters");
     Knobs turned = facts.knobs;
     bool isTurned = materialKnobs(scene, turned);
     knob("gravity");
@@ -224,7 +222,6 @@ void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
 }
 
 void solver(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
-    heading("solver");
     Knobs turned = facts.knobs;
     knob("substeps");
     bool isTurned =

@@ -121,6 +121,12 @@ void strainPlot(const Facts& facts) {
 
 } // namespace
 
+std::string stepText(const Facts& facts) {
+    float sum = 0;
+    for (const PhaseCurve& phase : facts.phases) sum += phase.ms.median();
+    return sum > 0 ? number("%.3g ms a step", double{sum}) : "";
+}
+
 void speed(const Facts& facts) {
     heading("time of one step");
     if (!facts.phases.empty() && facts.phases.front().ms.count() > 0) {

@@ -4,6 +4,7 @@
 
 #include "viewer/input/panel_input.hpp"
 #include "viewer/ui/facts.hpp"
+#include "viewer/ui/folds.hpp"
 #include "viewer/ui/panel_painter.hpp"
 
 #include <array>
@@ -56,6 +57,9 @@ public:
     /// The user's choice whether panels are shown; empty = no choice yet.
     const std::optional<bool>& choice() const { return isShown_; }
     void choose(std::optional<bool> isShown) { isShown_ = isShown; }
+    /// The sections that are folded: the user's choice.
+    const Folds& folds() const { return folds_; }
+    void fold(const Folds& folds) { folds_ = folds; }
     void toggle() { isShown_ = !isShown(lastExtent_); }
     void toggleHelp() { isHelpShown_ = !isHelpShown_; }
     void closeHelp() { isHelpShown_ = false; }
@@ -72,6 +76,8 @@ private:
     void feedKeys(const PanelInput& input);
     bool isAsking() const;
     void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
+    void buildSections(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
+    void buildPerformance(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
     void keepHeight();
     float buildScaleBar(const Facts& facts, VkExtent2D extent);
     void buildHint(const Facts& facts, VkExtent2D extent, float taken);
@@ -89,6 +95,7 @@ private:
     GlyphAtlas atlas_;
     float scale_;
     std::optional<bool> isShown_;
+    Folds folds_ = foldedAtFirst;
     bool isHelpShown_ = false;
     float sideHeight_ = 0; // of what the panel at the side holds [pixels]
     PathField path_;

@@ -62,6 +62,8 @@ const std::array keys{
         [](const Preferences& of) { return of.height > 0 ? std::to_string(of.height) : ""; }},
     Key{"panels", [](Preferences& to, const std::string& value) { to.arePanelsShown = truthIn(value); },
         [](const Preferences& of) { return std::string(of.arePanelsShown ? text(*of.arePanelsShown) : ""); }},
+    Key{"folded", [](Preferences& to, const std::string& value) { to.folded = foldsIn(value); },
+        [](const Preferences& of) { return toText(of.folded); }},
     Key{"scale",
         [](Preferences& to, const std::string& value) {
             to.scale = numberIn(value, Preferences::leastScale, Preferences::mostScale);

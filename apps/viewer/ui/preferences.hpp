@@ -2,6 +2,8 @@
 // unreadable line only loses its own values.
 #pragma once
 
+#include "viewer/ui/folds.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,7 +17,8 @@ struct Preferences {
     static constexpr float leastScale = 0.5f, mostScale = 4;
     std::uint32_t width = 0, height = 0; ///< of the window; 0 = not chosen
     std::optional<bool> arePanelsShown;
-    float scale = 1; ///< of texts and panels, times the scale of the screen
+    Folds folded = foldedAtFirst; ///< sections of the panel
+    float scale = 1;              ///< of texts and panels, times the scale of the screen
     bool isVsync = true;
     std::string scene; ///< the last scene on show: absolute path of a file, or name of a built-in scene
     bool operator==(const Preferences&) const = default;

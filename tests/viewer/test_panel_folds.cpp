@@ -1,0 +1,102 @@
+// Tests of the foldable sections of the panel: a click on a heading folds, and moves nothing above it.
+#include "panels_test.hpp"
+
+#include "viewer/ui/folds.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace sinew::viewer {
+namespace {
+
+class PanelFoldsTest : public PanelsTest {
+protected:
+    PanelFoldsTest() { areSectionsOpen = false; }
+    // The place of a heading, found by clicks; the sections are as before.
+    std::optional<Vector2> headingOf(Fold fold, VkExtent2D extent = large) {
+        const Folds before = panels.folds();
+        for (float y = 20; y < static_cast<float>(extent.height) - 20; y += 6) {
+            const Vector2 at(static_cast<float>(extent.width) - 100, y);
+            click(at, extent);
+            const bool isIt = panels.folds()[indexOf(fold)] != before[indexOf(fold)];
+            panels.fold(before);
+            settle(extent);
+            if (isIt) return at;
+        }
+        return std::nullopt;
+    }
+    float contentHeight() { return ImGui::FindWindowByName("side")->ContentSize.y; }
+};
+
+TEST_F(PanelFoldsTest, FoldAndOpenAtAClickOnTheHeading) {
+    constexpr VkExtent2D tall{1280, 1400};
+    panels.fold({});
+    settle(tall);
+    settle(tall);
+    for (std::size_t i = 0; i < foldTitles.size(); ++i) {
+        panels.fold({});
+        settle(tall);
+        const float open = contentHeight();
+        const auto at = headingOf(static_cast<Fold>(i), tall);
+        ASSERT_TRUE(at) << foldTitles[i];
+        click(*at, tall);
+        EXPECT_EQ(panels.folds(), Folds().set(i)) << foldTitles[i];
+        settle(tall);
+        settle(tall);
+        EXPECT_LT(contentHeight(), open - 20) << foldTitles[i];
+        click(*at, tall);
+        EXPECT_TRUE(panels.folds().none()) << "the heading has not moved: " << foldTitles[i];
+    }
+}
+
+// A panel scrolled to its end would slide down when it becomes shorter.
+TEST_F(PanelFoldsTest, KeepTheHeadingUnderThePointerInAScrolledPanel) {
+    constexpr VkExtent2D low{1280, 500};
+    panels.choose(true);
+    panels.fold({});
+    facts.phases = {{"solve", {}}};
+    facts.phases.front().ms.add(1);
+    settle(low);
+    const ImGuiWindow* side = shownWindow("side");
+    ASSERT_NE(side, nullptr);
+    for (int i = 0; i < 200; ++i) picture({.pointer = {1200, 100}, .notches = -5}, low);
+    ASSERT_GT(side->Scroll.y, 100);
+    const float end = side->Scroll.y;
+    int folded = 0;
+    for (float y = 20; y < 480; y += 6) {
+        const Folds before = panels.folds();
+        click({1180, y}, low);
+        if (panels.folds() == before) continue;
+        ++folded;
+        for (int i = 0; i < 3; ++i) picture({.pointer = {1180, y}}, low);
+        EXPECT_EQ(side->Scroll.y, end) << y;
+        click({1180, y}, low);
+        EXPECT_EQ(panels.folds(), before) << "the same heading is still under the pointer: " << y;
+        for (int i = 0; i < 3; ++i) picture({.pointer = {1180, y}}, low);
+        ASSERT_EQ(side->Scroll.y, end) << y;
+        y += 18;
+    }
+    EXPECT_GE(folded, 1);
+}
+
+TEST_F(PanelFoldsTest, ShowTheWarningOfSoftBodiesInTheHeadingOfAFoldedSection) {
+    EXPECT_EQ(panels.folds(), foldedAtFirst);
+    const auto vertices = [&] {
+        settle({1280, 1400});
+        return panels.drawn().TotalVtxCount;
+    };
+    const int before = vertices();
+    scene.stiffness = "Softer than asked: the softest link has 2 % of its stiffness.";
+    EXPECT_GT(vertices(), before);
+}
+
+TEST_F(PanelFoldsTest, OpenTheSectionOfThePathThatIsAskedFor) {
+    panels.fold(Folds().set());
+    settle();
+    panels.askForFile();
+    EXPECT_FALSE(panels.folds()[indexOf(Fold::scene)]);
+    EXPECT_TRUE(panels.folds()[indexOf(Fold::view)]);
+}
+
+} // namespace
+} // namespace sinew::viewer
