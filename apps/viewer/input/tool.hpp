@@ -7,6 +7,7 @@
 #include "sinew/ranges.hpp"
 #include "sinew/simulation.hpp"
 #include "viewer/input/bindings.hpp"
+#include "viewer/input/icon.hpp"
 #include "viewer/input/pick.hpp"
 #include "viewer/render/hand_mesh.hpp"
 #include "viewer/render/scene_light.hpp"
@@ -127,6 +128,7 @@ struct Tool {
     std::string_view title; ///< in the title of the window
     char key = 0;           ///< a capital letter; 0: it is in hand while no other tool is
     std::string_view help = {}, button = {};
+    Icon icon = Icon::none;      ///< in the toolbar
     std::string_view letGo = {}; ///< what Esc does to it
 
     /// Hints at the foot of the picture: what its key does while nothing is in use, and while something is

@@ -36,6 +36,7 @@ constinit const Tool tool::blade{
     .key = 'C',
     .help = "blade: left drag cuts, through or to the set depth",
     .button = "Blade",
+    .icon = Icon::cut,
     .letGo = "put the blade away",
     .offer = "or hold Ctrl: drag to cut",
     .addHints =

@@ -8,6 +8,7 @@ namespace sinew::viewer {
 constinit const Tool tool::hand{
     .name = "hand",
     .title = "holding",
+    .icon = Icon::grab,
     .letGo = "release the body",
     .offer = "drag to pull",
     .addHints =

@@ -14,6 +14,7 @@ constinit const Tool tool::pins{
     .key = 'N',
     .help = "pin the held body, or the one under the pointer; on a pin: remove it",
     .button = "Pin",
+    .icon = Icon::pin,
     .offerHeld = "pins it there",
     .awaited = "click a body to pin it, or a pin to remove it",
     .isMomentary = true,

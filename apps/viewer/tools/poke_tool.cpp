@@ -22,6 +22,7 @@ constinit const Tool tool::poke{.name = "poke",
                                 .key = 'O',
                                 .help = "poke: left drag pushes with a sphere",
                                 .button = "Poke",
+                                .icon = Icon::poke,
                                 .letGo = "put the sphere away",
                                 .offer = "pokes",
                                 .addHints =

@@ -135,12 +135,10 @@ void layerButtons(const Facts& facts, Wishes& wishes) {
     button(Action::inspect, wishes, width, facts.isInspecting);
 }
 
-// Buttons and offset of the section plane.
+// Direction and offset of the section plane, which the toolbar turns on.
 void section(const Facts& facts, Wishes& wishes) {
     const std::optional<Section>& section = facts.layers.section;
-    const float width = buttonWidth(3);
-    button(Action::section, wishes, width, section.has_value());
-    ImGui::SameLine();
+    const float width = buttonWidth(2);
     button(Action::turnSection, wishes, width);
     ImGui::SameLine();
     button(Action::faceSection, wishes, width);

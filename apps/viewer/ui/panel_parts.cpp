@@ -31,6 +31,10 @@ ImVec4 accent() {
     return {0.55f, 0.80f, 0.95f, 1};
 }
 
+ImVec4 lit() {
+    return {0.34f, 0.70f, 0.91f, 0.45f};
+}
+
 float contentWidth() {
     return ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;
 }
@@ -116,11 +120,14 @@ void row(const char* name, const std::string& value) {
 void tip(const std::string& text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     const ImGuiStyle& style = ImGui::GetStyle();
-    const float room = ImGui::GetWindowPos().x - 2 * style.ItemSpacing.x - 2 * style.WindowPadding.x;
-    const bool isBeside = room > 12 * ImGui::GetFontSize();
+    const float left = ImGui::GetWindowPos().x, right = left + ImGui::GetWindowWidth();
+    const float behind = ImGui::GetIO().DisplaySize.x - right;
+    const float room = std::max(left, behind) - 2 * style.ItemSpacing.x - 2 * style.WindowPadding.x;
+    const bool isBeside = room > 12 * ImGui::GetFontSize(), isLeft = left > behind;
     if (isBeside)
-        ImGui::SetNextWindowPos({ImGui::GetWindowPos().x - style.ItemSpacing.x, ImGui::GetItemRectMin().y},
-                                ImGuiCond_Always, {1, 0});
+        ImGui::SetNextWindowPos(
+            {isLeft ? left - style.ItemSpacing.x : right + style.ItemSpacing.x, ImGui::GetItemRectMin().y},
+            ImGuiCond_Always, {isLeft ? 1.0f : 0.0f, 0});
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(isBeside ? room : 24 * ImGui::GetFontSize());
     ImGui::TextUnformatted(text.c_str());
@@ -137,7 +144,7 @@ float buttonWidth(std::size_t inARow) {
 void button(Action action, Wishes& wishes, float width, bool isOn, const char* name) {
     const auto binding = std::ranges::find(bindings(), action, &Binding::action);
     const std::string label = name != nullptr ? name : std::string(binding->button);
-    if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, {0.34f, 0.70f, 0.91f, 0.45f});
+    if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, lit());
     ImGui::PushID(static_cast<int>(action)); // the label may change while the button is pressed
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2, ImGui::GetStyle().FramePadding.y});
     if (ImGui::Button((label + "###button").c_str(), {width, 0})) wishes.actions.push_back(action);

@@ -21,6 +21,8 @@ ImVec4 quiet();
 ImVec4 warning();
 ImVec4 bad();
 ImVec4 accent();
+/// Background of a button that is on.
+ImVec4 lit();
 
 /// Text on removed fragments.
 std::string debrisText(const Facts& facts);
@@ -44,8 +46,8 @@ void row(const char* name, const std::string& value, const ImVec4& color);
 void pair(const char* name, const std::string& value, const char* other, const std::string& otherValue,
           const ImVec4& otherColor);
 
-/// Shows a text while the pointer is on the last item: left of the panel in its row, so that it covers no
-/// other row, and below the pointer where there is no room. Also for a disabled item.
+/// Shows a text while the pointer is on the last item: left or right of its window in its row, so that it
+/// covers no other row, and below the pointer where there is no room. Also for a disabled item.
 void tip(const std::string& text);
 
 /// Width of each of `inARow` buttons that fill a line [pixels].
@@ -53,6 +55,12 @@ float buttonWidth(std::size_t inARow);
 /// A button of an action, `width` pixels wide, with its key in a tooltip. The label is from the table of
 /// bindings unless `name` is given. `isOn`: drawn as pressed.
 void button(Action action, Wishes& wishes, float width, bool isOn = false, const char* name = nullptr);
+
+/// Numbers of buttons and of groups of the toolbar, for its size.
+std::size_t toolbarButtons();
+std::size_t toolbarGroups();
+/// Icons, each in a square of `side` pixels.
+void toolbar(const Facts& facts, float side, Wishes& wishes);
 
 void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void scenes(const SceneFacts& scene, const Facts& facts, PathField& path, Wishes& wishes);

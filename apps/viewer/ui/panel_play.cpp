@@ -1,5 +1,4 @@
 // Buttons for the actions of keys.
-#include "viewer/input/tool.hpp"
 #include "viewer/ui/panel_parts.hpp"
 
 #include <cstdio>
@@ -17,31 +16,6 @@ std::string timeText(const Facts& facts) {
     return text;
 }
 
-// Four buttons a line; the last one is that of Esc.
-void tools(const Facts& facts, Wishes& wishes) {
-    constexpr std::size_t inALine = 4;
-    const float width = buttonWidth(inALine);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < toolTable().size(); ++i) {
-        if (toolTable()[i]->key == 0) continue;
-        button(actionOf(*toolTable()[i]), wishes, width, facts.toolsOn[i]);
-        if (++count % inALine != 0) ImGui::SameLine();
-    }
-    button(Action::drop, wishes, width);
-}
-
-// Undo and redo of cuts; disabled where there is none.
-void undo(const Facts& facts, Wishes& wishes) {
-    const float width = buttonWidth(2);
-    ImGui::BeginDisabled(facts.undos == 0);
-    button(Action::undo, wishes, width);
-    ImGui::EndDisabled();
-    ImGui::SameLine();
-    ImGui::BeginDisabled(facts.undos == facts.cuts.size());
-    button(Action::redo, wishes, width);
-    ImGui::EndDisabled();
-}
-
 // Buttons, `inALine` in a line.
 void buttons(std::initializer_list<Action> actions, std::size_t inALine, Wishes& wishes) {
     const float width = buttonWidth(inALine);
@@ -56,18 +30,14 @@ void buttons(std::initializer_list<Action> actions, std::size_t inALine, Wishes&
 
 void play(const Facts& facts, Wishes& wishes) {
     row("time", timeText(facts));
-    const float width = buttonWidth(5);
+    const float width = buttonWidth(4);
     button(Action::pause, wishes, width, facts.isPaused, facts.isPaused ? "Play" : "Pause");
     ImGui::SameLine();
     button(Action::stepBack, wishes, width);
     ImGui::SameLine();
     button(Action::step, wishes, width);
     ImGui::SameLine();
-    button(Action::reset, wishes, width);
-    ImGui::SameLine();
     button(Action::slowMotion, wishes, width, facts.knobs.pace < 1);
-    tools(facts, wishes);
-    undo(facts, wishes);
     if (facts.isDiverged)
         wrapped("Diverged: the last finite state was kept. " + std::string(keyOf(Action::reset)) + " resets.",
                 bad());

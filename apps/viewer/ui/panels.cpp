@@ -18,9 +18,10 @@ namespace sinew::viewer {
 namespace {
 
 constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200, recordingWidth = 200,
-                legendWidth = 260, longestBar = 110, leastWithBar = 700; // at a scale of 1 [pixels]
-constexpr int mostPicturesUnfocused = 20; // that a text field may wait for keys
-constexpr float roomBeside = 2.6f;        // in panels: least width of a picture that shows panels at first
+                legendWidth = 260, largestIcon = 34, smallestIcon = 18, iconPad = 5, iconGap = 3,
+                longestBar = 110, leastWithBar = 700; // at a scale of 1 [pixels]
+constexpr int mostPicturesUnfocused = 20;             // that a text field may wait for keys
+constexpr float roomBeside = 2.6f; // in panels: least width of a picture that shows panels at first
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
@@ -275,6 +276,7 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     wishes.previews.emplace();
     ImGui::NewFrame();
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
+    if (toolbarWidth(extent) > 0) buildToolbar(facts, extent, wishes);
     buildHint(facts, extent, buildScaleBar(facts, extent));
     if (isShown(extent) && isLegendApart(extent) && parts::hasLegend(facts))
         buildLegend(scene, facts, extent);
@@ -379,6 +381,37 @@ void Panels::keepHeight() {
     ImGui::Dummy({0, 0});
 }
 
+// Sides of the icons' buttons: smaller in a low window [pixels].
+float Panels::toolbarSide(VkExtent2D extent) const {
+    const auto buttons = static_cast<float>(parts::toolbarButtons());
+    const auto rules = static_cast<float>(parts::toolbarGroups() - 1);
+    const float hint = ImGui::GetFontSize() + (12 + gap) * scale_;
+    const float taken = (2 * gap + 2 * iconPad + (buttons - 1 + 3 * rules) * iconGap) * scale_ + rules + hint;
+    const float room = static_cast<float>(extent.height) - taken;
+    return std::floor(std::min(room / buttons, largestIcon * scale_));
+}
+
+// Width of the toolbar, or 0: the user hides it with the panel. A window too small for both has neither
+// icons nor an undo in view, but its keys.
+float Panels::toolbarWidth(VkExtent2D extent) const {
+    const float side = toolbarSide(extent), width = side + 2 * iconPad * scale_;
+    const bool hasRoom = side >= smallestIcon * scale_ && freeWidth(extent) >= 3 * width;
+    return isShown_.value_or(true) && hasRoom ? width : 0;
+}
+
+// At the left edge of the picture, away from the panel's controls.
+void Panels::buildToolbar(const Facts& facts, VkExtent2D extent, Wishes& wishes) {
+    ImGui::SetNextWindowPos({gap * scale_, gap * scale_});
+    ImGui::SetNextWindowSize({toolbarWidth(extent), 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {iconPad * scale_, iconPad * scale_});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {iconGap * scale_, iconGap * scale_});
+    ImGui::Begin("toolbar", nullptr, fixed | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar);
+    addGround();
+    parts::toolbar(facts, toolbarSide(extent), wishes);
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+}
+
 // A bar with its length, right of the hint; none in a narrow picture. Returns the width that it takes from
 // the hint [pixels].
 float Panels::buildScaleBar(const Facts& facts, VkExtent2D extent) {
@@ -424,13 +457,13 @@ void Panels::buildHint(const Facts& facts, VkExtent2D extent, float taken) {
 
 // In a wide picture legends stand over the hint, so that nothing in the panel moves when they appear.
 bool Panels::isLegendApart(VkExtent2D extent) const {
-    return freeWidth(extent) >= 2 * (legendWidth + gap) * scale_;
+    return freeWidth(extent) - toolbarWidth(extent) >= 2 * (legendWidth + gap) * scale_;
 }
 
 void Panels::buildLegend(const SceneFacts& scene, const Facts& facts, VkExtent2D extent) {
     const float edge = gap * scale_, hint = ImGui::GetTextLineHeight() + 12 * scale_;
-    const float foot = static_cast<float>(extent.height) - 1.5f * edge - hint;
-    ImGui::SetNextWindowPos({edge, foot}, ImGuiCond_Always, {0, 1});
+    const float foot = static_cast<float>(extent.height) - 1.5f * edge - hint, tools = toolbarWidth(extent);
+    ImGui::SetNextWindowPos({edge + (tools > 0 ? tools + edge : 0), foot}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowSize({legendWidth * scale_, 0});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {legendWidth * scale_, std::max(foot - 5 * edge, 40.0f)});
     ImGui::SetNextWindowBgAlpha(0.85f);
@@ -443,9 +476,11 @@ void Panels::buildNotice(const Facts& facts, VkExtent2D extent) {
     if (facts.notice.empty()) return;
     const float edge = gap * scale_;
     const float all = static_cast<float>(extent.width) - 2 * edge;
-    const float beside = freeWidth(extent) - 2 * edge - (facts.recorded ? recordingWidth * scale_ : 0);
-    const float width = std::min(560 * scale_, beside >= leastNotice * scale_ ? beside : all);
-    ImGui::SetNextWindowPos({edge, edge});
+    const float tools = toolbarWidth(extent), from = tools > 0 ? tools + edge : 0;
+    const float beside = freeWidth(extent) - 2 * edge - from - (facts.recorded ? recordingWidth * scale_ : 0);
+    const bool isBeside = beside >= leastNotice * scale_;
+    const float width = std::min(560 * scale_, isBeside ? beside : all);
+    ImGui::SetNextWindowPos({edge + (isBeside ? from : 0), edge});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::Begin("notice", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
     if (facts.isNoticeBad) {

@@ -75,6 +75,9 @@ private:
     void feedTyped(const PanelInput& input);
     void feedKeys(const PanelInput& input);
     bool isAsking() const;
+    float toolbarSide(VkExtent2D extent) const;
+    float toolbarWidth(VkExtent2D extent) const;
+    void buildToolbar(const Facts& facts, VkExtent2D extent, Wishes& wishes);
     void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
     void buildSections(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
     void buildPerformance(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
