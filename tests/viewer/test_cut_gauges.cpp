@@ -2,6 +2,7 @@
 #include "played.hpp"
 
 #include "app/drawn.hpp"
+#include "sinew/bodies.hpp"
 #include "viewer/input/inspector.hpp"
 #include "viewer/input/piece_probe.hpp"
 #include "viewer/jobs/gauges.hpp"
@@ -52,6 +53,27 @@ std::string parted(const std::string& body) {
     return "dt = 0.01\n[solver]\nsubsteps = 16\n[[plane]]\nfriction = 0\nnormal = [0.6, 0.8, 0]\n"
            "offset = -0.3\n[[plane]]\nfriction = 0\nnormal = [-0.6, 0.8, 0]\noffset = -0.3\n" +
            body + "cuttable = true\n" + bladeAt("0.06", "0.01");
+}
+
+// The modulus is read off links and volumes of cells.
+TEST(SceneFacts, HaveTheYoungModulusOfVoxelBodies) {
+    for (const float poisson : {0.25f, 0.3f, 0.45f, 0.49f})
+        for (const bool hasBodyDiagonals : {false, true}) {
+            sim::Scene scene;
+            sim::addLattice(scene, {.cells = {3, 2, 2},
+                                    .spacing = 0.07f,
+                                    .youngModulus = 4.2e4f,
+                                    .poissonRatio = poisson,
+                                    .hasBodyDiagonals = hasBodyDiagonals});
+            EXPECT_NEAR(youngModulusOf(scene.grids.at(0)), 4.2e4f, 42) << poisson << hasBodyDiagonals;
+        }
+    const Scene box(
+        std::string("[[box]]\nname = \"a\"\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [0, 1, 0]\n"
+                    "young_modulus = 7e3\n[[cloth]]\nsize = [4, 4]\nspacing = 0.05\norigin = [0, 2, 0]\n"));
+    const SceneFacts facts = sceneFacts(box.opening, box.document, test::device());
+    ASSERT_EQ(facts.youngModuli.size(), facts.bodies.size());
+    for (std::size_t i = 0; i < facts.bodies.size(); ++i)
+        EXPECT_NEAR(facts.youngModuli[i], facts.bodies[i] == "a" ? 7e3f : 0, 7) << facts.bodies[i];
 }
 
 TEST(SceneFacts, SayThatMostLinksOfABodyAreSofterThanAsked) {

@@ -33,7 +33,7 @@ TEST_F(PanelsTest, TurnTheMaterialOfAllOrOfOneBody) {
     const auto wishes = [&] {
         std::set<std::string> turned;
         for (float y = 20; y < 1390; y += 6)
-            if (const auto knobs = click({1200, y}, tall).knobs) {
+            if (const auto knobs = click({1120, y}, tall).knobs) {
                 if (knobs->stiffness != 1) turned.insert("stiffness");
                 if (knobs->bodies != facts.knobs.bodies) turned.insert("body");
                 if (knobs->damping != facts.knobs.damping) turned.insert("damping");
@@ -106,16 +106,16 @@ TEST_F(PanelsTest, TurnTheDepthOfTheBlade) {
                 turned.insert(knobs->bladeDepth.value_or(-1));
         return turned;
     };
-    const std::set<float> middle = depths(1200);
+    const std::set<float> middle = depths(1110);
     ASSERT_EQ(middle.size(), 1u);
     EXPECT_GT(*middle.begin(), 0.01f);
     EXPECT_LT(*middle.begin(), 0.5f);
     facts.knobs.bladeDepth = scene.fromFile.bladeDepth = *middle.begin();
     std::set<float> right;
-    for (float x = 1230; x < 1275; x += 2) right.merge(depths(x));
+    for (float x = 1130; x < 1164; x += 2) right.merge(depths(x));
     EXPECT_TRUE(right.contains(-1)) << "through";
     scene.canCut = false;
-    EXPECT_TRUE(depths(1200).empty());
+    EXPECT_TRUE(depths(1110).empty());
 }
 
 TEST_F(PanelsTest, TakeAPathThatIsTypedOrPastedAndNoneAfterEsc) {

@@ -87,6 +87,17 @@ Knobs turnedTo(const sim::Material& material, Knobs knobs, const Knobs& fromFile
     return knobs;
 }
 
+// The links alone are an isotropic material with the shear modulus mu and a Poisson ratio of 1/4. Volumes of
+// cells add to lambda = 2 mu nu / (1 - 2 nu), of which the links have mu.
+float youngModulusOf(const sim::Grid& grid) {
+    if (grid.nodes[1] <= 1 || !(grid.compliance[0] > 0)) return 0;
+    const double edgeShare = grid.kinds == 3 ? 22.0 / 35 : 0.4; // of an edge's stiffness in E a
+    const double ofLinks = 1 / (double{grid.compliance[0]} * double{grid.restLength[0]} * edgeShare);
+    const double shear = ofLinks / 2.5, ratio = 1 + double{grid.volumeStiffness} / shear;
+    const double poisson = ratio / (2 * (1 + ratio));
+    return static_cast<float>(2 * shear * (1 + poisson));
+}
+
 SceneFacts sceneFacts(const OpenedScene& opening, const Document& document, const vk::Device& device) {
     const sim::Scene& scene = document.scene();
     const scenes::LoadedScene& loaded = opening.loaded;
@@ -101,7 +112,12 @@ SceneFacts sceneFacts(const OpenedScene& opening, const Document& document, cons
                      .canCut = std::ranges::any_of(scene.grids, &sim::Grid::isCuttable),
                      .solvers = sim::solverNames(),
                      .fromFile = knobsOf(loaded)};
-    for (const sim::Body& body : scene.bodies) facts.bodies.push_back(body.name);
+    for (const sim::Body& body : loaded.scene.bodies) {
+        facts.bodies.push_back(body.name);
+        const auto grid =
+            std::ranges::find(loaded.scene.grids, body.firstParticle, &sim::Grid::firstParticle);
+        facts.youngModuli.push_back(grid != loaded.scene.grids.end() ? youngModulusOf(*grid) : 0);
+    }
     setStiffness(facts, document.stiffness());
     addProgram(facts, document.simulation().program());
     return facts;

@@ -9,6 +9,10 @@
 
 namespace sinew::viewer {
 
+/// Young's modulus of the material of a voxel body, as Lattice::youngModulus [Pa]; 0 for sheets and rigid
+/// links.
+float youngModulusOf(const sim::Grid& grid);
+
 /// Facts that stay constant while a scene is shown. `settings` are those the document runs with.
 SceneFacts sceneFacts(const OpenedScene& opening, const Document& document, const vk::Device& device);
 

@@ -113,7 +113,8 @@ struct SceneFacts {
     std::vector<std::string> skipped;         ///< features that the scene does not need
     bool canCut = false;
     std::vector<std::string> solvers, bodies;
-    Knobs fromFile; ///< values in the scene file
+    std::vector<float> youngModuli; ///< in the scene file, one for each of `bodies` [Pa]; 0 = none
+    Knobs fromFile;                 ///< values in the scene file
 };
 
 /// Facts that change.

@@ -1,0 +1,147 @@
+// Tests of materials with Young's moduli: presets, sliders in kPa, numbers that are typed.
+#include "panels_test.hpp"
+
+#include "viewer/ui/presets.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+namespace sinew::viewer {
+namespace {
+
+SceneFacts bodiesOf(std::vector<float> moduli) {
+    SceneFacts scene = someScene();
+    for (std::size_t i = 0; i < moduli.size(); ++i) scene.bodies.push_back("body " + std::to_string(i));
+    scene.fromFile.bodies.assign(moduli.size(), 1);
+    scene.youngModuli = std::move(moduli);
+    return scene;
+}
+
+TEST(Presets, HaveDifferentNamesModuliAndSources) {
+    std::set<std::string_view> names, sources;
+    for (const MaterialPreset& preset : materialPresets()) {
+        names.insert(preset.name);
+        sources.insert(preset.source);
+        EXPECT_GT(preset.youngModulus, 100) << preset.name;
+        EXPECT_LT(preset.youngModulus, 1e7) << preset.name;
+    }
+    EXPECT_EQ(names.size(), materialPresets().size());
+    EXPECT_EQ(sources.size(), materialPresets().size());
+    EXPECT_EQ(sources.count(""), 0u);
+}
+
+TEST(Presets, ChangeAllBodiesOrTheChosenOne) {
+    const SceneFacts alike = bodiesOf({2e4f, 2e4f});
+    Knobs knobs = withYoungModulus(alike, alike.fromFile, 5e3f);
+    EXPECT_FLOAT_EQ(knobs.stiffness, 0.25f) << "one factor is enough";
+    EXPECT_EQ(knobs.bodies, alike.fromFile.bodies);
+    EXPECT_FLOAT_EQ(youngModulusOf(alike, knobs).value(), 5e3f);
+
+    knobs.body = 1;
+    knobs = withYoungModulus(alike, knobs, 1e4f);
+    EXPECT_FLOAT_EQ(youngModulusOf(alike, knobs).value(), 1e4f);
+    knobs.body = 0;
+    EXPECT_FLOAT_EQ(youngModulusOf(alike, knobs).value(), 5e3f) << "the other one is as before";
+    knobs.body = -1;
+    EXPECT_FALSE(youngModulusOf(alike, knobs)) << "they differ";
+}
+
+TEST(Presets, GiveDifferentBodiesOneModulusAndLeaveOthersAlone) {
+    const SceneFacts mixed = bodiesOf({1e4f, 0, 4e4f});
+    EXPECT_FALSE(youngModulusOf(mixed, mixed.fromFile));
+    Knobs before = mixed.fromFile;
+    before.stiffness = 3;
+    const Knobs knobs = withYoungModulus(mixed, before, 2e4f);
+    for (const int body : {0, 2}) {
+        Knobs chosen = knobs;
+        chosen.body = body;
+        EXPECT_FLOAT_EQ(youngModulusOf(mixed, chosen).value(), 2e4f) << body;
+    }
+    EXPECT_FLOAT_EQ(knobs.stiffness * knobs.bodies[1], 3) << "cloth keeps its stiffness";
+    const SceneFacts cloth = bodiesOf({0});
+    EXPECT_FALSE(hasYoungModulus(cloth));
+    EXPECT_EQ(withYoungModulus(cloth, before, 2e4f).bodies[0], 3) << "and its factor is the product";
+}
+
+class MaterialTest : public PanelsTest {
+protected:
+    MaterialTest() {
+        scene = bodiesOf({2e4f});
+        facts.knobs = scene.fromFile;
+    }
+    // All moduli that clicks lead to, in the column at x, with the height of the click.
+    std::map<float, float> moduliOfClicks(float x) {
+        std::map<float, float> found;
+        for (float y = 20; y < 700; y += 6)
+            if (const auto knobs = click({x, y}).knobs)
+                if (const auto modulus = youngModulusOf(scene, *knobs)) found.emplace(*modulus, y);
+        return found;
+    }
+};
+
+TEST_F(MaterialTest, HasAButtonForEveryPreset) {
+    settle();
+    std::map<float, float> found;
+    for (const float x : {1010.0f, 1080.0f, 1150.0f, 1220.0f}) found.merge(moduliOfClicks(x));
+    for (const MaterialPreset& preset : materialPresets()) {
+        const auto next = found.lower_bound(preset.youngModulus * 0.999f);
+        ASSERT_NE(next, found.end()) << preset.name;
+        EXPECT_NEAR(next->first, preset.youngModulus, 1e-3f * preset.youngModulus) << preset.name;
+    }
+    facts.knobs.stiffness = 5;
+    settle();
+    std::set<float> factors;
+    for (float y = 20; y < 700; y += 6)
+        if (const auto knobs = click({1220, y}).knobs) factors.insert(knobs->stiffness);
+    EXPECT_TRUE(factors.contains(1)) << "back to the file";
+}
+
+TEST_F(MaterialTest, TakesAModulusThatIsTypedInKiloPascals) {
+    settle();
+    std::optional<Vector2> field;
+    for (float y = 20; y < 700 && !field; y += 6) {
+        click({1210, y});
+        picture({.pointer = {1210, y}});
+        if (!panels.takesKeys()) continue;
+        PanelInput typed{.pointer = {1210, y}};
+        for (const char one : std::string("7.5")) typed.characters.push_back(static_cast<unsigned>(one));
+        picture(typed);
+        const Wishes wishes =
+            picture({.pointer = {1210, y}, .keys = {{GLFW_KEY_ENTER, true}, {GLFW_KEY_ENTER, false}}});
+        ASSERT_TRUE(wishes.knobs) << y;
+        EXPECT_FLOAT_EQ(youngModulusOf(scene, *wishes.knobs).value(), 7.5e3f) << "stiffness is the first";
+        field = Vector2(1210, y);
+    }
+    EXPECT_TRUE(field);
+    settle();
+    EXPECT_FALSE(panels.takesKeys());
+}
+
+TEST_F(MaterialTest, HasNoPresetsForAClothAlone) {
+    settle();
+    const float with = ImGui::FindWindowByName("side")->ContentSize.y;
+    scene = bodiesOf({0});
+    facts.knobs = scene.fromFile;
+    for (int i = 0; i < 3; ++i) settle();
+    EXPECT_LT(ImGui::FindWindowByName("side")->ContentSize.y, with - 40);
+}
+
+// The number stands in a field of its own.
+TEST_F(MaterialTest, DoesNotDrawTheKnobOfASliderOverItsNumber) {
+    settle();
+    const ImU32 grab = ImGui::GetColorU32(ImGuiCol_SliderGrab);
+    int knobs = 0;
+    for (const ImDrawVert& vertex : shownWindow("side")->DrawList->VtxBuffer) {
+        if (vertex.col != grab) continue;
+        ++knobs;
+        EXPECT_LT(vertex.pos.x, 1170);
+    }
+    EXPECT_GT(knobs, 8);
+}
+
+} // namespace
+} // namespace sinew::viewer
