@@ -194,6 +194,7 @@ void beginAnew(const Options& shown, const Playing& playing, Session& session, S
         auto next = std::make_unique<OpenedScene>(open(shown, aspectOf(session.window().pixels())));
         next->device = devices.open(request);
         next->camera = playing.player->camera();
+        next->isFirstView = false;
         prepare(*next, *next->device, session.window());
         put(std::move(next), playing, session, sceneLoader, devices);
         sceneLoader.moveTo(request);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sinew::viewer {
@@ -122,6 +123,53 @@ TEST(Camera, FramingContainsTheBoundsFromEverySide) {
             EXPECT_LE(widest, 1) << "nothing is cut off";
             EXPECT_GE(widest, 0.7f) << "little room is wasted";
         }
+}
+
+TEST(Camera, AShiftMovesThePictureAndTheRaysButKeepsPerspective) {
+    const Camera straight = someCamera();
+    Camera shifted = straight;
+    shifted.shift = -0.22f; // [picture heights]
+    for (const Vector3& point :
+         {Vector3(0.1f, 0.3f, -0.2f), Vector3(0.4f, 0.1f, 0.3f), Vector3(-0.5f, 0.2f, 0)}) {
+        const Vector3 before = project(straight, point), after = project(shifted, point);
+        EXPECT_NEAR(after.x() - before.x(), 2 * shifted.shift / aspect, 1e-5f) << "at every depth";
+        EXPECT_NEAR(after.y(), before.y(), 1e-5f);
+        EXPECT_NEAR(after.z(), before.z(), 1e-5f);
+        const Ray ray = rayThrough(shifted, {0.5f * aspect * after.x(), 0.5f * after.y()});
+        EXPECT_LT((point - ray.origin).cross(ray.direction).norm(), 1e-4f) << "picked where it is drawn";
+    }
+    const Vector2 pointer(-0.35f, 0.1f);
+    const Vector3 under =
+        *meet(rayThrough(shifted, pointer), shifted.target, (shifted.target - eye(shifted)).normalized());
+    const Vector3 kept = project(zoomed(shifted, 0.6f, pointer), under);
+    EXPECT_NEAR(kept.x(), 2 * pointer.x() / aspect, 1e-3f) << "the wheel zooms to the pointer";
+    EXPECT_NEAR(kept.y(), 2 * pointer.y(), 1e-3f);
+}
+
+TEST(Camera, OfAFileIsMovedBackUntilANarrowPictureShowsTheBodies) {
+    const Box box(Vector3(-0.4f, 0, -0.3f), Vector3(0.4f, 0.4f, 0.3f));
+    const Camera camera = lookingFrom({0.9f, 0.6f, 1.2f}, {0, 0.15f, 0}, 40);
+    EXPECT_EQ(fitted(camera, box, 16.0f / 9), camera);
+    EXPECT_EQ(fitted(camera, Box(Vector3(-0.1f, 0, -0.1f), Vector3(0.1f, 0.2f, 0.1f)), 1), camera)
+        << "it shows them as it is";
+    for (const float narrow : {0.8f, 0.65f}) {
+        const auto widest = [&](const Camera& seen) {
+            float most = 0;
+            for (int corner = 0; corner < 8; ++corner) {
+                const Vector3 at = box.corner(static_cast<Box::CornerType>(corner));
+                const Eigen::Vector4f clip = clipMatrix(seen, narrow, 100) * at.homogeneous();
+                most = std::max(most, std::abs(clip.x() / clip.w()));
+            }
+            return most;
+        };
+        const Camera back = fitted(camera, box, narrow);
+        EXPECT_GT(widest(camera), 1) << "narrow enough to need it";
+        EXPECT_LE(widest(back), 1);
+        EXPECT_GT(widest(back), 0.9f);
+        EXPECT_EQ(back.target, camera.target);
+    }
+    const Box wide(Vector3(-9, 0, -9), Vector3(9, 1, 9)); // a file may show a part of a scene
+    EXPECT_FLOAT_EQ(fitted(camera, wide, 1).distance, camera.distance * 16 / 9);
 }
 
 TEST(Camera, FramingOfOnePointStaysFinite) {

@@ -45,7 +45,7 @@ mkdir -p config/sinew
 echo "folded = scene material view record compare window" >config/sinew/viewer.conf # the solver is at the top
 start --device 0
 xdotool windowmove "$window" 0 0
-cutDown 450 100 600
+cutDown 290 100 600
 keys c space
 awaitTitle paused
 for _ in {1..5}; do keys period; done

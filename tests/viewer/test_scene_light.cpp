@@ -99,6 +99,18 @@ TEST(SceneLight, DoesNotMoveWithTheBodies) {
         std::equal(a.shadowFromWorld.columns, a.shadowFromWorld.columns + 16, b.shadowFromWorld.columns));
 }
 
+TEST(FrameParams, ViewRaysOfTheSkyGoWhereTheShiftedPictureShowsThem) {
+    Camera camera;
+    camera.shift = -0.3f;
+    const layout::FrameParams params = frameParams(lightFor(droppedBlock(), camera), camera, 1.5f);
+    const auto vector = [](const layout::vec4& v) { return Vector3(v.x, v.y, v.z); };
+    const Vector2 clip(0.4f, -0.7f);
+    const Vector3 ray =
+        vector(params.rayForward) + clip.x() * vector(params.rayRight) + clip.y() * vector(params.rayUp);
+    const Vector3 seen = rayThrough(camera, {0.5f * 1.5f * clip.x(), 0.5f * clip.y()}).direction;
+    EXPECT_LT((ray.normalized() - seen).norm(), 1e-5f);
+}
+
 TEST(Grid, SpacingIsARoundNumber) {
     EXPECT_FLOAT_EQ(gridSpacing(1), 0.2f);
     EXPECT_FLOAT_EQ(gridSpacing(0.6f), 0.1f);

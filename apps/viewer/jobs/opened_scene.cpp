@@ -15,19 +15,6 @@ Vector3 toVector(const sim::Vec3& v) {
     return {v.x, v.y, v.z};
 }
 
-Camera firstView(const scenes::LoadedScene& loaded, float aspect) {
-    const std::optional<float> ground = groundHeight(loaded.scene);
-    const Box bounds = sceneBounds(loaded.scene);
-    Camera camera;
-    if (loaded.camera)
-        camera = lookingFrom(toVector(loaded.camera->eye), toVector(loaded.camera->target),
-                             loaded.camera->fieldOfView);
-    else
-        camera = framing(camera, bounds, aspect);
-    if (ground) camera.lowestEye = *ground + 0.02f * bounds.diagonal().norm();
-    return camera;
-}
-
 // The camera of a saved view.
 Camera seenAgain(Camera camera, const app::SavedView& view) {
     camera.target = toVector(view.target);
@@ -53,6 +40,20 @@ OpenedScene::OpenedScene() = default;
 OpenedScene::OpenedScene(OpenedScene&&) noexcept = default;
 OpenedScene::~OpenedScene() = default;
 
+Camera firstView(const scenes::LoadedScene& loaded, float aspect) {
+    const std::optional<float> ground = groundHeight(loaded.scene);
+    const Box bounds = sceneBounds(loaded.scene);
+    Camera camera;
+    if (loaded.camera)
+        camera = fitted(lookingFrom(toVector(loaded.camera->eye), toVector(loaded.camera->target),
+                                    loaded.camera->fieldOfView),
+                        bounds, aspect);
+    else
+        camera = framing(camera, bounds, aspect);
+    if (ground) camera.lowestEye = *ground + 0.02f * bounds.diagonal().norm();
+    return camera;
+}
+
 OpenedScene open(const Options& options, float aspect) {
     OpenedScene opening = look(options, aspect);
     for (const std::string& note : opening.loaded.notes) std::fprintf(stderr, "%s\n", note.c_str());
@@ -77,7 +78,8 @@ OpenedScene look(const Options& asked, float aspect) {
     opening.light.marks =
         marksOf(opening.loaded.scene, opening.loaded.holds, pinShare * opening.light.radius());
     opening.light.showsSleep = opening.loaded.settings.sleeps;
-    if (opening.run && opening.run->view) opening.camera = seenAgain(opening.camera, *opening.run->view);
+    opening.isFirstView = !opening.run || !opening.run->view;
+    if (!opening.isFirstView) opening.camera = seenAgain(opening.camera, *opening.run->view);
     return opening;
 }
 

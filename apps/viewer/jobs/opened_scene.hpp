@@ -32,6 +32,7 @@ struct OpenedScene {
 
     scenes::LoadedScene loaded;
     Camera camera;
+    bool isFirstView = true; ///< the camera is firstView() for some picture; else it was chosen by a person
     SceneLight light;
     std::optional<float> bladeDepth; ///< initial depth (see CutTool::setDepth)
     std::optional<ReloadRequest> reload;
@@ -50,6 +51,9 @@ OpenedScene open(const Options& options, float aspect);
 
 /// Like open(), without output to stderr.
 OpenedScene look(const Options& options, float aspect);
+
+/// The camera of the file, moved back for a narrow picture, or one that frames all bodies.
+Camera firstView(const scenes::LoadedScene& loaded, float aspect);
 
 /// The initial material: that of the reload or of the saved state, if there is one.
 sim::Material firstMaterial(const OpenedScene& opening);

@@ -153,11 +153,25 @@ void Comparison::settle(std::uint32_t slot) {
 float Comparison::pictureAspect() const {
     const VkExtent2D extent = player_.session.presenter().extent();
     if (extent.height == 0) return 1;
-    const auto width = beside_ ? 0.5f * static_cast<float>(halvesWidth()) : static_cast<float>(extent.width);
+    const auto width = beside_ ? 0.5f * static_cast<float>(halvesWidth()) : static_cast<float>(freeWidth());
     return width / static_cast<float>(extent.height);
 }
 
-// SecondSimulation the panels, if they leave room.
+float Comparison::shift() const {
+    const VkExtent2D extent = player_.session.presenter().extent();
+    if (beside_ || extent.height == 0) return 0;
+    return 0.5f * (static_cast<float>(freeWidth()) - static_cast<float>(extent.width)) /
+           static_cast<float>(extent.height);
+}
+
+// Panels that leave less than a quarter of the window cover the picture.
+std::uint32_t Comparison::freeWidth() const {
+    const VkExtent2D extent = player_.session.presenter().extent();
+    const std::uint32_t side = player_.session.panels().sideWidth(extent);
+    return 4 * side <= 3 * extent.width ? extent.width - side : extent.width;
+}
+
+// Both halves stand beside the panels, if those leave room.
 std::uint32_t Comparison::halvesWidth() const {
     const VkExtent2D extent = player_.session.presenter().extent();
     const std::uint32_t side = player_.session.panels().sideWidth(extent);
@@ -167,7 +181,7 @@ std::uint32_t Comparison::halvesWidth() const {
 void Comparison::fold(Input& input) {
     const VkExtent2D extent = player_.session.presenter().extent();
     const auto foldAt = [&](const Vector2& at) {
-        if (!beside_ || extent.height == 0) return 0.0f;
+        if (!beside_ || extent.height == 0) return shift();
         const auto width = static_cast<float>(halvesWidth()), whole = static_cast<float>(extent.width),
                    height = static_cast<float>(extent.height);
         const bool isRight = at.x() * height + 0.5f * (whole - width) >= 0;

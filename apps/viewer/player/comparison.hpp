@@ -37,10 +37,12 @@ public:
     /// Takes the results of a slot that has finished.
     void settle(std::uint32_t slot);
 
-    /// Width over height of one picture: a half of the window while there are two.
+    /// Width over height of the area that panels leave to one picture: a half of it while there are two.
     float pictureAspect() const;
-    /// Moves pointer and presses so that the half they are in counts as the whole window. While a button is
-    /// down it stays the half in which it was pressed.
+    /// Camera::shift of the whole window: from its middle to that of the area beside the panels.
+    float shift() const;
+    /// Moves pointer and presses so that they count from the middle of the free area, or of the half of it
+    /// that they are in. While a button is down it stays the half in which it was pressed.
     void fold(Input& input);
     /// Draws both halves. There is a simulation().
     void drawHalves(const Presenter::Frame& frame, const Overlay& overlay, View& view);
@@ -55,6 +57,7 @@ private:
     void take();
     bool compareInstead();
     void drop();
+    std::uint32_t freeWidth() const;
     std::uint32_t halvesWidth() const;
 
     const PlayerContext& player_;
@@ -65,7 +68,7 @@ private:
     bool isBehind_ = false;
     // Nobody chose what is wanted: something else may be shown instead; it is.
     bool isDefault_ = false, isInstead_ = false;
-    float fold_ = 0; // from the middle of the window to that of the half with the pointer, as Input::pointer
+    float fold_ = 0; // from the middle of the window to that of the pointer's picture, as Input::pointer
     bool isButtonDown_ = false;
 };
 

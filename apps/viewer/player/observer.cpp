@@ -21,7 +21,33 @@ Observer::Observer(const PlayerContext& player, const LayerView& layers, const C
       probe_(std::in_place, player.device, player.document.scene(), player.document.settings(),
              player.document.simulation()),
       pieceProbe_(player.device, player.document),
-      inspector_(player.document, player.opening.loaded.holds, Presenter::framesInFlight) {}
+      inspector_(player.document, player.opening.loaded.holds, Presenter::framesInFlight) {
+    if (player.opening.isFirstView && !player.opening.input) framing_ = Framing{player.opening.camera};
+}
+
+void Observer::frame(const Box& box) {
+    const float aspect = comparison_.pictureAspect();
+    Camera& camera = player_.controller.camera;
+    camera = framing(camera, box, aspect);
+    framing_ = Framing{camera, box, aspect};
+}
+
+void Observer::keepFraming() {
+    const float aspect = comparison_.pictureAspect();
+    Camera& camera = player_.controller.camera;
+    if (!framing_ || framing_->camera != camera || framing_->aspect == aspect) return;
+    camera =
+        framing_->box ? framing(camera, *framing_->box, aspect) : firstView(player_.opening.loaded, aspect);
+    framing_->camera = camera;
+    framing_->aspect = aspect;
+    player_.redraw();
+}
+
+Camera Observer::seenBesidePanels() const {
+    Camera camera = player_.controller.camera;
+    camera.shift = comparison_.shift();
+    return camera;
+}
 
 void Observer::lookAt(Target target) {
     wantsLook_ = Look{target, pointerRay()};
@@ -106,9 +132,8 @@ void Observer::settle(std::uint32_t slot) {
         answer(*asked.question, picker.answer(slot, ofTools));
     if (asked.isMeasured) gauges_.strainMeasured(measureStrain(player_.document.scene(), *probe_));
     if (asked.look) settleLook(*asked.look, picker.answer(slot, ofLook));
-    Camera& camera = player_.controller.camera;
     if (const Box bounds = asked.isBounded ? probe_->bounds() : Box(); !bounds.isEmpty()) {
-        camera = framing(camera, bounds, comparison_.pictureAspect());
+        frame(bounds);
         player_.redraw(); // what is on screen was seen from elsewhere
     }
     if (asked.isInspected)
@@ -123,7 +148,7 @@ void Observer::settleLook(const Look& look, const std::optional<Pick>& found) {
     } else {
         const Box box =
             found ? probe_->bounds(bodyOf(player_.document.scene(), found->particle)) : probe_->bounds();
-        if (!box.isEmpty()) camera = framing(camera, box, comparison_.pictureAspect());
+        if (!box.isEmpty()) frame(box);
     }
     player_.redraw();
 }
@@ -146,6 +171,7 @@ void Observer::restart() {
 
 void Observer::takeOver(const Observer& before) {
     pointer_ = before.pointer_;
+    framing_ = before.framing_;
     if (before.inspector_.isOn()) inspector_.toggle();
     linksCut_ = before.linksCut_;
     allPieces_ = before.allPieces_;

@@ -26,6 +26,11 @@ public:
 
     /// Frames all bodies.
     void frameAll() noexcept { wantsBounds_ = true; }
+    /// Frames again for another size of the window or of the panels, if the camera has not moved since it
+    /// framed the scene or a body.
+    void keepFraming();
+    /// The camera of the window's picture: its target is in the middle of the area beside the panels.
+    Camera seenBesidePanels() const;
     /// Looks at what lies under the pointer now, or under the next press.
     void lookAt(Target target);
     void lookAtPress(Target target) noexcept { armed_ = target; }
@@ -76,6 +81,13 @@ private:
     void settleLook(const Look& look, const std::optional<Pick>& found);
     bool isStrainDue(std::uint32_t steps);
     bool isCountDue();
+    /// What the camera shows as a whole, in a picture of this aspect ratio; without a box, the first view.
+    struct Framing {
+        Camera camera;
+        std::optional<Box> box = {};
+        float aspect = 0;
+    };
+    void frame(const Box& box);
     /// Rays of a picture, by what asks.
     enum Asker : std::size_t { ofTools, ofLook, ofInspector };
     Ray pointerRay() const;
@@ -90,6 +102,7 @@ private:
     Vector2 pointer_ = Vector2::Zero(); // see Input::pointer
     std::optional<Look> wantsLook_;
     std::optional<Target> armed_;
+    std::optional<Framing> framing_; // the newest
     bool wantsBounds_ = false, wantsCount_ = false;
     Clock::time_point lastStrain_ = Clock::now(), lastCount_ = lastStrain_;
     std::uint32_t linksCut_ = 0;  // Status::linksCutInAll of the newest step that has finished

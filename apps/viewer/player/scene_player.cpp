@@ -220,6 +220,7 @@ void ScenePlayer::play() {
     succession_.takeShape();
     journal_.dropReplay();
     isHidden_ = !prepareSwapchain();
+    if (!isHidden_) observer_.keepFraming();
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - std::exchange(lastTurn_, now)).count();
     if (isHidden_) return; // time stops while the window is hidden
@@ -351,7 +352,7 @@ void ScenePlayer::drawPicture(const Presenter::Frame& frame, const Overlay& over
     if (areHalves)
         comparison_.drawHalves(frame, overlay, view);
     else
-        view.renderer.record(frame.commands, frame.slot, *canvas, frame.image, controller_.camera,
+        view.renderer.record(frame.commands, frame.slot, *canvas, frame.image, observer_.seenBesidePanels(),
                              document_.simulation(), overlay);
     times_.end(frame, PictureTimes::Part::drawing);
     capture_.recordPicture(frame, overlay);

@@ -50,7 +50,9 @@ Matrix4 viewMatrix(const Camera& camera) {
 
 Matrix4 clipMatrix(const Camera& camera, float aspect, float reach) {
     const float near = std::min(0.02f * camera.distance, 1e-3f * reach);
-    return perspective(camera.fieldOfView, aspect, near, reach) * viewMatrix(camera);
+    Matrix4 clip = perspective(camera.fieldOfView, aspect, near, reach);
+    clip(0, 2) = -2 * camera.shift / aspect; // times -1: w is the depth
+    return clip * viewMatrix(camera);
 }
 
 Camera lookingFrom(const Vector3& eye, const Vector3& target, float fieldOfView) {
@@ -67,7 +69,8 @@ Camera lookingFrom(const Vector3& eye, const Vector3& target, float fieldOfView)
 Ray rayThrough(const Camera& camera, const Vector2& pointer) {
     const Eigen::Matrix3f world = axes(camera);
     const float height = 2 * std::tan(camera.fieldOfView / 2); // of the picture at unit depth
-    const Vector3 direction = world.transpose() * Vector3(height * pointer.x(), -height * pointer.y(), -1);
+    const Vector3 direction =
+        world.transpose() * Vector3(height * (pointer.x() - camera.shift), -height * pointer.y(), -1);
     return {eye(camera), direction.normalized()};
 }
 
@@ -95,8 +98,8 @@ Camera zoomed(Camera camera, float factor, const Vector2& pointer) {
     const float before = pictureHeight(camera);
     camera.distance = std::clamp(camera.distance * factor, smallestDistance, largestDistance);
     const float shrunk = before - pictureHeight(camera);
-    camera.target +=
-        shrunk * (world.row(0).transpose() * pointer.x() - world.row(1).transpose() * pointer.y());
+    camera.target += shrunk * (world.row(0).transpose() * (pointer.x() - camera.shift) -
+                               world.row(1).transpose() * pointer.y());
     return settled(camera);
 }
 
@@ -119,6 +122,20 @@ Camera framing(Camera camera, const Box& box, float aspect) {
         distance = std::max(distance, at.z() + std::max(std::abs(at.x()) / tanX, std::abs(at.y()) / tanY));
     }
     camera.distance = distance > 0 ? distance : 1;
+    return settled(camera);
+}
+
+Camera fitted(Camera camera, const Box& box, float aspect) {
+    constexpr float margin = 1.05f, wide = 16.0f / 9;
+    if (aspect >= wide) return camera;
+    const float tanX = std::tan(camera.fieldOfView / 2) / margin * aspect;
+    const Eigen::Matrix3f world = axes(camera);
+    float needed = camera.distance;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vector3 at = world * (box.corner(static_cast<Box::CornerType>(corner)) - camera.target);
+        needed = std::max(needed, at.z() + std::abs(at.x()) / tanX);
+    }
+    camera.distance = std::min(needed, camera.distance * wide / aspect);
     return settled(camera);
 }
 

@@ -15,6 +15,8 @@ struct Camera {
     float elevation = 0.27f;          ///< angle of the eye above the target's level [rad]
     float fieldOfView = 0.7f;         ///< vertical [rad]
     float lowestEye = -std::numeric_limits<float>::infinity(); ///< the eye stays above this height [m]
+    float shift = 0; ///< of the target to the right of the picture's middle [picture heights]; the lens is
+                     ///< shifted, not turned, so that perspective stays the same
     bool operator==(const Camera&) const = default;
 };
 
@@ -58,5 +60,9 @@ Camera centered(Camera camera, const Vector3& point);
 
 /// Keeps the direction of view and fits `box` into the picture with a small margin.
 Camera framing(Camera camera, const Box& box, float aspect);
+
+/// Keeps target and direction of a camera that was chosen for a wide picture (16 : 9), and moves it back
+/// until `box` fits between the sides of a narrower one, or all that the wide picture shows between its own.
+Camera fitted(Camera camera, const Box& box, float aspect);
 
 } // namespace sinew::viewer

@@ -106,13 +106,14 @@ layout::FrameParams frameParams(const SceneLight& light, const Camera& camera, f
     const layout::vec4 floor = floorSquare(light.bounds, ground, light.toLight);
     const Eigen::Matrix3f axes = viewMatrix(camera).block<3, 3>(0, 0);
     const float tall = std::tan(camera.fieldOfView / 2);
+    const Vector3 forward = -axes.row(2) - 2 * camera.shift * tall * axes.row(0);
     layout::FrameParams params{.clipFromWorld = packed(clipMatrix(camera, aspect, reach)),
                                .shadowFromWorld = packed(Matrix4(orthographic(seen) * fromLight)),
                                .planFromWorld = packed(planMatrix(floor, ground)),
                                .eye = packed(at, 1),
                                .rayRight = packed(Vector3(axes.row(0)) * tall * aspect, 0),
                                .rayUp = packed(Vector3(axes.row(1)) * -tall, 0),
-                               .rayForward = packed(Vector3(-axes.row(2)), 0),
+                               .rayForward = packed(forward, 0),
                                .toLight = packed(light.toLight, 0),
                                .stage = packed(center, radius),
                                .ground = {ground, gridSpacing(2 * radius), haze, light.ground ? 1.0f : 0.0f},
