@@ -51,4 +51,12 @@ TEST(Balls, ShowBodiesWithoutASkinAndNoOthers) {
     EXPECT_EQ(list.radii[14], 0.05f) << "as they touch";
 }
 
+TEST(Balls, MakeALongChainATubeThatCanBeSeen) {
+    sim::Scene scene;
+    sim::addChain(scene, {.particles = 100, .length = 1});
+    const BallList list = ballsOf(scene);
+    EXPECT_NEAR(list.radii[0], 0.012f, 1e-4f) << "more than 0.4 of a link";
+    EXPECT_LT(allBallsOf(scene).radii[0], 0.02f);
+}
+
 } // namespace sinew::viewer

@@ -47,11 +47,15 @@ std::vector<float> shortestLinks(const sim::Scene& scene) {
 }
 
 // Radius of a body's particles without contacts: `share` of the shortest link, or `speck` without links.
-float quietRadius(const sim::Body& body, const std::vector<float>& shortest, float share, float speck) {
+// Never below `least`.
+struct Quiet {
+    float share, speck, least;
+};
+float quietRadius(const sim::Body& body, const std::vector<float>& shortest, const Quiet& quiet) {
     const auto first = shortest.begin() + body.firstParticle;
     const float length =
         body.particleCount == 0 ? none : *std::min_element(first, first + body.particleCount);
-    return length < none ? share * length : speck;
+    return length < none ? std::max(quiet.share * length, quiet.least) : quiet.speck;
 }
 
 enum class Which { bare, all };
@@ -60,13 +64,14 @@ BallList listBalls(const sim::Scene& scene, Which which) {
     BallList list;
     const std::vector<Color> colors = skinColors(scene);
     const std::vector<float> shortest = shortestLinks(scene);
-    const float speck = 0.004f * particleBounds(scene).diagonal().norm();
+    const float size = particleBounds(scene).diagonal().norm(), speck = 0.004f * size;
+    const Quiet bare{.share = 0.4f, .speck = speck, .least = 0.012f * size}, covered{0.2f, speck, 0};
     list.radii.resize(scene.particles.size());
     for (const sim::Body& body : scene.bodies) {
         const Color skin = skinColor(body, colors);
         if (skin && which == Which::bare) continue;
         list.ranges.push_back({body.firstParticle, body.particleCount, skin.value_or(body.color)});
-        const float quiet = quietRadius(body, shortest, skin ? 0.2f : 0.4f, speck);
+        const float quiet = quietRadius(body, shortest, skin ? covered : bare);
         for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
             list.radii[i] = scene.particles[i].radius > 0 ? scene.particles[i].radius : quiet;
     }

@@ -19,7 +19,7 @@ struct BallList {
 };
 
 /// A ball has the contact radius of its particle; if the particle has none, balls of linked particles nearly
-/// touch.
+/// touch. Those of short links overlap, so that a long chain is a tube that can be seen.
 BallList ballsOf(const sim::Scene& scene);
 /// Also includes bodies with a skin, in the colour of the skin; smaller, so that balls inside can be told
 /// apart.
