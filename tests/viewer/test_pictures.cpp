@@ -52,6 +52,30 @@ TEST(Picture, ShowsABodyWithoutASkinAsLitBallsThatCastShadows) {
     EXPECT_LT(redness(colorAt(falling.take(), falling.camera, start)), 25) << "drawn where the particle is";
 }
 
+TEST(Picture, ShowsWallsBehindWhatTheyContainAndOnlyEdgesInFrontOfIt) {
+    const sim::Scene open = block(0, true);
+    sim::Scene boxed = open;
+    for (const sim::Vec3& normal :
+         {sim::Vec3{1, 0, 0}, sim::Vec3{-1, 0, 0}, sim::Vec3{0, 0, 1}, sim::Vec3{0, 0, -1}})
+        boxed.planes.push_back({.normal = normal, .offset = -0.5f});
+    Camera camera = viewOf(open);
+    camera.azimuth = 0; // looks against z
+    camera.distance *= 1.6f;
+    SceneShot free(open, camera), inside(boxed, camera);
+    const Picture without = free.take(), with = inside.take();
+    const auto change = [&](const Vector3& at) {
+        const Color a = colorAt(with, camera, at), b = colorAt(without, camera, at);
+        return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+    };
+    EXPECT_LT(change({0, 0.2f, 0.2f}), 6) << "the front of the block, through the wall before it";
+    EXPECT_LT(change({0.3f, 0, 0.4f}), 6) << "the ground before it";
+    EXPECT_GT(change({-0.35f, 0.05f, -0.5f}), 15) << "the wall behind it";
+    float most = 0; // along a line across the upper edge of the wall in front
+    for (float y = 0.1f; y < 0.6f; y += 0.002f)
+        most = std::max(most, static_cast<float>(change({0.3f, y, 0.5f})));
+    EXPECT_GT(most, 60) << "an edge";
+}
+
 TEST(Picture, IsDarkerOnTheGroundBesideTheBodyThanFarFromIt) {
     const sim::Scene scene = block(0, true);
     Camera camera = viewOf(scene);

@@ -65,7 +65,8 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                                          .depth = format_.depth,
                                          .samples = format_.samples,
                                          .finalLayout = target.finalLayout})),
-      sets_(device, maps_, slots), balls_(device, light.balls), marks_(device, light.marks, 0), hand_(device),
+      sets_(device, maps_, slots), balls_(device, light.balls), marks_(device, light.marks, 0),
+      walls_(device, light.walls), hand_(device),
       strokes_(device, {.name = "strokes",
                         .count = slots * pointsASlot,
                         .stride = sizeof(sim::layout::vec4),
@@ -84,6 +85,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     makeCuts(to);
     if (!balls_.ranges().empty()) makeBalls(to);
     if (!marks_.ranges().empty()) makeHeld(to);
+    if (!walls_.isEmpty()) makeWalls(to);
     readablePass_.emplace(
         RenderPass::picture(device_, {.color = format_.color,
                                       .depth = format_.depth,
@@ -228,6 +230,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
             drawCuts(commands, opened(insidePipeline, layers), opened(clippedPipeline, layers), simulation);
     }
     drawMarks(commands, simulation, layers);
+    drawWalls(commands, skinPipeline, walls_.bars(), barColor);
     drawCap(commands, canvas, layers);
     if (overlay.hand) drawHand(commands, simulation, *overlay.hand, handColor, 1);
     for (const Hand& pin : overlay.pins) drawHand(commands, simulation, pin, pinColor, -1);
@@ -236,6 +239,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
                sheet.slot * pointsASlot + mostStrokePoints);
     if (light_.ground) drawGround(commands, params, hasBackdrop);
     drawScreen(commands, hasBackdrop ? backdropPipeline : skyPipeline);
+    drawWalls(commands, wallPipeline, walls_.sides(), sideColor);
     recordLayers(commands, simulation, overlay);
     device_.functions().vkCmdEndRenderPass(commands);
 }

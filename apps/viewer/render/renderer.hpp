@@ -106,6 +106,8 @@ public:
 private:
     static constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f}, pinColor{0.02f, 0.30f, 0.72f},
         strokeColor{0.10f, 0.55f, 0.95f}, gaugeColor{0.95f, 0.75f, 0.15f};
+    static constexpr layout::vec4 barColor{0.16f, 0.20f, 0.24f, 0.15f}, // w: gloss, opacity
+        sideColor{0.30f, 0.45f, 0.60f, 0.30f};
 
     void addPipeline(Additions& to, std::size_t index, PipelineRequest request) const;
     void addLit(Additions& to, std::size_t index, PipelineRequest request) const;
@@ -141,6 +143,7 @@ private:
     void makeCuts(Additions& to) const;
     void makeBalls(Additions& to) const;
     void makeHeld(Additions& to) const;
+    void makeWalls(Additions& to) const;
     static const vk::ShaderCode* openedForm(std::size_t index, const PipelineRequest& request) noexcept;
     const RenderPass& countsPass(Additions& to) const;
     const RenderPass& passOf(const Canvas& canvas) const noexcept;
@@ -195,6 +198,8 @@ private:
                        const sim::Simulation& simulation) const noexcept;
     void drawHostColliders(VkCommandBuffer commands, std::size_t pipeline,
                            const sim::Simulation& simulation) const noexcept;
+    void drawWalls(VkCommandBuffer commands, std::size_t pipeline, const Walls::Part& part,
+                   const layout::vec4& color) const noexcept;
     void drawBalls(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
                    const Overlay& overlay) const noexcept;
     void drawMarks(VkCommandBuffer commands, const sim::Simulation& simulation,
@@ -227,6 +232,7 @@ private:
     RenderPass pass_;
     PictureSets sets_;
     Balls balls_, marks_;
+    Walls walls_;
     HandMesh hand_;
     vk::Buffer strokes_;                                        // vec4, pointsASlot each
     vk::Buffer nothing_;                                        // one degenerate corner
@@ -250,6 +256,7 @@ private:
         ballPlanPipeline,
         ballPipeline,
         heldPipeline,
+        wallPipeline,
         skinGlassPipeline,
         insideGlassPipeline,
         clippedGlassPipeline,

@@ -141,6 +141,16 @@ void Renderer::drawBalls(VkCommandBuffer commands, std::size_t pipeline, const s
     }
 }
 
+// Walls cast no shadows either.
+void Renderer::drawWalls(VkCommandBuffer commands, std::size_t pipeline, const Walls::Part& part,
+                         const layout::vec4& color) const noexcept {
+    if (walls_.isEmpty()) return;
+    bind(commands, pipeline);
+    bindMesh(commands, walls_.vertices(), walls_.indices());
+    push(commands, {color, {}, {0, 0, 0, 1}, {1, 0, 0, 0}});
+    device_.functions().vkCmdDrawIndexed(commands, part.indexCount, 1, part.firstIndex, part.firstVertex, 0);
+}
+
 // Marks cast no shadows: they show constraints of the scene, like pins show those of the user.
 void Renderer::drawMarks(VkCommandBuffer commands, const sim::Simulation& simulation,
                          const Layers& layers) const noexcept {

@@ -149,6 +149,17 @@ void Renderer::makeHeld(Additions& to) const {
             .constants = heldLook_});
 }
 
+void Renderer::makeWalls(Additions& to) const {
+    addLit(to, wallPipeline,
+           {.name = "wall",
+            .vertex = &shaders::wiresVert,
+            .fragment = &shaders::wallFrag,
+            .input = Input::positions,
+            .depth = Depth::test,
+            .faces = Faces::fronts,
+            .blend = Blend::over});
+}
+
 void Renderer::makeGlass(Additions& to) const {
     const auto add = [&](std::size_t index, const char* name, const vk::ShaderCode& vertex,
                          const vk::ShaderCode& fragment, Input input) {

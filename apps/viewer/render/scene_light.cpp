@@ -75,6 +75,7 @@ SceneLight lightFor(const sim::Scene& scene, const Camera& camera) {
     light.isOutward = outwardSkins(scene);
     light.balls = ballsOf(scene);
     light.colliders = scene.colliders;
+    light.walls = wallsOf(scene, light.bounds);
     light.toLight = {level * std::sin(azimuth), std::sin(keyElevation), level * std::cos(azimuth)};
     return light;
 }

@@ -6,6 +6,7 @@
 #include "viewer/render/balls.hpp"
 #include "viewer/render/camera.hpp"
 #include "viewer/render/section.hpp"
+#include "viewer/render/walls.hpp"
 
 namespace sinew::viewer {
 
@@ -23,6 +24,7 @@ struct SceneLight {
     BallList marks;                       ///< marks of the particles that the scene holds
     bool showsSleep = false;              ///< sleeping bodies are paler
     std::vector<sim::Collider> colliders; ///< drawn at the poses of the simulation
+    WallMesh walls;
 
     /// Whether the triangles of all closed skins face outwards, as those of their cuts do.
     bool areSolidsOutward() const;
