@@ -76,6 +76,73 @@ TEST(Picture, ShowsWallsBehindWhatTheyContainAndOnlyEdgesInFrontOfIt) {
     EXPECT_GT(most, 60) << "an edge";
 }
 
+// How far the pixels of a round body differ from the mean of their four neighbours: noise and shadow acne
+// show as such differences, even shading does not.
+struct Roughness {
+    double mean;
+    int most; // that one pixel of a hundred exceeds
+};
+Roughness roughness(const Picture& picture, const Camera& camera, const Vector3& center, float radius) {
+    const Eigen::Vector4f clip = clipMatrix(camera, aspect, 100) * center.homogeneous();
+    const auto height = static_cast<float>(picture.height), width = static_cast<float>(picture.width);
+    const Vector2 middle((0.5f * clip.x() / clip.w() + 0.5f) * width,
+                         (0.5f * clip.y() / clip.w() + 0.5f) * height);
+    const float reach = 0.9f * radius / pictureHeight(camera) * height;
+    const auto at = [&](std::uint32_t x, std::uint32_t y) {
+        const std::uint8_t* pixel = &picture.pixels.at(4 * (std::size_t{y} * picture.width + x));
+        return pixel[0] + pixel[1] + pixel[2];
+    };
+    std::vector<int> all;
+    double sum = 0;
+    for (std::uint32_t y = 1; y + 1 < picture.height; ++y)
+        for (std::uint32_t x = 1; x + 1 < picture.width; ++x) {
+            if ((Vector2(static_cast<float>(x), static_cast<float>(y)) - middle).norm() > reach) continue;
+            all.push_back(std::abs(4 * at(x, y) - at(x - 1, y) - at(x + 1, y) - at(x, y - 1) - at(x, y + 1)) /
+                          4);
+            sum += all.back();
+        }
+    std::ranges::sort(all);
+    return {sum / static_cast<double>(all.size()), all[all.size() * 99 / 100]};
+}
+
+TEST(Picture, OfARoundBodyIsSmoothFromEverySide) {
+    sim::Scene scene = block(0, true);
+    const Vector3 center(0, 0.55f, 0);
+    scene.gravity = {0, 0, 0};
+    scene.colliders = {{.radius = 0.3f, .pose = {{0, 0.55f, 0}}, .color = {0.5f, 0.45f, 0.42f}}};
+    for (sim::Particle& particle : scene.particles) particle.position.x += 3;
+    Camera camera;
+    camera.target = center;
+    camera.distance = 1.2f;
+    SceneShot shot(scene, camera, reducedQuality());
+    for (const float azimuth : {0.6f, 1.6f, 2.8f, 4.0f, 5.2f})
+        for (const float elevation : {-0.35f, 0.1f, 0.6f, 1.2f}) {
+            shot.camera.azimuth = azimuth;
+            shot.camera.elevation = elevation;
+            const Picture picture = shot.take();
+            const Roughness rough = roughness(picture, shot.camera, center, 0.3f);
+            EXPECT_LT(rough.mean, 1.5) << "from " << azimuth << ", " << elevation;
+            EXPECT_LE(rough.most, 6) << "from " << azimuth << ", " << elevation;
+        }
+}
+
+TEST(Picture, OfABodyOnTheGroundIsNotBlackBelow) {
+    sim::Scene scene = block(0, true);
+    scene.colliders = {{.radius = 0.3f, .pose = {{0, 0.3f, 0}}, .color = {0.5f, 0.5f, 0.5f}}};
+    for (sim::Particle& particle : scene.particles) particle.position.x += 3;
+    Camera camera;
+    camera.target = {0, 0.3f, 0};
+    camera.distance = 1.6f;
+    camera.elevation = 0;
+    SceneShot shot(scene, camera);
+    const float behind = std::atan2(-shot.light.toLight.x(), -shot.light.toLight.z());
+    shot.camera.azimuth = behind; // looks towards the lamp
+    const Vector3 out = Vector3(0.8f * std::sin(behind), -0.6f, 0.8f * std::cos(behind));
+    const int below = brightness(colorAt(shot.take(), shot.camera, Vector3(0, 0.3f, 0) + 0.3f * out));
+    EXPECT_GT(below, 175);
+    EXPECT_LT(below, 330) << "but it is shaded";
+}
+
 TEST(Picture, IsDarkerOnTheGroundBesideTheBodyThanFarFromIt) {
     const sim::Scene scene = block(0, true);
     Camera camera = viewOf(scene);

@@ -3,7 +3,8 @@
 #include "viewer/light.glsl"
 
 const float reflectance = 0.042; // at normal incidence: moist tissue
-const uint floorTaps = 4u + shadowTaps / 4u;
+const uint floorTaps = 6u + shadowTaps / 4u;
+const vec2 floorAround = vec2(0.12, 0.30); // least share of the key light and of the sky in the light from below
 
 // GGX distribution with the visibility term of [Karis 2014].
 float highlight(float roughness, float nl, float nv, float nh) {
@@ -13,13 +14,14 @@ float highlight(float roughness, float nl, float nv, float nh) {
     return a2 / (pi * d * d) / (4.0 * (nl * (1.0 - k) + k) * (nv * (1.0 - k) + k));
 }
 
-// Light of the floor below a surface: the higher the surface, the larger the part of the floor that lights it.
-vec2 floorBelow(vec3 position, vec3 n, float phase) {
+// Light of the floor below a surface: the higher the surface, the larger the part of the floor that lights it. The taps
+// are the same at each pixel: the map is soft, and noise would show as hatching where nothing else lights a body.
+vec2 floorBelow(vec3 position, vec3 n) {
     const float height = max(position.y - frame.ground.x, 0.0);
     const vec3 center = position + vec3(n.x, 0.0, n.z) * (height + 0.03 * frame.stage.w);
     const float spread = 1.2 * height + 0.02 * frame.stage.w;
     vec2 sum = vec2(0.0);
-    vec2 turn = firstTurn(phase);
+    vec2 turn = vec2(1.0, 0.0);
     for (uint i = 0u; i < floorTaps; ++i, turn = nextTurn(turn)) {
         const vec2 offset = spread * discRadius(i, floorTaps) * turn;
         sum += floorLight(center + vec3(offset.x, 0.0, offset.y));
@@ -46,9 +48,11 @@ vec4 shade(vec3 worldPosition, vec3 worldNormal, vec3 albedo, float moist) {
     const vec3 direct = keyLight * mix(vec3(nl * lit), wrapped * litAround, 0.6);
 
     const float upward = 0.5 + 0.5 * n.y;
-    const vec2 below = floorBelow(worldPosition, n, phase);
-    const vec3 bounce = floorAlbedo * (skyLight * below.y + keyLight * frame.toLight.y * below.x);
-    const vec3 ambient = mix(0.7 * bounce, skyLight, upward) * mix(0.35 + 0.65 * below.y, 1.0, upward);
+    const vec2 below = floorBelow(worldPosition, n);
+    // The lit floor around a shadow reaches below a body that touches the floor.
+    const vec2 lightBelow = mix(floorAround, vec2(1.0), below);
+    const vec3 bounce = floorAlbedo * (skyLight * lightBelow.y + keyLight * frame.toLight.y * lightBelow.x);
+    const vec3 ambient = mix(0.7 * bounce, skyLight, upward) * mix(0.5 + 0.5 * below.y, 1.0, upward);
 
     const float nh = max(dot(n, halfway), 0.0);
     const float fresnel = reflectance + (1.0 - reflectance) * pow(1.0 - max(dot(v, halfway), 0.0), 5.0);
