@@ -271,10 +271,11 @@ void play(std::unique_ptr<OpenedScene> opening, const Options& options, const Pr
     std::unique_ptr<OpenedScene> first = std::move(opening);
     say(*first, *device);
     window.setTitle("Sinew - preparing " + first->loaded.scene.name); // takes seconds if drivers compile
-    prepare(*first, *device, window);
-    Session session(window, std::move(first->output), {options.isTimed, options.start},
+    Session session(window, std::make_unique<WindowOutput>(*device, window), {options.isTimed, options.start},
                     asAsked(preferences, options));
     if (options.isFullScreen) window.toggleFullScreen();
+    session.showText(*device, "Preparing view...");
+    prepare(*first, *device, session.presenter().format());
     session.layers() = options.layers;
     session.beside() = parseBeside(options.beside);
     tell(*first, session);

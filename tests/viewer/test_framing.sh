@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # test_framing.sh VIEWER SCENE FOLDER: bodies are framed in the part of the window that the panels leave, in
-# windows of several sizes, when it changes and when the panels are hidden; a pin appears under the pointer.
+# windows of several sizes, when it changes and when the panels are hidden; a pin appears under the pointer. Before
+# the first picture a text stands in the window.
 # FOLDER keeps the screenshots.
 set -euo pipefail
 viewer=$1 scene=$2 folder=$3
@@ -37,8 +38,24 @@ resize() { # WIDTH HEIGHT
 }
 panel=320 # width of the panels with their margins
 
+echo "framing: a text before the first picture"
+launch "$viewer" "$scene" "${options[@]}" --size "$extent" --panels
+awaitWindow '^Sinew'
+for _ in {1..600}; do
+    now=$(title)
+    shoot text.png
+    [[ $(convert text.png -format '%[fx:mean > 0.1 ? 1 : 0]' info:) == 1 ]] && break
+    sleep 0.05
+done
+[[ $now == *preparing* ]] || fail "the window is black until the first picture: $now"
+colors=$(convert text.png -format %k info:)
+((colors > 8 && colors < 300)) || fail "no text on a plain ground: $colors colors"
+lit() { convert text.png -crop "$1" +repage -colorspace gray -format '%[fx:maxima > 0.85 ? 1 : 0]' info:; }
+[[ $(lit 200x60+300+220) == 1 ]] || fail "no text in the middle"
+[[ $(lit 800x200+0+0) == 0 ]] || fail "more than a text before the first picture"
+
 echo "framing: beside the panels of a small window"
-start --panels
+awaitTitle fps
 xdotool windowmove "$window" 0 0
 keys space
 awaitTitle paused

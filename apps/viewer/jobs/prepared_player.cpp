@@ -54,9 +54,13 @@ PreparedPlayer::PreparedPlayer(const vk::Device& device, const OpenedScene& open
 }
 
 void prepare(OpenedScene& opening, const vk::Device& device, const Window& window) {
-    const vk::KeptKernels kept(device); // shared by the timing runs and the player
     opening.output = std::make_unique<WindowOutput>(device, window);
-    opening.prepared = std::make_unique<PreparedPlayer>(device, opening, opening.output->presenter.format());
+    prepare(opening, device, opening.output->presenter.format());
+}
+
+void prepare(OpenedScene& opening, const vk::Device& device, VkFormat format) {
+    const vk::KeptKernels kept(device); // shared by the timing runs and the player
+    opening.prepared = std::make_unique<PreparedPlayer>(device, opening, format);
 }
 
 } // namespace sinew::viewer

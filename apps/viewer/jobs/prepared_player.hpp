@@ -49,5 +49,7 @@ struct PreparedPlayer {
 
 /// Makes the place and the player of an opening. Any thread. Throws like their constructors.
 void prepare(OpenedScene& opening, const vk::Device& device, const Window& window);
+/// Makes only the player, for a place with this format.
+void prepare(OpenedScene& opening, const vk::Device& device, VkFormat format);
 
 } // namespace sinew::viewer

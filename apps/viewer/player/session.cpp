@@ -77,6 +77,32 @@ bool Session::prepare(const std::function<void()>& beforehand) {
     return true;
 }
 
+void Session::showText(const vk::Device& device, const std::string& text) {
+    if (!prepare([] {})) return;
+    Presenter& presenter = output_->presenter;
+    presenter.waitForSlot();
+    const std::optional<Presenter::Frame> frame = presenter.begin();
+    if (!frame) return;
+    const VkExtent2D extent = presenter.extent();
+    const RenderPass pass = RenderPass::whole(device, presenter.format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    const Framebuffer framebuffer(device, pass.handle(), presenter.views().subspan(frame->image, 1), extent,
+                                  "text");
+    const VkRenderPassBeginInfo info{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                     .renderPass = pass.handle(),
+                                     .framebuffer = framebuffer.handle(),
+                                     .renderArea = {{0, 0}, extent}};
+    const VkClearAttachment ground{VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color = {{0.62f, 0.64f, 0.66f, 1}}}};
+    const VkClearRect all{{{0, 0}, extent}, 0, 1};
+    const vk::DeviceFunctions& functions = device.functions();
+    functions.vkCmdBeginRenderPass(frame->commands, &info, VK_SUBPASS_CONTENTS_INLINE);
+    functions.vkCmdClearAttachments(frame->commands, 1, &ground, 1, &all);
+    functions.vkCmdEndRenderPass(frame->commands);
+    panels_.buildText(text, extent);
+    output_->painter.record(frame->commands, frame->slot, frame->image, panels_.drawn());
+    presenter.end(*frame);
+    presenter.waitIdle(); // the framebuffer is in use
+}
+
 void Session::toggleVsync() {
     isVsync_ = !isVsync_;
     pixels_ = {}; // requests a new swapchain

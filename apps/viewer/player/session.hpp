@@ -35,6 +35,8 @@ public:
     /// Makes a swapchain if one is due. Calls `beforehand` before it destroys the old views, when nothing is
     /// in flight. False while the window has no size.
     bool prepare(const std::function<void()>& beforehand);
+    /// Shows a text on a plain ground until the first picture. Throws vk::Error.
+    void showText(const vk::Device& device, const std::string& text);
     /// Active layers, shared by all scenes.
     Layers& layers() { return layers_; }
     const Layers& layers() const { return layers_; }

@@ -289,6 +289,22 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     return wishes;
 }
 
+void Panels::buildText(const std::string& text, VkExtent2D extent) {
+    for (int picture = 0; picture < 2; ++picture) { // Dear ImGui hides a window until it knows its size
+        feed({}, extent, 0);
+        ImGui::NewFrame();
+        ImGui::SetNextWindowPos(
+            {0.5f * static_cast<float>(extent.width), 0.5f * static_cast<float>(extent.height)},
+            ImGuiCond_Always, {0.5f, 0.5f});
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {20 * scale_, 12 * scale_});
+        ImGui::Begin("text", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::End();
+        ImGui::PopStyleVar();
+        ImGui::Render();
+    }
+}
+
 // Adds all top-level windows: popups may extend beyond a panel.
 void Panels::remember() {
     covered_.clear();

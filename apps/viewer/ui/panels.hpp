@@ -37,7 +37,9 @@ public:
     /// Lays out everything for a picture of `extent`, `seconds` after the last one.
     Wishes build(const SceneFacts& scene, const Facts& facts, const PanelInput& input, VkExtent2D extent,
                  double seconds);
-    /// Triangles of the last build(); valid until the next.
+    /// Lays out a text alone, in the middle of the picture.
+    void buildText(const std::string& text, VkExtent2D extent);
+    /// Triangles of the last build() or buildText(); valid until the next.
     const ImDrawData& drawn() const;
 
     /// Whether a place (pixels) belongs to a panel of the last build(), which then gets presses there.
