@@ -68,9 +68,19 @@ TEST_F(SceneLoaderTest, SaysWhatHappensInAScene) {
 TEST_F(SceneLoaderTest, OffersTheBuiltInScenesWhereNoFileWasOpened) {
     const SceneLoader sceneLoader = libraryOf("");
     ASSERT_LT(sceneLoader.current(), sceneLoader.names().size());
-    EXPECT_EQ(sceneLoader.names()[sceneLoader.current()], "organ");
+    EXPECT_EQ(sceneLoader.names()[sceneLoader.current()], "organ_draped");
     EXPECT_EQ(std::ranges::count(sceneLoader.names(), "drop_mesh"), 0);
     EXPECT_EQ(std::ranges::count(sceneLoader.names(), "cloth"), 1);
+}
+
+TEST_F(SceneLoaderTest, FirstSceneCanBeCutAndItsPiecesTouch) {
+    const scenes::LoadedScene first = scenes::loadBuiltIn(Options{}.builtIn);
+    ASSERT_EQ(first.scene.grids.size(), 1u);
+    EXPECT_TRUE(first.scene.grids[0].isCuttable);
+    for (const sim::Particle& particle : first.scene.particles) EXPECT_GT(particle.radius, 0);
+    EXPECT_EQ(first.scene.colliders.size(), 1u) << "the roll";
+    EXPECT_LE(first.settings.substeps, 24u) << "a software device plays it in the window";
+    EXPECT_LE(first.scene.particles.size(), 2'500u);
 }
 
 TEST_F(SceneLoaderTest, OpensTheNextRoundTheEnd) {

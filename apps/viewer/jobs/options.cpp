@@ -59,7 +59,7 @@ CLI::Range within(const sim::Range& range) {
 
 void addSceneOptions(CLI::App& app, Options& options) {
     app.add_option("SCENE|MESH|STATE", options.scene,
-                   "scene file, mesh or saved state; without one the built-in scenes/organ.toml");
+                   "scene file, mesh or saved state; without one the built-in scenes/organ_draped.toml");
     app.add_option("--device", options.device, "index as `sinew devices` prints it, or part of a name");
     app.add_option("--solver", options.overrides.solver, "solver, instead of the scene's")
         ->check(CLI::IsMember(sim::solverNames()));

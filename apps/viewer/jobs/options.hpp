@@ -16,8 +16,8 @@
 namespace sinew::viewer {
 
 struct Options {
-    std::string scene;             ///< file; empty = built-in scene
-    std::string builtIn = "organ"; ///< see scenes::loadBuiltIn
+    std::string scene;                    ///< file; empty = built-in scene
+    std::string builtIn = "organ_draped"; ///< see scenes::loadBuiltIn
     scenes::Overrides overrides;
     std::string device; ///< see vk::DeviceRequest::device
     bool hasValidation = false;
