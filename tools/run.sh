@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # tools/run.sh [SCENE|MESH] [viewer options]: installs missing packages, builds, and shows the scene in a window. Without a display it
-# writes pictures into out/ (or follows options such as --out DIR --frames 60). The default scene is scenes/organ.toml.
+# writes pictures into out/ (or follows options such as --out DIR --frames 60). The default scene is scenes/organ_draped.toml.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/packages.sh
 
-scene=scenes/organ.toml
+scene=scenes/organ_draped.toml
 if (($#)) && [[ $1 != -* ]]; then
     scene=$1
     shift
