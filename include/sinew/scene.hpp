@@ -365,8 +365,10 @@ struct SINEW_API Settings {
     bool keepsForces = false;
     std::uint32_t grabs = 0; ///< grabs that can be active at a time (Step::grabs), 0..8; 0 = no passes
     std::uint32_t hostColliders =
-        0;                    ///< kinematic colliders at a time (Step::hostColliders), 0..8; 0 = no passes
-    std::uint32_t fields = 0; ///< force fields at a time (Step::fields), 0..16; 0 = no passes
+        0; ///< kinematic colliders at a time (Step::hostColliders), 0..8; 0 = no passes
+    /// Force fields at a time (Step::fields), 0..16; 0 = no passes. With room for one, no body stays in
+    /// shared memory (Forms::residentBytes).
+    std::uint32_t fields = 0;
     Forms forms{};
     /// False saves 16 bytes a particle: the buffer of public velocities is omitted, and an undone step leaves
     /// its particles at rest.

@@ -48,7 +48,7 @@ struct SINEW_API HostColliderState {
     std::uint32_t changes = 0; ///< how often it appeared, disappeared, or changed its shape
 };
 
-/// Accelerates particles, or blows at them. The forces of wind are not part of Simulation::forces.
+/// Accelerates particles, or blows at them. Fields are not part of Simulation::forces.
 enum class FieldKind {
     uniform,   ///< accelerates by `vector`
     radial,    ///< accelerates by `strength` away from `center`; below 0 = towards it
@@ -114,8 +114,9 @@ struct SINEW_API Step {
     /// Host colliders 0, 1, ..., at most Settings::hostColliders; a host collider that is not listed, has a
     /// non-finite number or an invalid size, is absent and touches nothing. Read only during record().
     std::span<const HostCollider> hostColliders{};
-    /// Force fields of this step, at most Settings::fields. A field with a non-finite number, a negative
-    /// radius, no such body, or a size out of range has no effect. Read only during record().
+    /// Force fields of this step, at most Settings::fields. A field with a number that is not finite, a
+    /// vector beyond 1e9, no such body, or a size below 1e-6 has no effect; a strength counts as at most 1e8.
+    /// Read only during record().
     std::span<const ForceField> fields{};
     /// Wakes all sleeping particles (Settings::sleeps). Not needed for changes that the step itself contains:
     /// another gravity or dt, and other fields than in the step before, wake all; a moving anchor, collider

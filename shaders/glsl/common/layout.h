@@ -24,7 +24,7 @@ struct DispatchArguments {
 
 // Written once per step, at the head of the command buffer.
 struct StepParams {
-    vec4 gravity;         // xyz [m/s^2]
+    vec4 gravity;         // xyz [m/s^2]; w: key of the force fields (fields.hpp)
     float h;              // substep length [s]
     float hPrevious;      // substep length of the previous step; 0 in the first step (half-kick)
     float thetaH;         // `split`: stored position = x + thetaH v [s]
@@ -533,7 +533,7 @@ struct SleepPass {
 };
 
 struct SleepState {
-    vec4 gravity;  // gravity of the last finished step [m/s^2]
+    vec4 gravity;  // of the last finished step: as in StepParams
     float h;       // substep length of the last finished step [s]
     uint sleeping; // number of particles asleep at the end of the last step
     uint listed;   // number of groups that run in the next substep

@@ -31,8 +31,8 @@ float shareAt(FieldRequest field, vec3 x) {
 }
 
 // Change of velocity by the pressure of the air on the surface that the particle stands for, in the time `kick`:
-// quadratic in the relative speed u along the normal of each triangle, and implicit in it, so that u keeps its sign
-// for any strength.
+// quadratic in the relative speed u along the normal of each triangle, one after another, and implicit in it, so that
+// u keeps its sign for any strength.
 vec3 windKick(uint i, FieldRequest field, vec3 v, float w, float kick) {
     const FieldCorners own = cornersOf[i];
     const bool isClosed = (own.count & FIELD_CLOSED) != 0u;
@@ -43,7 +43,7 @@ vec3 windKick(uint i, FieldRequest field, vec3 v, float w, float kick) {
         const vec3 n = area / max(size, 1e-30);
         const float u = dot(field.vector.xyz - v - sum, n);
         if (isClosed && u > 0.0) continue; // the lee side
-        const float lost = kick * w * field.vector.w * size * abs(u);
+        const float lost = min(kick * w * (field.vector.w * size) * abs(u), 1e30);
         sum += u * lost / (1.0 + lost) * n;
     }
     return sum;

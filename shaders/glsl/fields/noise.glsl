@@ -18,7 +18,8 @@ vec3 valueAt(ivec3 corner) {
 }
 
 vec3 smoothNoise(vec3 x) {
-    const vec3 low = floor(clamp(x, -1e9, 1e9)), t = x - low;
+    x = clamp(x, -1e9, 1e9); // corners fit into integers
+    const vec3 low = floor(x), t = x - low;
     const ivec3 corner = ivec3(low);
     const vec3 high = t * t * t * (t * (6.0 * t - 15.0) + 10.0);
     vec3 sum = vec3(0.0);

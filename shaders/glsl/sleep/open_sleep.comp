@@ -34,7 +34,7 @@ void main() {
     status.frame = step.frame; // no other kernel writes it while all particles sleep
     status.sleeping = state.sleeping;
     state.wakes |= step.wakes; // until a step finishes
-    const bool wakesAll = state.wakes != 0u || state.gravity.xyz != step.gravity.xyz || state.h != step.h;
+    const bool wakesAll = state.wakes != 0u || state.gravity != step.gravity || state.h != step.h;
     state.wakesAll = wakesAll ? 1u : 0u;
     const bool wakes = state.sleeping > 0u && (wakesAll || changes != 0u || state.touched != 0u);
     const uint one = wakes || (changes & 2u) != 0u ? 1u : 0u;

@@ -3,12 +3,14 @@
 #include "sim/fields/fields.hpp"
 
 #include "kernels.hpp"
+#include "sim/core/hash.hpp"
 #include "sim/lattice/squares.hpp"
 #include "sinew/ranges.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <numbers>
 
 namespace sinew::sim::fields {
 
@@ -18,7 +20,9 @@ namespace k = kernels;
 
 static_assert(MOST_FIELDS == ranges::mostFields);
 
-constexpr float mostStretch = 2; // of an edge; beyond, a cut or a tear has parted its ends
+constexpr float mostStretch = 2;     // of the diagonal of a face; a longer edge is cut or torn
+constexpr float mostStrength = 1e8f; // the largest useful value in float32
+constexpr float leastLength = 1e-6f; // [m]
 
 struct Fields {
     layout::FieldPush push{};
@@ -95,11 +99,14 @@ std::uint32_t groupsOf(std::size_t items) {
     return static_cast<std::uint32_t>((items + GROUP_ITEMS - 1) / GROUP_ITEMS);
 }
 
+// Whether squares of differences of such vectors fit into float32.
+bool isNear(const Vec3& v) {
+    constexpr float farthest = 1e9f;
+    return std::abs(v.x) <= farthest && std::abs(v.y) <= farthest && std::abs(v.z) <= farthest;
+}
+
 bool isFinite(const ForceField& field) {
-    const auto are = [](const Vec3& v) {
-        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-    };
-    return are(field.vector) && are(field.center) && std::isfinite(field.radius) &&
+    return isNear(field.vector) && isNear(field.center) && std::isfinite(field.radius) &&
            std::isfinite(field.strength) && std::isfinite(field.scale);
 }
 
@@ -118,15 +125,15 @@ std::uint32_t kindOf(FieldKind kind) {
 }
 
 bool hasEffect(const ForceField& field, std::size_t bodies) {
-    return isFinite(field) && field.radius >= 0 &&
+    return isFinite(field) && (field.radius == 0 || field.radius >= leastLength) &&
            (field.body == ForceField::allBodies || field.body < bodies) &&
            (field.kind != FieldKind::wind || field.strength >= 0) &&
-           (field.kind != FieldKind::turbulence || field.scale > 0);
+           (field.kind != FieldKind::turbulence || field.scale >= leastLength);
 }
 
 layout::FieldRequest onDevice(const ForceField& field) {
     const Vec3 &v = field.vector, &c = field.center;
-    return {.vector = {v.x, v.y, v.z, field.strength},
+    return {.vector = {v.x, v.y, v.z, std::clamp(field.strength, -mostStrength, mostStrength)},
             .center = {c.x, c.y, c.z, field.radius},
             .kind = kindOf(field.kind),
             .body = field.body,
@@ -183,7 +190,6 @@ void addOpenPass(Build& build, const Substep& substep) {
 }
 
 void FieldRequests::advance(std::span<const ForceField> fields) noexcept {
-    const std::array<layout::FieldRequest, MOST_FIELDS> before = requests_;
     requests_ = {};
     bool areAny = false, blows = false;
     for (std::size_t f = 0; f < std::min<std::size_t>(count_, fields.size()); ++f) {
@@ -192,9 +198,27 @@ void FieldRequests::advance(std::span<const ForceField> fields) noexcept {
         areAny = true;
         blows = blows || fields[f].kind == FieldKind::wind;
     }
-    areNew_ = std::memcmp(before.data(), requests_.data(), sizeof(before)) != 0;
     arguments_[FIELDS_AREAS] = {blows ? groups_.areas : 0, 1, 1, 0};
     arguments_[FIELDS_APPLIED] = {areAny ? groups_.applied : 0, 1, 1, 0};
+}
+
+float FieldRequests::key() const noexcept {
+    if (std::ranges::all_of(requests_, [](const auto& request) { return request.kind == FIELD_NONE; }))
+        return 0;
+    const std::uint64_t hash = fnv1a(std::as_bytes(std::span(requests_)));
+    constexpr std::uint32_t exponent = 0x20000000, rest = 0x1fffffff; // a normal number
+    return std::bit_cast<float>(exponent | (static_cast<std::uint32_t>(hash >> 32 ^ hash) & rest));
+}
+
+float FieldRequests::acceleration() const noexcept {
+    float sum = 0;
+    for (const layout::FieldRequest& request : requests_) {
+        const layout::vec4& v = request.vector;
+        if (request.kind == FIELD_UNIFORM) sum += std::hypot(v.x, v.y, v.z);
+        if (request.kind == FIELD_RADIAL) sum += std::abs(v.w);
+        if (request.kind == FIELD_TURBULENCE) sum += std::numbers::sqrt3_v<float> * std::abs(v.w);
+    }
+    return sum;
 }
 
 } // namespace sinew::sim::fields

@@ -29,7 +29,10 @@ public:
     void reset() noexcept { requests_ = {}; }
     /// Advances by a step.
     void advance(std::span<const ForceField> fields) noexcept;
-    bool areNew() const noexcept { return areNew_; } ///< differ from those of the step before
+    /// A hash of the fields, as a number that is 0 without any. Bodies that sleep wake where it changes.
+    float key() const noexcept;
+    /// The largest acceleration of a particle, without wind [m/s^2].
+    float acceleration() const noexcept;
     std::span<const layout::FieldRequest> values() const noexcept {
         return std::span(requests_).first(count_);
     }
@@ -42,7 +45,6 @@ private:
     std::uint32_t count_;
     std::size_t bodies_;
     FieldGroups groups_;
-    bool areNew_ = false;
     std::array<layout::FieldRequest, MOST_FIELDS> requests_{};
     std::array<layout::DispatchArguments, FIELD_ARGUMENTS> arguments_{};
 };

@@ -75,7 +75,6 @@ void Simulation::State::noteBefore(std::uint64_t frame) noexcept {
     slot.hostColliders = hostColliders.states();
     std::ranges::copy(anchors.values(), slot.anchors.begin());
     slot.grabs = grabs;
-    slot.fields = fields;
     slot.isUncut = isUncut;
     slot.hasNewTopology = hasNewTopology;
     slot.isChanged = isChanged;
@@ -95,7 +94,6 @@ void Simulation::State::goBack() noexcept {
     colliders.moveTo(slot.time, slot.hostColliders);
     anchors.restore(slot.anchors);
     grabs.restore(*slot.grabs);
-    fields = *slot.fields;
     isUncut = slot.isUncut && topologies == slot.topologies;
     hasNewTopology = slot.hasNewTopology || topologies != slot.topologies;
     isChanged = slot.isChanged || changes != slot.changes;

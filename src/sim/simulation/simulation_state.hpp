@@ -94,7 +94,6 @@ struct Simulation::State {
         rigid::HostColliderStates hostColliders{};
         std::vector<layout::vec4> anchors;
         std::optional<grabs::GrabRequests> grabs;
-        std::optional<fields::FieldRequests> fields;
         bool isUncut = false, hasNewTopology = false, isChanged = false;
         std::uint32_t changes = 0, topologies = 0;
         std::optional<std::uint64_t> frame; // of that step
@@ -142,19 +141,19 @@ struct Simulation::State {
         const float h = dt / static_cast<float>(substeps);
         const double longest = double{std::max(h, previousH)};
         const Vec3& g = step.gravity;
-        return {.gravity = {g.x, g.y, g.z, 0},
+        return {.gravity = {g.x, g.y, g.z, fields.key()},
                 .h = h,
                 .hPrevious = previousH,
                 .thetaH = theta * h,
                 .thetaHPrevious = theta * undoneH.value_or(previousH),
                 .velocityFactor = std::exp(-damping * h),
-                .restSpeed = 2 * std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z) * h,
+                .restSpeed = 2 * (std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z) + fields.acceleration()) * h,
                 .frame = static_cast<std::uint32_t>(step.frame),
                 .dampingShare =
                     static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
                 .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
                 .thetaHStored = storesPlaces ? 0 : theta * h,
-                .wakes = step.wakes || hasNewTopology || isChanged || fields.areNew() ? 1u : 0u,
+                .wakes = step.wakes || hasNewTopology || isChanged ? 1u : 0u,
                 .lists = lists};
     }
 
