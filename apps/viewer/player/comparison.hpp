@@ -41,6 +41,7 @@ public:
     float pictureAspect() const;
     /// Camera::shift of the whole window: from its middle to that of the area beside the panels.
     float shift() const;
+    bool isButtonDown() const { return isButtonDown_; }
     /// Moves pointer and presses so that they count from the middle of the free area, or of the half of it
     /// that they are in. While a button is down it stays the half in which it was pressed.
     void fold(Input& input);

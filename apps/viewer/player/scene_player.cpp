@@ -220,7 +220,7 @@ void ScenePlayer::play() {
     succession_.takeShape();
     journal_.dropReplay();
     isHidden_ = !prepareSwapchain();
-    if (!isHidden_) observer_.keepFraming();
+    if (!isHidden_ && !capture_.isFilming() && !comparison_.isButtonDown()) observer_.keepFraming();
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - std::exchange(lastTurn_, now)).count();
     if (isHidden_) return; // time stops while the window is hidden

@@ -112,7 +112,9 @@ bool stiffness(const SceneFacts& scene, Knobs& turned) {
     const float unit = modulus ? *modulus / (1000 * factor) : 1; // of factor 1 [kPa]
     float shown = unit * factor;
     const bool isTurned = slider("stiffness", shown, {0.01f * unit, 100 * unit, ImGuiSliderFlags_Logarithmic},
-                                 modulus ? "%.3g kPa" : "x %.3g",
+                                 !modulus        ? "x %.3g"
+                                 : shown >= 1000 ? "%.0f kPa"
+                                                 : "%.3g kPa",
                                  modulus ? "Young's modulus; acts at once"
                                          : "stiffness relative to the scene file; acts at once");
     if (isTurned) factor = shown / unit;

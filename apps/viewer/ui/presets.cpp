@@ -10,13 +10,14 @@ namespace sinew::viewer {
 namespace {
 
 // Tissues differ between people and methods by a factor of two and more: these are means of one study each.
+// The last two are derived: a neo-Hookean rod at twice its length has a stress of 7 E / 12, here 69 kPa.
 constexpr std::array presets{
     MaterialPreset{"Jelly", 4.3e3f, "gelatine in 20 parts of water, compressed (Bonavia et al. 2025)"},
     MaterialPreset{"Brain", 1.9e3f, "white matter of cattle, indented (Budday et al. 2015)"},
     MaterialPreset{"Fat", 3.3e3f, "normal fat of the breast (Samani et al. 2007)"},
     MaterialPreset{"Liver", 5.5e3f, "healthy liver by elastography (Roulot et al. 2008)"},
     MaterialPreset{"Muscle", 12e3f, "relaxed skeletal muscle (Engler et al. 2004)"},
-    MaterialPreset{"Silicone", 69e3f, "Ecoflex 00-30, stretched to twice its length (data sheet)"},
+    MaterialPreset{"Silicone", 118e3f, "Ecoflex 00-30, from its stress at twice its length (data sheet)"},
     MaterialPreset{"Rubber", 1.7e6f, "Shore A 40 by the formula of Gent (1958)"},
 };
 

@@ -1,5 +1,5 @@
-// Materials to choose from, with measured Young's moduli, and the arithmetic between moduli and the factors
-// of Knobs.
+// Materials to choose from, with Young's moduli that were measured, or derived from measurements, and the
+// arithmetic between moduli and the factors of Knobs.
 #pragma once
 
 #include "viewer/ui/facts.hpp"
