@@ -28,7 +28,7 @@ set(all_programs $ENV{PATH})
 set(ENV{PATH} ${programs})
 set(hidden -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF) # else CMake also looks into /usr/bin
 set(options ${hidden} -G Ninja -DCMAKE_MAKE_PROGRAM=${programs}/ninja -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
-    -DCMAKE_BUILD_TYPE=${TYPE} -DVULKAN_HEADERS=${VULKAN} -DSINEW_BUILD_APPS=OFF -DSINEW_BUILD_TESTS=OFF -DSINEW_CHECK_KERNELS=OFF)
+    -DCMAKE_BUILD_TYPE=${TYPE} -DVULKAN_HEADERS=${VULKAN} -DSINEW_BUILD_APPS=OFF -DSINEW_BUILD_TESTS=OFF)
 
 step("the archive cannot be configured without glslang"
     ${HOST_CMAKE} -S ${sources} -B ${FOLDER}/build ${options} -DBUILD_SHARED_LIBS=ON)
