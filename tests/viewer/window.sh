@@ -88,14 +88,11 @@ awaitStill() { # FILE: waits for a picture that stays; a paused software device 
     fail "the paused picture never stood still"
 }
 awaitOther() { # BEFORE FILE WHY: pipelines may have to be made first
-    for _ in {1..200}; do
-        shoot "$2"
-        same "$1" "$2" || break
-        sleep 0.2
+    for _ in {1..60}; do
+        awaitStill "$2" # pictures in between may differ for a moment
+        same "$1" "$2" || return 0
     done
-    awaitStill "$2"
-    same "$1" "$2" && fail "$3"
-    return 0
+    fail "$3"
 }
 hasSize() { [[ $(xdotool getwindowgeometry "$window") == *"$1"* ]]; }
 lacksSize() { ! hasSize "$1"; }
