@@ -142,6 +142,13 @@ awaitTitle holding
 for _ in {1..12}; do xdotool mousemove_relative -- 0 -8; sleep 0.1; done
 awaitTop held.png -lt $((top - 30))
 lifted=$now
+for _ in {1..20}; do # a slow window shows it on its way up
+    sleep 0.5
+    shoot held.png
+    read -r now height < <(rows held.png)
+    ((now < lifted)) || break
+    lifted=$now
+done
 xdotool mouseup 1
 await 10 lacksTitle holding
 [[ $(title) != *holding* ]] || fail "the block was not let go"
