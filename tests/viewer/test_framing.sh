@@ -69,11 +69,11 @@ xdotool mousemove $x $y
 sleep 0.3
 keys n
 awaitOther small.png pinned.png "N pins nothing"
-pins() { # the place of the blue pixels
+pins() { # the place of the blue pixels beside the toolbar, whose lit tool is blue, too
     convert "$1" -crop "$((800 - panel))x500+0+0" +repage -colorspace sRGB -fx 'b > 1.6*r && b > 0.3 ? 1 : 0' -depth 8 gray:- | python3 -c '
 import sys
 width = int(sys.argv[1])
-spots = [i for i, value in enumerate(sys.stdin.buffer.read()) if value > 127]
+spots = [i for i, value in enumerate(sys.stdin.buffer.read()) if value > 127 and i % width > 70]
 print(sum(i % width for i in spots) // max(len(spots), 1), sum(i // width for i in spots) // max(len(spots), 1), len(spots))' $((800 - panel))
 }
 read -r pinX pinY count <<<"$(pins pinned.png)"
