@@ -6,6 +6,7 @@
 #include "support/full.hpp"
 #include "support/null_hardware.hpp"
 #include "viewer/render/renderer.hpp"
+#include "viewer/render/walls.hpp"
 #include "viewer/ui/panel_painter.hpp"
 
 #include <gtest/gtest.h>
@@ -28,10 +29,13 @@ bool isKernel(const vk::ShaderCode& code) {
     return false;
 }
 
-// A light with balls and marks, which need pipelines.
+// A light with balls, marks and a wall, which need pipelines.
 SceneLight light() {
     SceneLight light;
     light.bounds = Box(Vector3(-1, -1, -1), Vector3(1, 1, 1));
+    sim::Scene scene;
+    scene.planes.push_back({.normal = {1, 0, 0}, .offset = -1});
+    light.walls = wallsOf(scene, light.bounds);
     light.balls = {.ranges = {{.first = 0, .count = 2, .color = {1, 0, 0}}}, .radii = {0.1f, 0.1f}};
     light.marks = light.balls;
     return light;
