@@ -21,27 +21,22 @@ keys space
 awaitTitle paused
 awaitStill paused.png
 drag 3 30 -8
-awaitStill orbited.png
-same paused.png orbited.png && fail "an orbit drag changed nothing"
+awaitOther paused.png orbited.png "an orbit drag changed nothing"
 drag 1 0 30 # still on the body: it is held while paused, and the camera does not move
 drag 3 -20 0
 drag 2 12 6
 xdotool click 4 click 4 click 5
-awaitStill moved.png
-same orbited.png moved.png && fail "pan and wheel changed nothing"
+awaitOther orbited.png moved.png "pan and wheel changed nothing"
 colors=$(convert orbited.png -format %k info:)
 ((colors > 500)) || fail "the picture has only $colors colours"
 
 echo "window: frame, step, reset, screenshot, vsync, help, panels"
 keys Home
-awaitStill framed.png
-same moved.png framed.png && fail "F changed nothing"
+awaitOther moved.png framed.png "F changed nothing"
 for _ in {1..20}; do keys period; done
-awaitStill stepped.png
-same framed.png stepped.png && fail "twenty steps changed nothing"
+awaitOther framed.png stepped.png "twenty steps changed nothing"
 keys r
-awaitStill reset.png
-same stepped.png reset.png && fail "R changed nothing"
+awaitOther stepped.png reset.png "R changed nothing"
 keys F12
 await 10 says '^picture: '
 for _ in {1..4}; do keys F12; sleep 0.1; done # pictures of one step, some while others are being written
