@@ -81,7 +81,8 @@ private:
     void settleLook(const Look& look, const std::optional<Pick>& found);
     bool isStrainDue(std::uint32_t steps);
     bool isCountDue();
-    /// What the camera shows as a whole, in a picture of this aspect ratio; without a box, the first view.
+    /// A view that nobody has moved: its camera, and what that shows as a whole in a picture of this aspect
+    /// ratio. Without a box it is the first view.
     struct Framing {
         Camera camera;
         std::optional<Box> box = {};

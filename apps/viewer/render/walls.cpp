@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sinew::viewer {
 
@@ -12,6 +13,8 @@ namespace {
 
 constexpr float level = 0.9999f;    // of the vertical part of a normal: floors and lids are no walls
 constexpr float packing = 0.6f;     // share of the room that bodies at rest fill
+constexpr float freeHeight = 1.4f;  // height of walls / height that bodies at rest fill
+constexpr float lowest = 0.2f;      // least height of walls / width of the ground
 constexpr float barShare = 0.0013f; // half the width of a bar / diagonal of the region
 
 using Polygon = std::vector<Vector3>;
@@ -78,7 +81,7 @@ float volumeOf(const sim::Scene& scene) {
         volume += body.restVolume;
         if (body.restVolume > 0) continue;
         for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
-            volume += 4.18879f * std::pow(scene.particles[i].radius, 3.0f);
+            volume += 4 * std::numbers::pi_v<float> / 3 * std::pow(scene.particles[i].radius, 3.0f);
     }
     return volume;
 }
@@ -93,8 +96,8 @@ float topOf(const sim::Scene& scene, const Box& region) {
     for (const sim::Plane& plane : scene.planes)
         if (!isLevel(plane)) ground = clipped(ground, halfSpaceOf(plane));
     const float area = std::max(areaOf(ground), 1e-9f);
-    const float filled = 1.4f * volumeOf(scene) / (packing * area);
-    return std::min(floor + std::max(filled, 0.2f * std::sqrt(area)),
+    const float filled = freeHeight * volumeOf(scene) / (packing * area);
+    return std::min(floor + std::max(filled, lowest * std::sqrt(area)),
                     std::max(particleBounds(scene).max().y(), floor + 1e-3f));
 }
 
