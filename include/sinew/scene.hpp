@@ -224,6 +224,10 @@ struct SINEW_API Body {
     std::uint32_t firstParticle = 0, particleCount = 0;
     float restVolume = 0;            ///< [m^3]; 0 = encloses no volume (cloth)
     Vec3 color{0.62f, 0.62f, 0.60f}; ///< linear RGB, used if no skin shows the body
+    /// Bodies with different numbers join the simulation at different times (World): the scene's positions of
+    /// one say nothing about those of the other, and no overlap of the two counts as one at load. Particles
+    /// of no body have the number 0.
+    std::uint32_t arrival = 0;
 };
 
 /// Position of a skin vertex in a lattice cell: x = sum over corners k of N_k(weights) x_k, trilinear. Corner

@@ -3,6 +3,7 @@
 #include "sim/collision/crowding.hpp"
 
 #include "sim/model/components.hpp"
+#include "sim/model/touching.hpp"
 #include "sinew/inverse_masses.hpp"
 #include "sinew/ranges.hpp"
 
@@ -19,22 +20,23 @@ namespace sinew::sim::collision {
 namespace {
 
 struct Cell {
-    int level = 0; ///< radii in it are 2^level m to twice that
+    int level = 0;             ///< radii in it are 2^level m to twice that
+    std::uint32_t arrival = 0; ///< Body::arrival
     std::array<double, 3> place{};
     auto operator<=>(const Cell&) const = default;
 };
 
-Cell cellOf(const Particle& particle) {
+Cell cellOf(const Particle& particle, std::uint32_t arrival) {
     const int level = std::ilogb(particle.radius);
     const double size = std::ldexp(2 / std::numbers::sqrt3, level); // its diagonal is the sum of two radii
     constexpr double shift = 0.377; // of the cells: round coordinates then lie on no border
     const auto along = [&](float x) { return std::floor(double{x} / size + shift) + 0.0; }; // no -0
     const Vec3& x = particle.position;
-    return {level, {along(x.x), along(x.y), along(x.z)}};
+    return {level, arrival, {along(x.x), along(x.y), along(x.z)}};
 }
 
 std::uint64_t hashOf(const Cell& cell) {
-    auto hash = static_cast<std::uint64_t>(cell.level);
+    auto hash = static_cast<std::uint64_t>(cell.level) ^ std::uint64_t{cell.arrival} << 32;
     for (const double place : cell.place) {
         hash = (hash ^ std::bit_cast<std::uint64_t>(place)) * 0x9e3779b97f4a7c15u;
         hash ^= hash >> 32;
@@ -47,17 +49,18 @@ using Crowd = std::vector<std::uint32_t>; // particles
 // Cells share counters: no crowd is missed, and few other cells are examined.
 std::map<Cell, Crowd> crowdedCells(const Scene& scene, const std::vector<float>& inverseMass) {
     std::vector<std::uint32_t> counts(std::bit_ceil(2 * scene.particles.size() + 1));
-    const auto countOf = [&](const Particle& particle) -> std::uint32_t& {
-        return counts[hashOf(cellOf(particle)) & (counts.size() - 1)];
+    const std::vector<std::uint32_t> arrivalOf = arrivals(scene);
+    const auto cell = [&](std::size_t i) { return cellOf(scene.particles[i], arrivalOf[i]); };
+    const auto countOf = [&](std::size_t i) -> std::uint32_t& {
+        return counts[hashOf(cell(i)) & (counts.size() - 1)];
     };
     const auto counted = [&](std::size_t i) { return inverseMass[i] > 0 && scene.particles[i].radius > 0; };
     bool isAny = false;
     for (std::size_t i = 0; i < scene.particles.size(); ++i)
-        if (counted(i)) isAny = ++countOf(scene.particles[i]) > ranges::mostInOneSpot || isAny;
+        if (counted(i)) isAny = ++countOf(i) > ranges::mostInOneSpot || isAny;
     std::map<Cell, Crowd> cells;
     for (std::uint32_t i = 0; isAny && i < scene.particles.size(); ++i)
-        if (counted(i) && countOf(scene.particles[i]) > ranges::mostInOneSpot)
-            cells[cellOf(scene.particles[i])].push_back(i);
+        if (counted(i) && countOf(i) > ranges::mostInOneSpot) cells[cell(i)].push_back(i);
     return cells;
 }
 

@@ -81,6 +81,7 @@ private:
         const double reach = double{request_.radii[i]} + double{request_.radii[j]}, depth = reach - distance;
         const bool isKept =
             !request_.keepsRest.empty() && (request_.keepsRest[i] | request_.keepsRest[j]) != 0;
+        if (!request_.arrivals.empty() && request_.arrivals[i] != request_.arrivals[j]) return;
         if (i == j || depth <= (isKept ? -double{REST_SLACK} / 2 * reach : double{request_.least})) return;
         if (request_.inverseMasses[i] == 0 && request_.inverseMasses[j] == 0) return;
         if (!isExcluded(request_.exclusions, i, j))

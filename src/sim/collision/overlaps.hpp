@@ -16,6 +16,7 @@ struct Request {
     std::span<const float> inverseMasses;            ///< by state slot [1/kg]
     const contact_lists::Exclusions& exclusions;
     std::span<const std::uint8_t> keepsRest; ///< by state slot: Particle::keepsRest
+    std::span<const std::uint32_t> arrivals; ///< by state slot: Body::arrival; empty = all equal
     float least = 0;                         ///< smallest overlap that counts [m]
     std::uint32_t limit = 0;                 ///< number of partners of a particle at which its search ends
 };

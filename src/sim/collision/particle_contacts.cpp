@@ -63,17 +63,21 @@ overlaps::Overlaps overlapsOf(const SceneModel& model, std::span<const float> ra
     std::vector<std::array<float, 3>> positions(layout.count);
     std::vector<float> inverseMass(layout.count, 0);
     std::vector<std::uint8_t> keepsRest(layout.count, 0);
+    const std::vector<std::uint32_t> arrivalOf = arrivals(scene);
+    std::vector<std::uint32_t> arrivalsBySlot(layout.count, 0);
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
         const Vec3& x = scene.particles[i].position;
         positions[layout.slot[i]] = {x.x, x.y, x.z};
         inverseMass[layout.slot[i]] = model.inverseMass[i];
         keepsRest[layout.slot[i]] = scene.particles[i].keepsRest ? 1 : 0;
+        arrivalsBySlot[layout.slot[i]] = arrivalOf[i];
     }
     overlaps::Overlaps found = overlaps::find({.positions = positions,
                                                .radii = radii,
                                                .inverseMasses = inverseMass,
                                                .exclusions = exclusions,
                                                .keepsRest = keepsRest,
+                                               .arrivals = arrivalsBySlot,
                                                .least = least,
                                                .limit = LIST_MOST});
     if (overlaps::mostPartners(found) > LIST_MOST) found.clear();

@@ -16,6 +16,14 @@ std::vector<float> looseRadii(const Scene& scene) {
     return radii;
 }
 
+std::vector<std::uint32_t> arrivals(const Scene& scene) {
+    std::vector<std::uint32_t> result(scene.particles.size(), 0);
+    for (const Body& body : scene.bodies)
+        for (std::uint32_t i = 0; body.arrival != 0 && i < body.particleCount; ++i)
+            if (body.firstParticle + i < result.size()) result[body.firstParticle + i] = body.arrival;
+    return result;
+}
+
 bool particlesTouch(const Scene& scene) {
     return particlesTouch(inverseMasses(scene), looseRadii(scene));
 }

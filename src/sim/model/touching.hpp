@@ -12,6 +12,9 @@ namespace sinew::sim {
 /// thick and touch in its place.
 std::vector<float> looseRadii(const Scene& scene);
 
+/// By particle Body::arrival.
+std::vector<std::uint32_t> arrivals(const Scene& scene);
+
 /// Whether two particles with a radius may touch each other, at least one of which moves.
 bool particlesTouch(const Scene& scene);
 bool particlesTouch(std::span<const float> inverseMass, std::span<const float> looseRadii);
