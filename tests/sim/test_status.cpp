@@ -153,3 +153,14 @@ TEST_P(StatusOf, UndoneStepsAreCounted) {
 
 INSTANTIATE_TEST_SUITE_P(A, StatusOf, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });
+
+TEST(Status, OfASceneWithoutParticlesIsFinished) {
+    test::Runner runner{Scene{}};
+    for (std::uint32_t frame = 0; frame < 6; ++frame) {
+        const Status status = runner.run(1);
+        EXPECT_TRUE(status.isFinished);
+        EXPECT_FALSE(status.isUndone);
+        EXPECT_EQ(status.frame, frame);
+    }
+    EXPECT_FALSE(runner.simulation().oldestInFlight());
+}

@@ -214,6 +214,11 @@ struct Simulation::State {
 
     // Records the copy of a step's results to host-visible memory.
     void recordStatus(vk::Commands& commands, std::uint64_t frame) const noexcept {
+        if (program.particleCount == 0) { // no pass writes the status then
+            const layout::StatusWords words{.frame = static_cast<std::uint32_t>(frame)};
+            commands.update(executor.view(program.status), &words, sizeof words);
+            commands.barrier();
+        }
         ring.record(commands, frame, executor.view(program.status), executor.view(program.cutting.counts),
                     executor.view(program.forces.sums));
     }
