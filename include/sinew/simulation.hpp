@@ -21,6 +21,8 @@ namespace sinew::sim {
 
 struct StepProgram;
 struct BufferId;
+class Carrying;
+struct Origins;
 
 /// Results of a finished step that the host can read.
 struct SINEW_API Status {
@@ -323,6 +325,15 @@ public:
     std::vector<std::string> phases() const; ///< names of the spans of `timestamps`
 
 private:
+    friend class World;
+    /// Makes, on any thread, what carries the state of this simulation to one of another scene.
+    SINEW_LOCAL std::unique_ptr<Carrying> makeCarrying(const Simulation& to, const Origins& origins) const;
+    /// recordTakeOver() from a simulation of another scene, with settings that may differ in substeps and
+    /// room. With `wakes` nothing stays asleep.
+    SINEW_LOCAL void recordCarried(VkCommandBuffer commands, const Simulation& from, const Carrying& carrying,
+                                   const Origins& origins, bool wakes) noexcept;
+    /// Whether no step is in flight or waits to be recorded again.
+    SINEW_LOCAL bool mayBeCarried() const noexcept;
     struct SINEW_LOCAL State;
     std::unique_ptr<State> state_;
 };

@@ -172,6 +172,15 @@ void makeKernelsOfAllScenes(Maker& maker) {
         }
 }
 
+// The kernels that no program has: they carry states between simulations.
+void makeKernelsOfWorlds(Maker& maker) {
+    for (const vk::ShaderCode* code :
+         {&sim::kernels::carryElements, &sim::kernels::carryContacts, &sim::kernels::startArrivals}) {
+        EXPECT_NO_THROW(maker.device.kernels().get(maker.device, *code, {})) << code->name;
+        maker.made.insert(code);
+    }
+}
+
 void makeKernelsOfDrawnScenes(Maker& maker, std::uint32_t count) {
     std::size_t valid = 0;
     for (std::uint32_t seed = 0; seed < count; ++seed) {
@@ -236,6 +245,7 @@ TEST_P(GpuCompiler, MakesEveryKernelWithoutSpilling) {
     Maker maker{hardware->device()};
     makeKernelsOfAllScenes(maker);
     makeKernelsOfDrawnScenes(maker, drawnScenes);
+    makeKernelsOfWorlds(maker);
     expectAllKernels(maker.made);
     for (const PipelineFacts& facts : hardware->pipelines()) {
         EXPECT_GT(facts["Instructions"], 0u) << facts.kernel;

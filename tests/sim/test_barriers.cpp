@@ -141,7 +141,8 @@ TEST(Barriers, AreSafeAndNeededInTheProgramsOfAllScenes) {
                 ASSERT_LE(program.buffers.size(), mostBuffers);
                 for (const Recording recording : allRecordings)
                     ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program[List::step], recording));
-                ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program[List::skin]));
+                for (const List list : {List::skin, List::rewrite})
+                    ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program[list]));
             }
         }
     }
@@ -156,7 +157,8 @@ TEST(Barriers, AreSafeAndNeededWhereAMeshIsCut) {
     for (const bool usesTexels : {true, false}) {
         const StepProgram program = compile(scene, {.substeps = 2, .forms = {.usesTexels = usesTexels}});
         ASSERT_LE(program.buffers.size(), mostBuffers);
-        for (const List list : {List::step, List::skin, List::wholeSkin}) ASSERT_FALSE(program[list].empty());
+        for (const List list : {List::step, List::skin, List::wholeSkin, List::rewrite})
+            ASSERT_FALSE(program[list].empty());
         for (const std::vector<Pass>& list : program.lists)
             ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(list));
         for (const Recording recording : allRecordings)

@@ -35,7 +35,7 @@ struct StepParams {
     float dampingShare; // `split`: h x damping coefficient of a link, at most this x k~ x the smaller tau of its ends
     float multiplierScale; // `gauss_seidel`: scale of the multipliers kept from the step before, min(1, (h / hPrevious)^2)
     float thetaHStored; // `split`: thetaH, or 0 where contacts follow the gather: it then stores x
-    uint wakes; // 1 = the host wakes all sleeping particles
+    uint wakes; // WAKES_...
     uint lists; // bits of LISTS_...
 };
 
@@ -588,7 +588,7 @@ struct DampColorPush {
 
 #include "common/forces_layout.h"
 #include "common/field_layout.h"
-
+#include "common/carry_layout.h"
 struct SkinPush {
     uint count;
     uint firstVertex; // index of the skin's first vertex in the vertex buffer

@@ -1,4 +1,10 @@
-// Constants of contacts: bits of StepParams::lists, which control when a step makes lists. Part of layout.h.
+// Bits of StepParams. Part of layout.h.
+
+// StepParams::wakes: all sleeping particles wake; none does, but the groups that run are listed anew.
+#define WAKES_ALL 1u
+#define WAKES_LISTS 2u
+
+// StepParams::lists, which controls when a step makes contact lists.
 
 // The host repeats a step that was undone because it lacked lists.
 #define LISTS_REPEATS 1u

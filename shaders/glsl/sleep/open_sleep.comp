@@ -33,11 +33,11 @@ void main() {
     if (lane > 0u) return;
     status.frame = step.frame; // no other kernel writes it while all particles sleep
     status.sleeping = state.sleeping;
-    state.wakes |= step.wakes; // until a step finishes
+    state.wakes |= step.wakes & WAKES_ALL; // until a step finishes
     const bool wakesAll = state.wakes != 0u || state.gravity != step.gravity || state.h != step.h;
     state.wakesAll = wakesAll ? 1u : 0u;
     const bool wakes = state.sleeping > 0u && (wakesAll || changes != 0u || state.touched != 0u);
-    const uint one = wakes || (changes & 2u) != 0u ? 1u : 0u;
+    const uint one = wakes || (changes & 2u) != 0u || (step.wakes & WAKES_LISTS) != 0u ? 1u : 0u;
     state.touched = 0u;
     waking[SLEEP_OPENING] = DispatchArguments(one * push.groups, 1u, 1u, 0u);
     waking[SLEEP_OPENING_ONE] = DispatchArguments(one, 1u, 1u, 0u);

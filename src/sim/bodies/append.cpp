@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 namespace sinew::sim {
 
@@ -14,9 +13,20 @@ template <typename List> std::uint32_t lengthOf(const List& list) {
     return static_cast<std::uint32_t>(list.size());
 }
 
-template <typename List> void requireSpace(const List& list, const List& more, const char* name) {
+template <typename List> void requireSpace(const List& list, const List& more) {
     if (list.size() + more.size() >= std::numeric_limits<std::uint32_t>::max())
-        throw std::length_error(std::string("too many ") + name + " in one scene");
+        throw std::length_error("a scene has fewer than 2^32 - 1 elements of a kind");
+}
+
+void requireSpaces(const Scene& scene, const Scene& part) {
+    requireSpace(scene.particles, part.particles);
+    requireSpace(scene.distances, part.distances);
+    requireSpace(scene.bends, part.bends);
+    requireSpace(scene.attachments, part.attachments);
+    requireSpace(scene.tethers, part.tethers);
+    requireSpace(scene.fixed, part.fixed);
+    requireSpace(scene.faces, part.faces);
+    requireSpace(scene.skins, part.skins);
 }
 
 // Appends the elements of `more` after `shift` has changed them.
@@ -123,9 +133,8 @@ SceneCounts countsOf(const Scene& scene) {
 }
 
 SceneCounts append(Scene& scene, const Scene& part) {
-    requireSpace(scene.particles, part.particles, "particles");
-    requireSpace(scene.distances, part.distances, "links");
-    requireSpace(scene.faces, part.faces, "faces");
+    if (&scene == &part) return append(scene, Scene(part));
+    requireSpaces(scene, part);
     const SceneCounts first = countsOf(scene);
     addParticles(scene, part);
     addConstraints(scene, part, first.particles);

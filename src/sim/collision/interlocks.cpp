@@ -129,7 +129,9 @@ Plan find(const Scene& scene, const StateLayout& layout, std::span<const std::ui
     const std::map<std::uint32_t, std::uint32_t> numbers = numbersOf(pairs);
     Plan plan{std::vector<layout::InterlockNode>(layout.count),
               std::vector<layout::vec4>(layout.count, {0, 0, 0, INTERLOCK_DEEPEST}),
-              partnersOf(pairs, numbers), static_cast<std::uint32_t>(pairs.size())};
+              partnersOf(pairs, numbers),
+              static_cast<std::uint32_t>(pairs.size()),
+              {pairs.begin(), pairs.end()}};
     const auto numberOf = [&](std::uint32_t slot) {
         const auto found = numbers.find(places.body[slot]);
         return found == numbers.end() ? 0u : found->second;
@@ -157,7 +159,8 @@ std::optional<Interlocks> add(ProgramBuilder& program, const Plan& plan, std::si
                                       std::vector<layout::InterlockPair>(plan.pairs, {INTERLOCK_PARTING, 0}));
     const layout::DispatchArguments all{interlocks.push.count / GROUP_ITEMS, 1, 1, 0};
     interlocks.arguments = program.upload("interlocks.arguments", std::vector{all});
-    program.addToState(interlocks.pairs, interlocks.pairs);
+    program.program().interlocks = plan.bodies;
+    program.addToState(interlocks.pairs, interlocks.pairs, {.of = Elements::interlocks});
     program.addToState(interlocks.arguments, interlocks.arguments);
     return interlocks;
 }

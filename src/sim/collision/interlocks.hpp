@@ -22,6 +22,7 @@ struct Plan {
     /// the index of the pair.
     std::vector<std::uint32_t> partners;
     std::uint32_t pairs = 0;
+    std::vector<std::array<std::uint32_t, 2>> bodies; ///< by pair: the smallest particle of each
 };
 
 /// Finds pairs of bodies whose particles overlap and are to be separated, one of them inside a lattice.

@@ -57,6 +57,8 @@ Lists add(ProgramBuilder& program, const Request& request) {
     if (!request.hasMemory) return lists;
     lists.memory = addMemory(program, request, room);
     const Kept& saved = lists.memory->saved;
+    program.program().contactMemory.push_back(
+        {lists.contacts, lists.ranges, lists.memory->memory, saved.ranges, saved.memory, saved.others});
     for (const BufferId buffer :
          {lists.contacts, lists.ranges, lists.memory->memory, saved.ranges, saved.memory, saved.others})
         program.addToState(buffer, buffer);

@@ -125,8 +125,12 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
 
     const solvers::SolverPlan solver = planOf(model);
     built.order = fnv1a(std::as_bytes(std::span(layout.slot)));
+    built.slots = layout.slot;
+    built.slotCount = static_cast<std::uint32_t>(layout.count);
     Build build(program, model, features());
     build.particles = addParticles(program, model, solver, start);
+    built.statePositions = build.particles.positions;
+    built.stateVelocities = build.particles.velocities;
     build.add(&Feature::buffers);
     program.beginPhase("begin");
     program.updateParameters(built.parameters);
@@ -141,6 +145,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     build.add(&Feature::end);
     if (solver.positionW != inverseMass) addWeights(program, build.particles);
     build.add(&Feature::finish);
+    program.into(List::rewrite, [&] { build.add(&Feature::rewrite); });
     surface::addSkins(build); // Feature::skinNormals between positions and normals, Feature::skinEnd
 
     if (scene.distances.empty()) program.skip("distance constraints");

@@ -32,8 +32,8 @@ BufferId addMemory(ProgramBuilder& program, BufferId memory) {
 void addKept(ProgramBuilder& program) {
     for (const BufferId buffer : program.keptForRepeat()) {
         const BufferId saved = addMemory(program, buffer);
-        program.addToState(buffer, saved);
-        program.addToState(saved, saved);
+        program.addToState(buffer, saved, {.of = Elements::slots});
+        program.addToState(saved, saved, {.of = Elements::slots});
     }
 }
 
@@ -106,7 +106,7 @@ void addPublishing(Build& build) {
     addState(build);
     if (program.keptForRepeat().empty())
         for (const BufferId buffer : {particles.positions, particles.velocities})
-            program.addToState(buffer, buffer);
+            program.addToState(buffer, buffer, {.of = Elements::slots});
     for (const BufferId memory : program.restoredOnUndo()) {
         const BufferId saved = addMemory(program, memory);
         program.addToState(memory, saved);

@@ -37,6 +37,13 @@ public:
     void restore(std::span<const layout::vec4> values) noexcept {
         std::copy(values.begin(), values.end(), values_.begin());
     }
+    /// Continues the points of `other`; `origins` by attachment: its index there, or NO_ELEMENT.
+    void carry(const Anchors& other, std::span<const std::uint32_t> origins) noexcept {
+        for (std::size_t a = 0; a < origins.size(); ++a)
+            if (origins[a] != NO_ELEMENT)
+                for (std::size_t end = 0; end < 2; ++end)
+                    values_[2 * a + end] = other.values_[2 * origins[a] + end];
+    }
     std::size_t count() const noexcept { return attachments_.size(); }
     /// Start and end of the point of every attachment.
     std::span<const layout::vec4> values() const noexcept { return values_; }

@@ -171,6 +171,14 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuf
     addDebrisRemoval(program, cut, particles);
 }
 
+// Draws what the links leave: debris, the surface of cuts, the skins of sheets.
+void addSurfaces(ProgramBuilder& program, const Cut& cut) {
+    program.only(When::surface, [&] { addTriangleHiding(program, cut.debrisSkins); });
+    if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface, cut.blade);
+    if (cut.sheets)
+        program.only(When::surface, [&] { surface::addSheetPasses(program, *cut.sheets, !cut.surface); });
+}
+
 // Restores the links of an undone step, and updates what depends on the links.
 void addUpdates(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
@@ -183,10 +191,7 @@ void addUpdates(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                          run.push);
     addWholeCells(program, cut); // cells that an undone step has restored
     addFindingPieces(program, cut, particles);
-    program.only(When::surface, [&] { addTriangleHiding(program, cut.debrisSkins); });
-    if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface, cut.blade);
-    if (cut.sheets)
-        program.only(When::surface, [&] { surface::addSheetPasses(program, *cut.sheets, !cut.surface); });
+    addSurfaces(program, cut);
 }
 
 } // namespace
@@ -205,6 +210,25 @@ void addOpening(Build& build) {
 void addClosing(Build& build) {
     if (const Cut* cut = build.find<Cut>())
         build.program.only(When::cut, [&] { addUpdates(build.program, *cut, build.particles); });
+}
+
+// A step with a blade that cut every link missing from the uncut bodies: all slots count as near it.
+void addRewriting(Build& build) {
+    const Cut* cut = build.find<Cut>();
+    if (!cut) return;
+    ProgramBuilder& program = build.program;
+    const CuttingBuffers& buffers = cut->buffers;
+    program.copy(program.initialOf("cut.uncut_links", buffers.links), buffers.savedLinks);
+    program.fill(cut->blade, 0);
+    program.fill(cut->work, 1); // links were cut
+    program.fill(buffers.dirty, ~0u);
+    addListing(program, *cut);
+    addWholeCells(program, *cut);
+    if (cut->surface)
+        surface::addSkinHits(program, *cut->surface, cut->bladePlaces, cut->placesBefore, cut->blade,
+                             cut->points);
+    addFindingPieces(program, *cut, build.particles);
+    addSurfaces(program, *cut);
 }
 
 void addSkinNormals(Build& build) {

@@ -16,6 +16,8 @@ namespace sinew::sim::cutting {
 void addOpening(Build& build);
 /// Appends the passes at the end of a step with a blade.
 void addClosing(Build& build);
+/// Appends the list that derives pieces, surfaces and what else a cut changes from the links.
+void addRewriting(Build& build);
 /// Appends what normals of skins depend on.
 void addSkinNormals(Build& build);
 /// Appends the pieces of sheets, the surface of cuts, and the hiding of fragments.

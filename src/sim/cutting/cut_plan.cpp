@@ -210,7 +210,11 @@ Cut addBuffers(ProgramBuilder& program, const SceneModel& model, const ParticleB
     if (buffers.wholeCells != BufferId{}) buffers.topology.push_back(buffers.wholeCells);
     if (particles.sleep) buffers.topology.push_back(particles.sleep->components);
     if (particles.grabs) addGrabMasses(program, cut, *particles.grabs);
-    for (const BufferId buffer : buffers.topology) program.addToState(buffer, buffer);
+    const auto isCut = [&](BufferId buffer) { // the others follow from these
+        return buffer == buffers.links || buffer == buffers.hits || buffer == cut.placesBefore;
+    };
+    for (const BufferId buffer : buffers.topology)
+        program.addToState(buffer, buffer, {.of = isCut(buffer) ? Elements::slots : Elements::none});
     program.program().cutting = buffers;
     cut.sheets =
         surface::addSheetPieces(program, scene, layout, cut.particles, model.settings.cutSurfaceRoom);

@@ -75,8 +75,10 @@ void add(Build& build) {
               .held = program.scratch<std::uint32_t>("grab.held", count),
               .holding = program.upload("grab.holding", none),
               .pulling = program.upload("grab.pulling", none)});
-    for (const BufferId buffer : {grabs->states, grabs->grips, grabs->held, grabs->pulling})
-        program.addToState(buffer, buffer);
+    program.addToState(grabs->states, grabs->states, {.of = Elements::one});
+    program.addToState(grabs->grips, grabs->grips, {.of = Elements::particles});
+    program.addToState(grabs->held, grabs->held, {.of = Elements::one, .values = Elements::particles});
+    program.addToState(grabs->pulling, grabs->pulling, {.of = Elements::one});
     program.updateGrabs(grabs->requests);
     program.dispatch(kernels::openGrabs, settings.grabs,
                      {grabs->requests, grabs->states, grabs->holding, grabs->pulling}, push);
@@ -105,6 +107,19 @@ void addPass(Build& build, const Substep& substep) {
 bool GrabRequests::areFree() const noexcept {
     return std::ranges::all_of(values(),
                                [](const layout::GrabRequest& request) { return request.serial == 0; });
+}
+
+void GrabRequests::carry(const GrabRequests& other, std::span<const std::uint32_t> origins) noexcept {
+    serial_ = other.serial_;
+    requests_ = other.requests_;
+    for (layout::GrabRequest& request : requests_) {
+        if (request.serial == 0) continue;
+        const auto found = std::ranges::find(origins, request.particle);
+        if (found == origins.end())
+            request = {};
+        else
+            request.particle = static_cast<std::uint32_t>(found - origins.begin());
+    }
 }
 
 void GrabRequests::advance(std::span<const Grab> grabs, float dt) noexcept {

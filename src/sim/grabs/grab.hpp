@@ -32,6 +32,9 @@ public:
 
     /// Restores earlier grabs. A grab that begins later still has a serial number of its own.
     void restore(const GrabRequests& before) noexcept { requests_ = before.requests_; }
+    /// Continues the grabs of `other`; `origins` by particle: its index there, or NO_ELEMENT. Grabs of
+    /// particles that are gone end.
+    void carry(const GrabRequests& other, std::span<const std::uint32_t> origins) noexcept;
     /// Ends all grabs.
     void reset() noexcept { requests_ = {}; }
     /// Advances by a step of `dt` [s].

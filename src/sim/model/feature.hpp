@@ -76,10 +76,11 @@ struct Feature {
     Build::AddInSubstep afterLinks = nullptr;    ///< `split` only: before contacts
     Build::AddInSubstep afterContacts = nullptr; ///< projections
     Build::AddInSubstep substepEnd = nullptr;
-    Build::Add check = nullptr;  ///< after the check of the state, before it is published
-    Build::Add cutEnd = nullptr; ///< of a step with a blade, after an undone step has restored its buffers
-    Build::Add end = nullptr;    ///< after the public state was written
-    Build::Add finish = nullptr; ///< after all other passes of a step
+    Build::Add check = nullptr;   ///< after the check of the state, before it is published
+    Build::Add cutEnd = nullptr;  ///< of a step with a blade, after an undone step has restored its buffers
+    Build::Add end = nullptr;     ///< after the public state was written
+    Build::Add finish = nullptr;  ///< after all other passes of a step
+    Build::Add rewrite = nullptr; ///< list of the same name, after the links of cut bodies were put in
     Build::Add skinNormals = nullptr; ///< list of skins, between positions and normals of vertices
     Build::Add skinEnd = nullptr;     ///< end of that list
 };

@@ -210,9 +210,11 @@ void ProgramBuilder::fill(BufferId buffer, std::uint32_t value) {
 
 void ProgramBuilder::copy(BufferId from, BufferId to) {
     const BufferSpec &source = program_.buffers.at(from.index), &target = program_.buffers.at(to.index);
-    if (source.bytes() != target.bytes()) {
-        throw std::logic_error("copy: " + source.label + " has " + std::to_string(source.bytes()) +
-                               " bytes, " + target.label + " has " + std::to_string(target.bytes()));
+    const std::uint64_t bytes =
+        source.count * source.stride; // also of the initial contents of another buffer
+    if (bytes != target.bytes()) {
+        throw std::logic_error("copy: " + source.label + " has " + std::to_string(bytes) + " bytes, " +
+                               target.label + " has " + std::to_string(target.bytes()));
     }
     append({.kind = PassKind::copy,
             .label = "copy",

@@ -150,10 +150,45 @@ struct IndirectForm {
     BufferId listed; ///< groups that run; invalid = all
 };
 
+/// Elements of a scene. A part of the state has one entry for each element of a kind, in the order of the
+/// program, and another program may have these elements at other indices.
+enum class Elements : std::uint8_t {
+    none,
+    one, ///< the whole buffer, for the scene
+    slots,
+    particles,
+    attachments,
+    movers,       ///< host colliders, colliders, driven bodies
+    interlocks,   ///< pairs of bodies (StepProgram::interlocks)
+    prisms,       ///< of clipped skins (SkinSpan)
+    skinVertices, ///< of clipped skins (SkinSpan)
+};
+
+/// The entries of a buffer that follow their elements into a scene with other bodies: the elements, and those
+/// that the values, which are then indices, stand for. none = a take-over by such a scene starts the buffer
+/// anew, or derives it (List::rewrite).
+struct Carry {
+    Elements of = Elements::none, values = Elements::none;
+};
+
 /// A buffer of the state between steps: a take-over copies `from` of the other program, which is valid also
 /// after an undone step, into `to`.
 struct StateBuffer {
     BufferId to, from;
+    Carry carry;
+};
+
+/// Contact lists with a memory (collision/pooled_lists.hpp): by owner ranges of entries, which name the other
+/// element of a pair, and whose memory outlives a rebuild.
+struct ContactMemory {
+    BufferId contacts, ranges, memory;
+    BufferId savedRanges, savedMemory, savedOthers;
+};
+
+/// The prisms and vertices of one clipped skin.
+struct SkinSpan {
+    std::uint32_t skin = 0;
+    std::uint32_t firstPrism = 0, prisms = 0, firstVertex = 0, vertices = 0;
 };
 
 /// A contiguous range of slots of cuttable bodies with equal strides: one dispatch.
@@ -278,8 +313,11 @@ enum class List : std::uint8_t {
     /// After another solver's public state was put into the public buffers: initialises this solver's state
     /// from it. Empty without public velocities.
     initialise,
+    /// After links that a cut removed were put into the buffers of the uncut bodies: derives all else that
+    /// follows from them. Empty if nothing may be cut.
+    rewrite,
 };
-constexpr std::size_t listCount = 5;
+constexpr std::size_t listCount = 6;
 
 /// A compiled scene; immutable once built.
 struct StepProgram {
@@ -290,9 +328,15 @@ struct StepProgram {
     std::uint64_t order = 0; ///< hash of the order of particles: programs with equal order exchange states
     std::vector<std::string> skipped;      ///< features that this scene does not need, for reports
     std::vector<StateBuffer> stateBuffers; ///< buffers copied when a simulation takes over another's state
-    BufferId parameters, status, positions, velocities; ///< public buffers; velocities may be invalid
-    BufferId skinVertices, skinIndices;                 ///< invalid without skins
-    BufferId wholeIndices;                              ///< of all skins: wholeTriangles, else triangles
+    std::vector<ContactMemory> contactMemory;
+    std::vector<SkinSpan> skinSpans;
+    std::vector<std::array<std::uint32_t, 2>> interlocks; ///< the smallest particles of pairs of bodies
+    BufferId statePositions, stateVelocities;             ///< of the solver, by slot
+    std::vector<std::uint32_t> slots;                     ///< by particle: its slot in the state
+    std::uint32_t slotCount = 0;                          ///< of the state, empty ones included
+    BufferId parameters, status, positions, velocities;   ///< public buffers; velocities may be invalid
+    BufferId skinVertices, skinIndices;                   ///< invalid without skins
+    BufferId wholeIndices;                                ///< of all skins: wholeTriangles, else triangles
     ContactBuffers contacts;
     std::vector<GridBuffers> grids; ///< one for each contact search that uses a grid
     SleepBuffers sleep;
@@ -428,7 +472,9 @@ public:
     void restoreOnUndo(BufferId buffer) { restoredOnUndo_.push_back(buffer); }
     /// Registers a part of the state that another program for the same scene can take over; it may be longer
     /// there.
-    void addToState(BufferId to, BufferId from) { program_.stateBuffers.push_back({to, from}); }
+    void addToState(BufferId to, BufferId from, Carry carry = {}) {
+        program_.stateBuffers.push_back({to, from, carry});
+    }
     /// Registers a buffer of vec4 of which a copy from the last finite step is kept, so that a step can be
     /// repeated with the same bits: the state that publishing restores after an undone step is rounded.
     void keepForRepeat(BufferId buffer) { keptForRepeat_.push_back(buffer); }

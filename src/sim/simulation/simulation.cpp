@@ -170,8 +170,9 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->recordEnd(commands, step.frame);
     commands.hostBarrier();
     state_->previousH = parameters.h;
+    state_->gravity = step.gravity;
     state_->undoneH.reset();
-    state_->hasNewTopology = state_->isChanged = state_->isNewState = false;
+    state_->hasNewTopology = state_->isChanged = state_->isCarried = state_->isNewState = false;
 }
 
 void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail) noexcept {

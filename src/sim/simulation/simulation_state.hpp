@@ -15,6 +15,7 @@
 #include "sim/program/program_values.hpp"
 #include "sim/rigid/collider_paths.hpp"
 #include "sim/simulation/calm_steps.hpp"
+#include "sim/simulation/carrying.hpp"
 #include "sim/simulation/misuse.hpp"
 #include "sim/simulation/simulation_ring.hpp"
 #include "sim/simulation/skin_ranges.hpp"
@@ -65,6 +66,7 @@ struct Simulation::State {
     bool isUncut = false;        // since the last reset: no step can have cut anything
     std::uint32_t changes = 0;   // number of material changes
     bool isChanged = false;      // since the last step
+    bool isCarried = false;      // its state came from a scene with other bodies since the last step
     SplitBudget budget;
     float theta, omega, damping;
     std::uint32_t substeps;
@@ -72,6 +74,7 @@ struct Simulation::State {
                          // kept
     bool hasContacts;    // of particles or faces
     float previousH = 0; // 0 before the first step: the leapfrog starts with a half kick
+    Vec3 gravity{};      // of the last step [m/s^2]
     // A finished step: its h, and the poses of colliders and host colliders at its end.
     struct Settled {
         float h = 0;
@@ -83,8 +86,8 @@ struct Simulation::State {
         bool isRecorded = false;
         Settled end;
     };
-    std::vector<Unsettled> unsettled; // by slot of the ring
-    std::vector<std::string> untold;  // warnings of the scene
+    std::vector<Unsettled> unsettled;        // by slot of the ring
+    std::vector<std::string> warned, untold; // warnings of the scene
     std::uint64_t nextFrame = 0;
     Settled settledEnd;
     // The host's part of the state before a step, by slot of the ring, for hosts that repeat steps.
@@ -125,7 +128,7 @@ struct Simulation::State {
           omega(settings.omega), damping(scene.damping), substeps(settings.substeps),
           storesPlaces(solvers::split::contactsFollow(scene, settings)),
           hasContacts(particlesTouch(scene) || facesTouch(scene)), unsettled(settings.framesInFlight),
-          untold(warnings(scene)), befores(settings.framesInFlight),
+          warned(warnings(scene)), untold(warned), befores(settings.framesInFlight),
           isKeptWhereUndone(settings.publishesVelocities && !keepsRemainders(scene, settings.substeps)) {
         for (Before& one : befores) one.anchors.resize(anchors.values().size());
     }
@@ -153,7 +156,8 @@ struct Simulation::State {
                     static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
                 .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
                 .thetaHStored = storesPlaces ? 0 : theta * h,
-                .wakes = step.wakes || hasNewTopology || isChanged ? 1u : 0u,
+                .wakes = (step.wakes || hasNewTopology || isChanged ? WAKES_ALL : 0u) |
+                         (isCarried ? WAKES_LISTS : 0u),
                 .lists = lists};
     }
 
@@ -164,6 +168,14 @@ struct Simulation::State {
         if (!step.isRecorded) return end;
         const std::uint64_t recorded = ring.step(frame).frame;
         return ring.isFinished(recorded) && !ring.isUndone(recorded) ? step.end : end;
+    }
+
+    // The last finished step that was not undone.
+    Settled lastSettled() const {
+        Settled end = settledEnd;
+        for (std::uint64_t frame = 0; frame < ring.slots(); ++frame) // oldest first
+            end = settled(nextFrame + frame, end);
+        return end;
     }
 
     // Dispatch arguments of the passes that run only for host colliders: 0 groups without one.
@@ -271,6 +283,9 @@ struct Simulation::State {
         executor.record(commands, List::refresh);
     }
 
+    // Continues the host's part of `other`, whose scene has other bodies.
+    void carry(const State& other, const Origins& origins) noexcept;
+
     // Calls use(index, buffer) for public positions and velocities, then for all carried buffers.
     template <typename Use> void forEachHanded(const Use& use) const {
         std::size_t index = 0;
@@ -372,6 +387,7 @@ struct Simulation::State {
         forgetUnsettled();
         undoneH = saved.undoneH;
         anchors.moveTo(saved.anchors);
+        isCarried = true; // a state saved right after a take-over has other groups that run
         hasNewTopology = saved.hasNewTopology;
         isUncut = saved.isUncut;
         grabs.reset();

@@ -81,9 +81,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
         state_->undoneH.reset(); // the copy contains the saved values of the last finite step
         return;
     }
-    State::Settled end = other.settledEnd;
-    for (std::uint64_t frame = 0; frame < other.ring.slots(); ++frame) // oldest first
-        end = other.settled(other.nextFrame + frame, end);
+    const State::Settled end = other.lastSettled();
     state_->settledEnd = end;
     state_->previousH = isAlike ? end.h : 0;
     state_->anchors = other.anchors;
@@ -91,6 +89,62 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
     state_->isUncut = other.isUncut;
     state_->hasNewTopology = other.hasNewTopology;
     state_->colliders.moveTo(end.time, end.hostColliders);
+}
+
+std::unique_ptr<Carrying> Simulation::makeCarrying(const Simulation& to, const Origins& origins) const {
+    return std::make_unique<Carrying>(
+        state_->device, CarriedState{.program = state_->program, .executor = state_->executor},
+        CarriedState{.program = to.state_->program, .executor = to.state_->executor}, origins);
+}
+
+void Simulation::State::carry(const State& other, const Origins& origins) noexcept {
+    const Settled end = other.lastSettled();
+    settledEnd = end;
+    previousH = end.h;
+    gravity = other.gravity;
+    anchors.carry(other.anchors, origins.attachments);
+    grabs.carry(other.grabs, origins.particles);
+    isUncut = other.isUncut;
+    hasNewTopology = other.hasNewTopology;
+    isChanged = other.isChanged;
+    changes = other.changes + 1; // one that was prepared for `other` is none for this program
+    isCarried = true;
+    std::erase_if(untold, [&](const std::string& warning) {
+        return std::ranges::find(other.warned, warning) != other.warned.end();
+    });
+    colliders.moveTo(end.time, end.hostColliders);
+}
+
+void Simulation::recordCarried(VkCommandBuffer buffer, const Simulation& from, const Carrying& carrying,
+                               const Origins& origins, bool wakes) noexcept {
+    from.state_->goBack();
+    State& own = *state_;
+    const State& other = *from.state_;
+    recordReset(buffer);
+    vk::Commands commands(own.device, buffer);
+    commands.beginStep();
+    carrying.record(commands);
+    commands.barrier();
+    own.carry(other, origins);
+    own.isChanged = own.isChanged || wakes;
+    if (own.chosen.solver == Solver::split && own.previousH > 0) {
+        const float h = own.previousH, half = 0.5f * h;
+        const Vec3& g = own.gravity;
+        carrying.recordArrivals(commands, {half * g.x, half * g.y, half * g.z}, own.theta * h);
+        commands.barrier();
+    }
+    if (!other.isUncut) {
+        own.executor.record(commands, List::rewrite);
+        commands.barrier();
+        carrying.recordCounts(commands);
+    }
+    own.recordSettling(commands);
+    commands.endStep();
+}
+
+bool Simulation::mayBeCarried() const noexcept {
+    state_->readSteps();
+    return !state_->ring.oldestUnfinished() && !state_->lackedLists;
 }
 
 std::uint64_t Simulation::handOverSize() const noexcept {

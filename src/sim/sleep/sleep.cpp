@@ -127,8 +127,8 @@ void setMoving(ProgramBuilder& program, Sleep& sleep, const constraints::attachm
                                : program.scratch<float>("sleep.no_offsets", sleep.push.count);
     sleep.ways = areMoving ? colliders.ways : program.scratch<layout::ColliderPose>("sleep.no_ways", 1);
     sleep.seenPoses = program.scratch<layout::ColliderPose>("sleep.poses", poses);
-    program.addToState(sleep.seenAnchors, sleep.seenAnchors);
-    program.addToState(sleep.seenPoses, sleep.seenPoses);
+    program.addToState(sleep.seenAnchors, sleep.seenAnchors, {.of = Elements::attachments});
+    program.addToState(sleep.seenPoses, sleep.seenPoses, {.of = Elements::movers});
 }
 
 void setContents(ProgramBuilder& program, BufferId buffer, std::span<const std::byte> bytes) {
@@ -168,8 +168,9 @@ void add(Build& build) {
     sleep->arguments = program.scratch<layout::DispatchArguments>("sleep.arguments", mostPasses);
     sleep->waking = program.scratch<layout::DispatchArguments>("sleep.waking", SLEEP_ARGUMENTS);
     program.program().sleep = {sleep->arguments, sleep->listed};
-    for (const BufferId buffer : {sleep->state, sleep->rests, sleep->islands})
-        program.addToState(buffer, buffer);
+    program.addToState(sleep->state, sleep->state, {.of = Elements::one});
+    program.addToState(sleep->rests, sleep->rests, {.of = Elements::slots});
+    program.addToState(sleep->islands, sleep->islands, {.of = Elements::slots, .values = Elements::slots});
     itemsOf(*sleep, SLEEP_ALL, GROUP_ITEMS, GROUP_ITEMS); // element 0: whether anything runs
     build.particles.sleep = sleep;
 }

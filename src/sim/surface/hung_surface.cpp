@@ -87,6 +87,10 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
     hung.counts = program.scratch<std::uint32_t>("surface.skin_counts", lists);
     hung.arguments = program.scratch<layout::DispatchArguments>("surface.skin_arguments", lists);
     hung.grids = program.upload("surface.grids", gridsOf(bodies));
+    for (const HungRange& range : bodies.ranges)
+        program.program().skinSpans.push_back(
+            {static_cast<std::uint32_t>(bodies.vertices[range.vertices.first].rest.w), range.prisms.first,
+             range.prisms.count, range.vertices.first, range.vertices.count});
     program.program().cutSurface.hung = hung.vertices;
     program.program().cutSurface.moved = hung.moved;
     if (!bodies.pulled.empty()) {
@@ -94,12 +98,15 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
         hung.pulledPlaces = program.scratch<layout::vec4>("surface.pulled_places", surface.slots);
         hung.pulls = program.scratch<layout::vec4>("surface.pulls", surface.slots);
         program.program().cutting.topology.push_back(hung.pulls);
-        program.addToState(hung.pulls, hung.pulls);
+        program.addToState(hung.pulls, hung.pulls, {.of = Elements::slots});
     }
-    for (const BufferId buffer : {hung.hits, hung.rims, hung.moved, hung.placed, hung.slotFlags}) {
+    const auto add = [&](BufferId buffer, Elements elements) {
         program.program().cutting.topology.push_back(buffer);
-        program.addToState(buffer, buffer);
-    }
+        program.addToState(buffer, buffer, {.of = elements});
+    };
+    add(hung.hits, Elements::prisms);
+    for (const BufferId buffer : {hung.rims, hung.moved, hung.placed}) add(buffer, Elements::skinVertices);
+    add(hung.slotFlags, Elements::slots);
 }
 
 BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId placesBefore, BufferId work,
