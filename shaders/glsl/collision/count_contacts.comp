@@ -57,6 +57,9 @@ bool touchesOnWay(uint slot, vec4 x, vec3 velocity, float first, inout float wei
     return isTouching;
 }
 
+bool isDriven(vec4 velocity) { return velocity.w == 0.0 && velocity.xyz != vec3(0.0); }
+vec3 drivenVelocityOf(vec4 velocity) { return isDriven(velocity) ? velocity.xyz : vec3(0.0); }
+
 void main() {
     const uint i = itemIndex(push.count);
     const uvec2 list = lists[i];
@@ -66,15 +69,18 @@ void main() {
     const bool isSwept = bounds.isSwept != 0u;
     const uint sweeping = isSwept ? end : list.x;
     const vec4 start = PREDICTED(i);
-    vec3 x = start.xyz;
+    vec3 x = start.xyz, drive = vec3(0.0); // drive: velocity of a driven particle that it met first
     const vec4 velocity = VELOCITY(i);
     float contactCount = 0.0, weights = 0.0, first = 1.0;
     if (hasRecovery)
         for (uint slot = list.x; slot < end; ++slot) recover(i, slot, x);
     for (uint slot = list.x; slot < sweeping; ++slot) {
         const Pair pair = pairOf(slot, start, velocity.xyz);
-        first = min(first, meetingOf(pair.d, pair.way, pair.reach, pair.areFree).time);
+        const float time = meetingOf(pair.d, pair.way, pair.reach, pair.areFree).time;
+        if (time < first) drive = drivenVelocityOf(VELOCITY(CONTACT(slot).x));
+        first = min(first, time);
     }
+    if (isDriven(velocity)) first = 1.0; // nothing stops it
     for (uint word = 0u; word < wordsOf(list); ++word) {
         const uint from = list.x + 32u * word, to = min(from + 32u, end);
         uint hit = 0u;
@@ -88,7 +94,7 @@ void main() {
     }
     if (sweeping > list.x) {
         firsts[i] = first;
-        if (first < 1.0) x -= (1.0 - first) * step.h * velocity.xyz; // stays at the point of impact
+        if (first < 1.0) x -= (1.0 - first) * step.h * (velocity.xyz - drive); // stays at the point of impact
     }
     touching[i] = vec4(x, (contactCount + weights) * velocity.w);
 }

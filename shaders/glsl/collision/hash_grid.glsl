@@ -30,7 +30,8 @@ Frame frameOf(GridBounds bounds, uint cells) {
     frame.low = vec3(valueOf(bounds.lowX), valueOf(bounds.lowY), valueOf(bounds.lowZ));
     const vec3 extent = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)) - frame.low;
     const float longest = max(extent.x, max(extent.y, extent.z));
-    const float perLength = 1.0 / (1.015625 * bounds.edge + longest / 1048576.0);
+    const float edge = bounds.edge + 2.0 * uintBitsToFloat(bounds.drivenWay);
+    const float perLength = 1.0 / (1.015625 * edge + longest / 1048576.0);
     frame.perLength = perLength;
     frame.mask = cells - 1u;
     const vec3 size = floor(extent * perLength) + 3.0; // with an empty cell at every end, so that searches beyond the box find nothing

@@ -3,8 +3,8 @@
 // FRAMES_BINDING, and WAYS_BINDING for two buffers.
 #include "common/share_band.h"
 
-// Two particles that may meet share a frame: what they move against it in a substep decides whether they do. Where
-// particles sleep, speed counts as it is, because sleeping ones are not checked.
+// Two particles that may meet share a frame: what they move against it in a substep decides whether they do. The frame of
+// particles that are not checked stands, and their ways are 0 (fall_asleep).
 layout(constant_id = 14) const bool hasWays = false;
 layout(std430, binding = WAYS_BINDING) writeonly buffer Ways { float ways[]; };          // see wayOf() [m]
 layout(std430, binding = WAYS_BINDING + 1) readonly buffer Bodies { float bodies[]; }; // by slot, with a frame each

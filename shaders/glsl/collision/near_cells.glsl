@@ -36,7 +36,7 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, int layer, Frame frame
     const uint second = count[0], third = second + count[1], all = third + count[2];
     start[1] -= second;
     start[2] -= third;
-    const float reach = listedUpTo(wideOf(i, radius) + push.most);
+    const float reach = listedUpTo(wideOf(i, radius) + mostInCells);
     for (uint first = 0u; first < all && !isFull(); first += 32u) {
         const uint last = min(first + 32u, all);
         uint near = 0u;

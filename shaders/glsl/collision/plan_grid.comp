@@ -56,6 +56,7 @@ void planPasses(bool isBuilt, bool isComplete) {
         bounds.lowX = bounds.lowY = bounds.lowZ = ~0u;
         bounds.highX = bounds.highY = bounds.highZ = 0u;
         bounds.edge = areFew ? push.quietEdge : push.edge;
+        bounds.drivenWay = 0u;
         ++bounds.builds;
         bounds.drift -= strayOf(bounds.moved);
     }

@@ -14,6 +14,8 @@ layout(std430, binding = 7) readonly buffer Headings { vec4 headings[]; };
 layout(std430, binding = 8) readonly buffer Bounds { GridBounds bounds; };
 layout(constant_id = 2) const bool sleeps = false;
 layout(std430, binding = 9) readonly buffer Weights { float weights[]; }; // inverse mass, also of sleeping particles [1/kg]
+layout(constant_id = 3) const bool checksGroups = false;
+layout(std430, binding = 10) readonly buffer Groups { uint groups[]; }; // work groups that check their particles
 layout(push_constant) uniform Push { FramePush push; };
 #include "sleep/sleep.glsl"
 #include "collision/expected.glsl"
@@ -28,6 +30,12 @@ vec3 referenceOf(uint i) {
 vec3 sharedVelocityOf(uint i) {
     const vec3 v = velocities[i].xyz;
     return hasHeadings && abs(detected[i].x) < 1e17 && bounds.age < bounds.horizon ? v - headings[i].xyz : v;
+}
+
+// True if nothing checks whether the particle is where the frame expects it: it sleeps, or it is fixed, or driven and at
+// rest, in a work group that does not run.
+bool isUnchecked(uint i) {
+    return sleeps && isAsleep(weights[i], velocities[i]) || checksGroups && groups[i / GROUP_SIZE] == 0u;
 }
 
 void main() {
@@ -47,7 +55,7 @@ void main() {
         sumX += x;
         sumV += v;
         speed += velocities[i].xyz;
-        if (sleeps && isAsleep(weights[i], velocities[i])) sleepers += 1.0;
+        if (isUnchecked(i)) sleepers += 1.0;
         rr += outerProduct(r, r);
         dr += outerProduct(x - r, r);
         vr += outerProduct(v, r);

@@ -7,8 +7,11 @@ float farOf(uint i) { return hasWays ? ways[i] : wayOf(step.h, velocities[i].xyz
 uint fastParticles = bounds.fast;
 #ifdef SWEPT
 #define FIRST_FAST 0u
-bool isFast(uint i) { return isHurrying(RADIUS(i), farOf(i), push.quiet, push.most); }
+// Largest radius and way of a particle that is found by cells [m].
+float mostInCells = max(push.most, uintBitsToFloat(bounds.drivenWay));
+bool isFast(uint i) { return isHurrying(RADIUS(i), farOf(i), push.quiet, mostInCells); }
 #else
+#define mostInCells push.most
 #define FIRST_FAST MOST_FAST
 bool isFast(uint i) { return fastParticles > 0u && farOf(i) > push.quiet; }
 #endif

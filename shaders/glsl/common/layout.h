@@ -281,8 +281,8 @@ struct GridBounds {
     uint pairs, entries, links;
     uint lacksLists; // StatusWords::lacksLists of the last step
     float edge;      // smallest size of a cell in the grid that was built last [m]
-    // Time since lists were made, at most `horizon`, at the end of the substep that is checked next, and at its start
-    // [s]: as long as particles are expected to follow their headings.
+    uint drivenWay;  // bits of the largest radius and way of a driven particle too fast for such cells (clamp_speeds) [m]
+    // Time since lists were made, at the end of the substep that is checked next, and at its start; at most `horizon` [s].
     float age, ageBefore, horizon;
     float lasted; // `age` when the lists before these were given up [s]
     float substep; // length of the substep in which lists were made, for which headings are limited [s]

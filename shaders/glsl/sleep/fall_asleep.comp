@@ -11,6 +11,8 @@ layout(std140, binding = 3) uniform Step { StepParams step; };
 layout(std430, binding = 4) readonly buffer Islands { uint islands[]; };
 layout(std430, binding = 5) readonly buffer Least { uint least[]; };
 layout(std430, binding = 6) buffer Rests { vec4 rests[]; };
+layout(constant_id = 14) const bool hasWays = false;
+layout(std430, binding = 7) writeonly buffer Ways { float ways[]; }; // as in list_check.glsl
 layout(push_constant) uniform Push { SleepPush push; };
 
 void main() {
@@ -22,4 +24,5 @@ void main() {
     if (hasRemainders) positions[remainderOf(positions.length(), i)].xyz = vec3(0.0); // or it would move once more
     velocities[i] = vec4(0.0);
     rests[i].w = -1.0;
+    if (hasWays) ways[i] = 0.0; // it is checked no more while its group does not run
 }

@@ -17,7 +17,7 @@ namespace k = kernels;
 
 constexpr std::uint32_t loose = 0, still = 1, firstLinked = 2; // bodies
 constexpr std::uint32_t hasHeadingsId = 1;                     // constant_id in expected.glsl
-constexpr std::uint32_t sleepsId = 2;                          // in sum_frames.comp
+constexpr std::uint32_t sleepsId = 2, checksGroupsId = 3;      // in sum_frames.comp
 constexpr std::size_t fewest = 8;                              // particles of a body of its own
 
 // Numbers of the largest components, by their lowest particle.
@@ -167,10 +167,10 @@ void addFit(ProgramBuilder& program, const Frames& frames, const Seen& seen) {
     const layout::FramePush& push = frames.push;
     const ProgramBuilder::Constants constants{{hasHeadingsId, push.ahead > 0}};
     ProgramBuilder::Constants summed = constants;
-    summed.insert({sleepsId, seen.weights != unbound});
+    summed.insert({{sleepsId, seen.weights != unbound}, {checksGroupsId, seen.groups != unbound}});
     program.dispatch(k::sumFrames, push.chunks,
                      {seen.positions, seen.velocities, seen.detected, frames.chunks, frames.members,
-                      seen.radii, frames.partial, seen.headings, seen.bounds, seen.weights},
+                      seen.radii, frames.partial, seen.headings, seen.bounds, seen.weights, seen.groups},
                      push, summed);
     program.dispatch(k::addFrames, push.bodies * FRAME_SUMS, {frames.partial, frames.bodies, frames.sums},
                      push);

@@ -63,6 +63,7 @@ struct Seen {
     BufferId bounds;     ///< one layout::GridBounds
     BufferId step;       ///< layout::StepParams
     BufferId weights;    ///< by slot: inverse mass, also of sleeping particles [1/kg]; unbound = none sleeps
+    BufferId groups;     ///< sleep::Sleep::groups; unbound = all particles are checked
 };
 
 /// Appends the fit: once a step, before the first check of lists in it; nothing if nothing is fitted.

@@ -154,17 +154,17 @@ void addListCheck(ProgramBuilder& program, const Grid& grid, const Moved& moved)
 
 void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved, bool isLast) {
     addPlan(program, grid, moved.step, isLast);
-    program.dispatchIndirect(
-        kernels::clampSpeeds, grid.slowed,
-        {moved.positions, moved.velocities, grid.radii, program.program().status, moved.step, grid.ways},
-        grid.push, grid.wayConstants());
+    program.dispatchIndirect(kernels::clampSpeeds, grid.slowed,
+                             {moved.positions, moved.velocities, grid.radii, program.program().status,
+                              moved.step, grid.ways, grid.bounds},
+                             grid.push, grid.wayConstants());
     addCells(program, grid, moved.positions, moved);
 }
 
 void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     body_frames::addFit(program, grid.frames,
                         {moved.positions, moved.velocities, grid.detected, grid.headings, grid.watched,
-                         grid.bounds, moved.step, moved.weights});
+                         grid.bounds, moved.step, moved.weights, moved.groups});
 }
 
 void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved) {

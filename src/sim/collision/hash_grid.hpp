@@ -46,6 +46,7 @@ struct Moved {
     BufferId velocities;        ///< of this motion, over step.h [m/s]; w = inverse mass [1/kg]
     BufferId step;              ///< layout::StepParams
     BufferId weights = unbound; ///< inverse masses, also of sleeping particles [1/kg]; unbound = none sleeps
+    BufferId groups = unbound;  ///< work groups that check their particles; unbound = all do
 };
 
 /// The largest radius in the grid [m]: twice the median, so that a few large particles do not enlarge all

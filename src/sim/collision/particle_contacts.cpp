@@ -158,7 +158,7 @@ void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk
 void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                    const ParticleBuffers& next, bool isFirst, bool isLast) {
     const hash_grid::Moved moved{predicted.positions, predicted.velocities, predicted.step,
-                                 sleep::weightsOf(predicted)};
+                                 sleep::weightsOf(predicted), sleep::groupsOf(predicted)};
     if (isFirst) hash_grid::addFit(program, contacts.lists.grid, moved);
     if (contacts.solvesListedGroups)
         addUncontactedEnd(program, contacts, predicted, next, true);
@@ -266,7 +266,7 @@ Contacts add(ProgramBuilder& program, const SceneModel& model) {
                                     .capacity = room,
                                     .exclusions = std::move(exclusions),
                                     .bodies = &bodies,
-                                    .hasWays = !settings.sleeps,
+                                    .hasWays = true,
                                     .substeps = settings.substeps,
                                     .hasMemory = surfaces.hasFriction || hasRecovery,
                                     .initial = first,
@@ -309,8 +309,9 @@ Contacts add(ProgramBuilder& program, const SceneModel& model) {
 }
 
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
-    sleep.pairs = {contacts.lists.pooled.contacts, contacts.lists.pooled.ranges, contacts.lists.hits,
-                   contacts.touching, contacts.lists.grid.bounds};
+    sleep.pairs = {
+        contacts.lists.pooled.contacts, contacts.lists.pooled.ranges, contacts.lists.hits, contacts.touching,
+        contacts.lists.grid.bounds,     contacts.lists.grid.ways};
 }
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,

@@ -16,6 +16,7 @@ namespace {
 
 namespace k = kernels;
 
+constexpr std::uint32_t hasWaysId = 14;  // constant_id in fall_asleep.comp
 constexpr std::uint32_t mostPasses = 64; // passes that differ in kind or number of groups
 
 std::uint32_t groupsOf(std::uint32_t items, std::uint32_t groupSize) {
@@ -206,6 +207,10 @@ BufferId weightsOf(const ParticleBuffers& particles) {
     return particles.sleep ? particles.sleep->weights : unbound;
 }
 
+BufferId groupsOf(const ParticleBuffers& particles) {
+    return particles.sleep ? particles.sleep->groups : unbound;
+}
+
 void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
     if (!predicted.sleep) return;
     Sleep& sleep = *predicted.sleep;
@@ -257,10 +262,13 @@ void addDetection(Build& build) {
         add(k::joinRows, buffers, rows.constants);
     }
     add(k::findIslands, {sleep.weights, velocities, sleep.rests, sleep.islands, sleep.least});
-    program.dispatchIndirect(
-        k::fallAsleep, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
-        {sleep.weights, positions, velocities, particles.step, sleep.islands, sleep.least, sleep.rests},
-        sleep.push, remainderConstants(particles.layout));
+    const bool hasWays = pairs.contacts != BufferId{};
+    ProgramBuilder::Constants constants = remainderConstants(particles.layout);
+    constants.insert({hasWaysId, hasWays});
+    program.dispatchIndirect(k::fallAsleep, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
+                             {sleep.weights, positions, velocities, particles.step, sleep.islands,
+                              sleep.least, sleep.rests, boundIf(hasWays, pairs.ways)},
+                             sleep.push, constants);
     makeIndirect(program, particles.sleep);
 }
 

@@ -22,9 +22,10 @@ struct Sleep {
     BufferId state, weights, limits, rests, components, islands, least, marks;
     BufferId groups, listed, passes, arguments, waking;
     BufferId attachments, anchors, seenAnchors, colliders, contactOffsets, ways, seenPoses;
-    /// Particles that touch: their lists, which candidates touch, and with which positions. Invalid without.
+    /// Particles that touch: their lists, which candidates touch, with which positions, and the ways of
+    /// hash_grid::Grid. Invalid without.
     struct {
-        BufferId contacts, lists, hits, touching, bounds;
+        BufferId contacts, lists, hits, touching, bounds, ways;
     } pairs;
     std::vector<SeenRows> rows;                ///< contacts with faces and between edges
     std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`
@@ -32,6 +33,8 @@ struct Sleep {
 
 /// Inverse masses by slot, also of sleeping particles [1/kg]; unbound if none can sleep.
 BufferId weightsOf(const ParticleBuffers& particles);
+/// By work group of particles: 0 if passes over listed groups leave it out; unbound if none can sleep.
+BufferId groupsOf(const ParticleBuffers& particles);
 
 /// Sets build.particles.sleep: adds the buffers. Nothing unless Settings::sleeps; the functions below then
 /// add nothing either.

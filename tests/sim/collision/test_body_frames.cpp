@@ -182,24 +182,27 @@ TEST(BodyFrames, MissNoPairOfSheets) {
 // (MOST_FAST) was slowed down once it flew by more than a radius in a substep.
 TEST(BodyFrames, SlowNothingDownThatFliesAsAWhole) {
     for (const float speed : {30.0f, 100.0f, 1000.0f})
-        for (const Vec3 spin : {Vec3{}, Vec3{4, -5, 3}, Vec3{20, 0, 15}}) {
-            Scene scene;
-            scene.gravity = {};
-            addBox(scene, {0, 0, 0}, {7, 6, 6}, {.velocity = {speed, 0, 0}, .spin = spin});
-            ASSERT_GT(scene.particles.size(), std::size_t{MOST_FAST});
-            test::Runner runner(scene, settingsWith());
-            std::uint32_t slowed = 0;
-            for (int step = 0; step < 20; ++step) slowed += runner.run(1).slowed;
-            EXPECT_EQ(slowed, 0u) << speed << " m/s";
-            double mass = 0, momentum = 0;
-            const auto v = runner.velocities();
-            for (std::size_t i = 0; i < v.size(); ++i) {
-                const double m = 1 / double{scene.particles[i].inverseMass};
-                mass += m;
-                momentum += m * v[i].x();
+        for (const Vec3 spin : {Vec3{}, Vec3{4, -5, 3}, Vec3{20, 0, 15}})
+            for (const bool sleeps : {false, true}) {
+                Scene scene;
+                scene.gravity = {};
+                addBox(scene, {0, 0, 0}, {7, 6, 6}, {.velocity = {speed, 0, 0}, .spin = spin});
+                ASSERT_GT(scene.particles.size(), std::size_t{MOST_FAST});
+                Settings settings = settingsWith();
+                settings.sleeps = sleeps;
+                test::Runner runner(scene, settings);
+                std::uint32_t slowed = 0;
+                for (int step = 0; step < 20; ++step) slowed += runner.run(1).slowed;
+                EXPECT_EQ(slowed, 0u) << speed << " m/s, sleeps: " << sleeps;
+                double mass = 0, momentum = 0;
+                const auto v = runner.velocities();
+                for (std::size_t i = 0; i < v.size(); ++i) {
+                    const double m = 1 / double{scene.particles[i].inverseMass};
+                    mass += m;
+                    momentum += m * v[i].x();
+                }
+                EXPECT_NEAR(momentum / mass, double{speed}, 1e-4 * double{speed});
             }
-            EXPECT_NEAR(momentum / mass, double{speed}, 1e-4 * double{speed});
-        }
 }
 
 // Before lists exist a particle has no body in its list entry. All were measured against the first frame,
