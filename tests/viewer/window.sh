@@ -94,6 +94,13 @@ awaitOther() { # BEFORE FILE WHY: pipelines may have to be made first
     done
     fail "$3"
 }
+awaitSame() { # BEFORE FILE WHY: waits for a picture like that before
+    for _ in {1..60}; do
+        awaitStill "$2"
+        same "$1" "$2" && return
+    done
+    fail "$3"
+}
 hasSize() { [[ $(xdotool getwindowgeometry "$window") == *"$1"* ]]; }
 lacksSize() { ! hasSize "$1"; }
 same() { compare -metric AE "$1" "$2" null: >/dev/null 2>&1; }
