@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Pages that explain, with limits of length and width.
 PAGES = ["README.md"] + [f"docs/{name}.md" for name in (
     "overview", "step", "features", "contacts", "contact-lists", "self-contact", "contact-rules", "cutting", "skins", "import",
-    "embedding", "viewer", "viewer-inside", "extending", "extending-viewer", "limits", "glossary")]
+    "embedding", "gallery", "viewer", "viewer-inside", "extending", "extending-viewer", "limits", "glossary")]
 MOST_LINES, MOST_COLUMNS = 150, 110
 # Pages of reference, of any length and width.
 REFERENCES = ["CHANGELOG.md"] + [f"docs/{name}.md" for name in ("scene-files", "report", "accuracy", "performance")]

@@ -74,6 +74,7 @@ constexpr Key keys[] = {
     {"", "blade", Kind::tables, "", {}, "", "blades that cut at given times"},
     {"", "strokes", Kind::tables, "", {}, "", "many blades at random places"},
     {"", "camera", Kind::table, "", {}, "", "viewpoint of a picture"},
+    {"", "gallery", Kind::table, "", {}, "", "the scene in lists and in docs/gallery.md"},
 
     {"solver", "name", Kind::text, "", {}, "\"split\"", "split, jacobi or gauss_seidel"},
     {"solver", "substeps", Kind::countOrAuto, "", ranges::substeps, "\"auto\"", "equal parts of a step; more are stiffer and more exact. \"auto\": as many as the tolerance requires, from 4 to 256"},
@@ -310,6 +311,10 @@ constexpr Key keys[] = {
     {"camera", "eye", Kind::vector, "m", coordinate, "[1.2, 0.8, 1.6]", "position of the camera"},
     {"camera", "target", Kind::vector, "m", coordinate, "[0, 0.2, 0]", "point that it looks at"},
     {"camera", "field_of_view", Kind::number, "degrees", view, "40", "vertical angle of view"},
+
+    {"gallery", "time", Kind::number, "s", moment, "0", "moment that its picture shows"},
+    {"gallery", "study", Kind::flag, "", {}, "false", "whether it is listed apart, with scenes for studies and tests"},
+    {"gallery", "heavy", Kind::flag, "", {}, "false", "whether it is slower than real time on a CPU"},
 };
 // clang-format on
 
