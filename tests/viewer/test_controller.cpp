@@ -82,6 +82,25 @@ TEST(Bindings, StandInGroupsInTheHelp) {
     EXPECT_NE(helpText().find("Time:\n  Space, P"), std::string::npos);
 }
 
+TEST(Bindings, AreFoundByKeyByWordAndByGroup) {
+    const auto triggers = [](std::string_view search) {
+        std::vector<std::string> all;
+        for (const HelpLine& line : helpLines(search)) all.push_back(line.triggers);
+        return all;
+    };
+    EXPECT_EQ(triggers("UNDO the last"), (std::vector<std::string>{"Ctrl + Z"}));
+    EXPECT_EQ(triggers("page up"), (std::vector<std::string>{"Page Up"}));
+    EXPECT_EQ(triggers("material and"), triggers("material and gravity"));
+    EXPECT_EQ(triggers("material and").size(), 8u) << "a group by its heading";
+    EXPECT_TRUE(triggers("nothing of the kind").empty());
+    EXPECT_EQ(triggers("").size(), helpLines().size());
+    const std::vector<HelpLine> plane = helpLines("section plane");
+    ASSERT_GE(plane.size(), 3u);
+    EXPECT_EQ(plane[0].heading, "Pointer and camera");
+    EXPECT_EQ(plane[1].heading, "View and compare") << "its first line is not the first of the group";
+    EXPECT_EQ(plane[2].heading, "");
+}
+
 TEST(Bindings, AreThoseOfTheDocs) {
     std::set<std::string> shown;
     for (const Binding& binding : bindings())

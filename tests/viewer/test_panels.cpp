@@ -400,6 +400,37 @@ TEST_F(PanelsTest, ShowHelpOverTheMiddleUntilItIsClosed) {
 TEST_F(PanelsTest, DrawMoreWhereThereIsMoreToSay) {
     settle();
     const int before = panels.drawn().TotalVtxCount;
+TEST_F(PanelsTest, SearchTheHelpForWhatIsTyped) {
+    const auto triangles = [&](const PanelInput& input) {
+        picture(input);
+        picture();
+        return panels.drawn().TotalIdxCount;
+    };
+    PanelInput undo, back;
+    for (const char letter : std::string("undo")) undo.characters.push_back(static_cast<unsigned>(letter));
+    back.keys = {{GLFW_KEY_BACKSPACE, true}};
+    EXPECT_FALSE(panels.takesLetters());
+    panels.toggleHelp();
+    settle();
+    EXPECT_TRUE(panels.takesLetters());
+    EXPECT_FALSE(panels.takesKeys()) << "Esc and Ctrl + Q act as always";
+    const int all = triangles({});
+    const ImVec2 size = shownWindow("help")->Size;
+    panels.closeHelp();
+    const int without = triangles({});
+    panels.toggleHelp();
+    settle();
+    EXPECT_LT(triangles(undo) - without, (all - without) / 4);
+    EXPECT_EQ(shownWindow("help")->Size.y, size.y) << "it does not move under the pointer";
+    for (int letter = 0; letter < 4; ++letter) triangles(back);
+    EXPECT_EQ(triangles(back), all);
+    triangles(undo);
+    panels.closeHelp();
+    panels.toggleHelp();
+    settle();
+    EXPECT_EQ(triangles({}), all) << "the next one begins anew";
+}
+
     facts.notice = "no such mesh";
     settle();
     EXPECT_GT(panels.drawn().TotalVtxCount, before);

@@ -58,6 +58,8 @@ dark still.png $middle && fail "something covers the middle"
 keys h
 awaitStill help.png
 dark help.png $middle || fail "H shows no help"
+xdotool type --window "$window" --delay 50 redo
+awaitOther help.png found.png "typing does not search the help"
 keys Escape
 awaitStill closed.png
 dark closed.png $middle && fail "Escape does not close the help"

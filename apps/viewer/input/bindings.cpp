@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <utility>
 
 namespace sinew::viewer {
 
@@ -226,6 +228,24 @@ std::string helpText() {
     for (HelpLine& line : helpLines()) {
         if (!line.heading.empty()) text.append(line.heading).append(":\n");
         line.triggers.resize(std::max<std::size_t>(line.triggers.size() + 2, 34), ' ');
+std::vector<HelpLine> helpLines(std::string_view search) {
+    const auto contains = [search](std::string_view text) {
+        const auto isSame = [](unsigned char a, unsigned char b) {
+            return std::tolower(a) == std::tolower(b);
+        };
+        return !std::ranges::search(text, search, isSame).empty() || search.empty();
+    };
+    std::vector<HelpLine> found;
+    std::string_view group, open; // headings: of this line, and of the last one that was found
+    for (HelpLine& line : helpLines()) {
+        if (!line.heading.empty()) group = line.heading;
+        if (!contains(line.triggers) && !contains(line.help) && !contains(group)) continue;
+        line.heading = std::exchange(open, group) == group ? "" : group;
+        found.push_back(std::move(line));
+    }
+    return found;
+}
+
         text.append("  ").append(line.triggers).append(line.help).append("\n");
     }
     return text;

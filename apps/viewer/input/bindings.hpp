@@ -111,6 +111,8 @@ struct HelpLine {
 };
 std::vector<HelpLine> helpLines();
 /// The help lines as one text.
+/// The lines with this text in their triggers, their help or the heading of their group; case does not count.
+std::vector<HelpLine> helpLines(std::string_view search);
 std::string helpText();
 
 /// Name of the first key of an action: "Space".

@@ -25,6 +25,7 @@ struct PanelInput {
 struct Cover {
     std::function<bool(const Vector2& pixels)> holds = [](const Vector2&) { return false; };
     std::function<bool()> takesKeys = [] { return false; };
+    std::function<bool()> takesLetters = [] { return false; }; ///< of keys only those that type a letter
 };
 
 } // namespace sinew::viewer

@@ -38,7 +38,7 @@ Session::Session(Window& window, std::unique_ptr<WindowOutput> output, const Tim
     panels_.setPaste([this] { return window_.clipboard(); });
     panels_.setCopy([this](const std::string& text) { window_.setClipboard(text); });
     window_.setCover({[this](const Vector2& pixels) { return panels_.covers(pixels); },
-                      [this] { return panels_.takesKeys(); }});
+                      [this] { return panels_.takesKeys(); }, [this] { return panels_.takesLetters(); }});
 }
 
 Session::~Session() {

@@ -162,44 +162,4 @@ void wrapped(const std::string& text, const ImVec4& color) {
     ImGui::PopStyleColor();
 }
 
-void help(float scale) {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
-    const float most = std::max(size.y - 24 * scale, 40.0f);
-    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(600 * scale, size.x - 16 * scale), 0});
-    ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x, most});
-    ImGui::SetNextWindowFocus();
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {24 * scale, 18 * scale});
-    ImGui::Begin("help", nullptr, flags);
-    ImGui::TextColored(accent(), "Keys and mouse");
-    ImGui::SameLine();
-    const std::string closing = std::string(keyOf(Action::help)) + " closes this";
-    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(closing.c_str()).x);
-    ImGui::TextColored(quiet(), "%s", closing.c_str());
-    rule();
-    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-        ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 204 * scale);
-        ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
-        for (const HelpLine& line : helpLines()) {
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            if (!line.heading.empty()) {
-                ImGui::Dummy({0, 4 * scale});
-                ImGui::TextColored(accent(), "%s", std::string(line.heading).c_str());
-                ImGui::TableNextRow();
-                ImGui::TableNextColumn();
-            }
-            ImGui::TextUnformatted(line.triggers.c_str());
-            ImGui::TableNextColumn();
-            wrapped(std::string(line.help), quiet());
-        }
-        ImGui::EndTable();
-    }
-    ImGui::End();
-    ImGui::PopStyleVar();
-}
-
 } // namespace sinew::viewer::parts

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 namespace sinew::viewer {
+struct HelpSearch;
 struct PathField;
 }
 
@@ -85,7 +86,7 @@ void program(const SceneFacts& scene);
 /// Draws a small window beside the pointer; `free` pixels from the left are not covered by the panel.
 void probe(const Facts& facts, float scale, float free);
 
-/// Draws the table of keys over everything.
-void help(float scale);
+/// Draws the table of keys over everything: the lines that contain the text of the search.
+void help(HelpSearch& search, float scale);
 
 } // namespace sinew::viewer::parts

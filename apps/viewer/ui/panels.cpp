@@ -257,6 +257,7 @@ void Panels::feedKeys(const PanelInput& input) {
     ImGuiIO& io = ImGui::GetIO();
     for (const int key : released_) io.KeysDown[key] = false;
     released_.clear();
+    if (takesLetters()) return search_.type(input);
     std::vector<int> pressed;
     for (const auto& [key, isDown] : input.keys) {
         if (key < 0 || key >= IM_ARRAYSIZE(io.KeysDown)) continue;
@@ -283,7 +284,7 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     buildNotice(facts, extent);
     if (facts.recorded) buildRecording(facts, extent);
     parts::probe(facts, scale_, freeWidth(extent));
-    if (isHelpShown_) parts::help(scale_);
+    if (isHelpShown_) parts::help(search_, scale_);
     ImGui::Render();
     remember();
     return wishes;

@@ -10,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 
 struct ImGuiContext;
@@ -21,6 +22,15 @@ struct PathField {
     bool isShown = false, wantsKeys = false;
     int pictures = 0; ///< pictures since it began to wait for keys
     std::array<char, 1024> text{};
+};
+
+/// Text that is typed while the help is open.
+struct HelpSearch {
+    std::string text;
+    float height = 0; ///< of the help without a search [pixels]
+
+    /// Adds characters; Backspace removes the last.
+    void type(const PanelInput& input);
 };
 
 /// Only one may exist (Dear ImGui's context is global); one thread.
@@ -57,13 +67,18 @@ public:
     void rescale(float scale);
 
     /// The user's choice whether panels are shown; empty = no choice yet.
+    /// Whether keys that type a letter belong to the search of the help; all others act as always.
+    bool takesLetters() const { return isHelpShown_ && !takesKeys(); }
     const std::optional<bool>& choice() const { return isShown_; }
     void choose(std::optional<bool> isShown) { isShown_ = isShown; }
     /// The sections that are folded: the user's choice.
     const Folds& folds() const { return folds_; }
     void fold(const Folds& folds) { folds_ = folds; }
     void toggle() { isShown_ = !isShown(lastExtent_); }
-    void toggleHelp() { isHelpShown_ = !isHelpShown_; }
+    void toggleHelp() {
+        isHelpShown_ = !isHelpShown_;
+        search_.text.clear();
+    }
     void closeHelp() { isHelpShown_ = false; }
     bool isHelpShown() const { return isHelpShown_; }
     /// Without a choice, panels are shown if the window is large enough.
@@ -115,3 +130,4 @@ private:
 };
 
 } // namespace sinew::viewer
+    HelpSearch search_;

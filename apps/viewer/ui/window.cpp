@@ -91,11 +91,19 @@ struct Window::State {
 
     bool isCovered() const { return cover.holds(pixels()); }
 
+    // Whether a key belongs to the panels: in GLFW, codes of keys that type a letter are below that of Esc.
+    bool isTyped(int key, int modifiers) const {
+        const bool isLetter =
+            (key < GLFW_KEY_ESCAPE && (modifiers & GLFW_MOD_CONTROL) == 0) || key == GLFW_KEY_BACKSPACE;
+        return cover.takesKeys() || (isLetter && cover.takesLetters());
+    }
+
     void onKey(int key, int scancode, int event, int modifiers) {
         input.panels.modifiers = modifiers;
-        if (event == GLFW_RELEASE || cover.takesKeys()) {
+        const bool isOfPanels = isTyped(key, modifiers);
+        if (event == GLFW_RELEASE || isOfPanels) {
             input.panels.keys.emplace_back(key, event != GLFW_RELEASE);
-            input.panels.isTouched = input.panels.isTouched || cover.takesKeys();
+            input.panels.isTouched = input.panels.isTouched || isOfPanels;
             return;
         }
         const auto action = actionFor({Trigger::Kind::key, layoutKey(key, scancode), modifiers});
@@ -103,7 +111,7 @@ struct Window::State {
     }
 
     void onCharacter(unsigned character) {
-        if (!cover.takesKeys()) return;
+        if (!cover.takesKeys() && !cover.takesLetters()) return;
         input.panels.characters.push_back(character);
         input.panels.isTouched = true;
     }
