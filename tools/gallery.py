@@ -25,6 +25,7 @@ SIZE, DRAWN = (480, 270), (960, 540)  # pixels of a picture; it is drawn larger,
 COLORS = 200
 MOST_BYTES = 2_500_000  # all pictures together
 OPTIONS = {
+    "organ_draped": ["--replay", ROOT / "tools" / "first_minute.input"],  # its incision
     "beam_stiff": ["--show", "strain"],  # its motion is small
     "chain": ["--show", "particles"],  # its links are lines of one pixel
 }
