@@ -7,6 +7,7 @@
 #include "viewer/jobs/devices.hpp"
 #include "viewer/jobs/prepared_player.hpp"
 #include "viewer/jobs/replay.hpp"
+#include "viewer/jobs/shipped_pictures.hpp"
 #include "viewer/player/scene_player.hpp"
 
 #include <chrono>
@@ -110,6 +111,7 @@ Preferences leftBy(const Session& session, const SceneLoader& sceneLoader, const
                    const Preferences& before) {
     Preferences left = session.preferences();
     left.scene = rememberedScene(sceneLoader.shown().scene, sceneLoader.shown().builtIn);
+    left.recent = sceneLoader.recent();
     if (options.hasSize || left.width == 0) {
         left.width = before.width;
         left.height = before.height;
@@ -164,6 +166,7 @@ public:
         : request_(deviceRequest(options, messages)) {}
 
     std::optional<Picture> operator()(const Options& scene, const std::stop_token& stop) {
+        if (auto shipped = shippedPicture(scene)) return shipped;
         if (!device_) {
             loader_ = std::make_shared<vk::Loader>();
             device_ =
@@ -291,6 +294,7 @@ void play(std::unique_ptr<OpenedScene> opening, const Options& options, const Pr
             prepare(next, *next.device, window);
         },
         PreviewDevice(options, messages));
+    sceneLoader.addRecent(preferences.recent);
     session.expectPreviews(sceneLoader.names().size());
     auto player = std::make_unique<ScenePlayer>(session, sceneLoader, devices, *device, std::move(first));
     const auto keepSettings = [&] {

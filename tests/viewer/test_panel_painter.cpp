@@ -209,25 +209,28 @@ TEST(PanelPainter, ShowsPicturesOfItsSheetAsTheyAre) {
     table.painter.setSheet(sheet);
     sheet.set(1, plain(20, 60, 180));
     table.painter.addPicture(sheet, 1);
+    constexpr std::uint32_t width = PictureSheet::extent.width, height = PictureSheet::extent.height,
+                            right = width + 28; // from the first picture to the second
     const Picture picture = table.takeDrawn([] {
-        constexpr float width = PictureSheet::extent.width, height = PictureSheet::extent.height;
         for (int i = 0; i < 2; ++i) {
-            const float left = 20 + 200 * static_cast<float>(i), row = 0.5f * static_cast<float>(i);
+            const float left = 20 + static_cast<float>(right) * static_cast<float>(i),
+                        row = 0.5f * static_cast<float>(i);
             ImGui::GetForegroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(sheetTexture), {left, 20},
-                                                     {left + width, 20 + height}, {0, row}, {1, row + 0.5f});
+                                                     {left + float{width}, 20 + float{height}}, {0, row},
+                                                     {1, row + 0.5f});
         }
     });
     const auto at = [&](std::uint32_t column, std::uint32_t row) {
         const std::uint8_t* one = &picture.pixels[4 * (std::size_t{row} * picture.width + column)];
         return std::array<int, 3>{one[0], one[1], one[2]};
     };
-    for (const std::uint32_t row : {20u, 80u, 139u})
-        for (const std::uint32_t column : {20u, 100u, 211u}) {
+    for (const std::uint32_t row : {20u, 80u, 19u + height})
+        for (const std::uint32_t column : {20u, 100u, 19u + width}) {
             EXPECT_EQ(at(column, row), (std::array{200, 40, 30})) << column << ' ' << row;
-            EXPECT_EQ(at(column + 200, row), (std::array{20, 60, 180})) << column << ' ' << row;
+            EXPECT_EQ(at(column + right, row), (std::array{20, 60, 180})) << column << ' ' << row;
         }
     EXPECT_NE(at(100, 19), (std::array{200, 40, 30}));
-    EXPECT_NE(at(100, 140), (std::array{200, 40, 30}));
+    EXPECT_NE(at(100, 20 + height), (std::array{200, 40, 30}));
 }
 
 TEST(PanelPainter, HidesWhatIsBehindAreas) {

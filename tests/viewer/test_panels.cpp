@@ -251,21 +251,6 @@ TEST_F(PanelsTest, KeepANoticeBesideThePanel) {
     }
 }
 
-// The list opens below its field. Pictures are requested only for visible entries.
-TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheList) {
-    facts.scenes = {"cloth", "cube", "organ", "tear"};
-    facts.previews = {false, true, false};
-    settle();
-    EXPECT_TRUE(picture().previews.value().empty());
-    Wishes wishes;
-    wishes.previews.emplace();
-    for (float y = 20; y < 300 && wishes.previews->empty(); y += 6) {
-        click({1080, y});
-        wishes = picture({.pointer = {1080, y}});
-    }
-    EXPECT_EQ(*wishes.previews, (std::vector<std::size_t>{0, 2})) << "what has one, or no place for one";
-}
-
 // An action may have a slider in place of a button.
 TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
     for (const Binding& binding : bindings()) {
@@ -397,9 +382,6 @@ TEST_F(PanelsTest, ShowHelpOverTheMiddleUntilItIsClosed) {
     EXPECT_FALSE(panels.covers({640, 360}));
 }
 
-TEST_F(PanelsTest, DrawMoreWhereThereIsMoreToSay) {
-    settle();
-    const int before = panels.drawn().TotalVtxCount;
 TEST_F(PanelsTest, SearchTheHelpForWhatIsTyped) {
     const auto triangles = [&](const PanelInput& input) {
         picture(input);
@@ -431,6 +413,9 @@ TEST_F(PanelsTest, SearchTheHelpForWhatIsTyped) {
     EXPECT_EQ(triangles({}), all) << "the next one begins anew";
 }
 
+TEST_F(PanelsTest, DrawMoreWhereThereIsMoreToSay) {
+    settle();
+    const int before = panels.drawn().TotalVtxCount;
     facts.notice = "no such mesh";
     settle();
     EXPECT_GT(panels.drawn().TotalVtxCount, before);

@@ -43,12 +43,19 @@ const Preferences chosen{.width = 1600,
                          .folded = Folds().set(indexOf(Fold::view)).set(indexOf(Fold::record)),
                          .scale = 1.265625f,
                          .isVsync = false,
-                         .scene = "/home/some body/a = b # c.toml"};
+                         .scene = "/home/some body/a = b # c.toml",
+                         .recent = {"/home/a = b.ply", "/home/c.state"}};
 
 TEST(Preferences, AreReadAsTheyWereWritten) {
     EXPECT_EQ(parse(toText(chosen)), chosen);
     EXPECT_EQ(parse(toText(Preferences{})), Preferences{});
     EXPECT_EQ(parse(""), Preferences{});
+}
+
+TEST(Preferences, KeepSixRecentFiles) {
+    Preferences many;
+    for (char name = 'a'; name < 'k'; ++name) many.recent.push_back(std::string("/") + name);
+    EXPECT_EQ(parse(toText(many)).recent, (std::vector<std::string>{"/a", "/b", "/c", "/d", "/e", "/f"}));
 }
 
 TEST(Preferences, KeepThatNoSectionIsFolded) {

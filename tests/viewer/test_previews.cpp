@@ -1,13 +1,17 @@
 // Tests of small pictures of scenes: the thread that makes them, and their contents.
 #include "viewer/jobs/previews.hpp"
 
+#include "scenes/built_in.hpp"
 #include "support/device.hpp"
+#include "viewer/jobs/shipped_pictures.hpp"
 #include "viewer/ui/picture_sheet.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 
@@ -94,6 +98,39 @@ TEST(PreviewPicture, ShowsTheBodiesOfAScene) {
     EXPECT_FALSE(sheet.set(2, picture)) << "beyond it";
     EXPECT_FALSE(sheet.set(0, ofWidth(3)));
     EXPECT_EQ(sheet.has(), (std::vector<bool>{false, true}));
+}
+
+// A changed copy of a shipped scene may look different.
+TEST(ShippedPicture, IsThatOfAnUnchangedScene) {
+    Options options;
+    options.builtIn = "organ_draped";
+    const std::optional<Picture> picture = shippedPicture(options);
+    ASSERT_TRUE(picture);
+    EXPECT_TRUE(PictureSheet(1).set(0, *picture));
+    std::size_t red = 0;
+    for (std::size_t i = 0; i < picture->pixels.size(); i += 4)
+        if (picture->pixels[i] > 3 * picture->pixels[i + 1] / 2) ++red;
+    EXPECT_GT(red, picture->pixels.size() / 4 / 10) << "of the organ";
+    options.scene = SINEW_SOURCE_FOLDER "/scenes/organ_draped.toml";
+    EXPECT_TRUE(shippedPicture(options));
+    const std::filesystem::path copy = std::filesystem::temp_directory_path() / "organ_draped.toml";
+    std::filesystem::copy_file(options.scene, copy, std::filesystem::copy_options::overwrite_existing);
+    options.scene = copy.string();
+    EXPECT_TRUE(shippedPicture(options));
+    std::ofstream(copy, std::ios::app) << "damping = 3\n";
+    EXPECT_FALSE(shippedPicture(options));
+    std::filesystem::remove(copy);
+    options.scene.clear();
+    options.builtIn = "no_such_scene";
+    EXPECT_FALSE(shippedPicture(options));
+}
+
+TEST(ShippedPicture, IsThereForEveryBuiltInScene) {
+    Options options;
+    for (const std::string_view name : scenes::builtInNames()) {
+        options.builtIn = name;
+        EXPECT_EQ(shippedPicture(options).has_value(), name != "drop_mesh") << name;
+    }
 }
 
 TEST(Previews, AskWhatIsBeingMadeToStop) {

@@ -52,6 +52,34 @@ TEST_F(SceneLoaderTest, OffersTheSceneFilesBesideTheOneOpened) {
     EXPECT_EQ(sceneLoader.current(), 1u);
 }
 
+TEST_F(SceneLoaderTest, ListsScenesForStudiesLast) {
+    const std::string chain = "[[chain]]\nparticles = 3\nlength = 0.1\nmass = 0.1\n[gallery]\n";
+    write("a.toml", chain + "study = true\n");
+    write("c.toml", chain + "time = 2\nheavy = true\n");
+    const SceneLoader sceneLoader = libraryOf("a.toml");
+    EXPECT_EQ(sceneLoader.names(), (std::vector<std::string>{"b", "broken", "c", "a"}));
+    EXPECT_EQ(sceneLoader.current(), 3u);
+    EXPECT_EQ(sceneLoader.marks(),
+              (std::vector<scenes::Gallery>{{}, {}, {2, false, true}, {0, true, false}}));
+    const SceneLoader builtIn = libraryOf("");
+    EXPECT_TRUE(std::ranges::is_sorted(builtIn.marks(), {}, &scenes::Gallery::isStudy));
+    EXPECT_TRUE(builtIn.marks().back().isStudy);
+}
+
+TEST_F(SceneLoaderTest, RemembersFilesThatTheListHasNot) {
+    SceneLoader sceneLoader = libraryOf("b.toml");
+    EXPECT_TRUE(sceneLoader.recent().empty()) << "the list has it";
+    sceneLoader.addRecent({"/elsewhere/old.ply"});
+    fs::create_directories(folder / "other");
+    const std::string other = write("other/d.toml", "[[chain]]\nparticles = 3\nlength = 0.1\nmass = 0.1\n");
+    sceneLoader.openFile(other, 1.5f);
+    ASSERT_TRUE(await(sceneLoader));
+    EXPECT_EQ(sceneLoader.recent(), (std::vector<std::string>{other, "/elsewhere/old.ply"}));
+    sceneLoader.openFile((folder / "missing.stl").string(), 1.5f);
+    EXPECT_THROW(await(sceneLoader), mesh::ImportError);
+    EXPECT_EQ(sceneLoader.recent().size(), 2u) << "it was not opened";
+}
+
 TEST_F(SceneLoaderTest, SaysWhatHappensInAScene) {
     write("a.toml", "# A chain falls\r\n# and swings. It is short.\n# More.\n[[chain]]\nparticles = 3\n");
     const SceneLoader sceneLoader = libraryOf("b.toml");

@@ -100,6 +100,11 @@ constexpr std::array afterLayers{
             "Section to the eye"},
     Binding{{key, GLFW_KEY_PAGE_UP}, previousScene, "Page Up", "open the previous scene", "Previous"},
     Binding{{key, GLFW_KEY_PAGE_DOWN}, nextScene, "Page Down", "open the next scene", "Next"},
+    Binding{{key, GLFW_KEY_F2},
+            gallery,
+            "F2",
+            "gallery: pictures of all scenes, and files opened last",
+            "Gallery"},
     Binding{{key, GLFW_KEY_O, GLFW_MOD_CONTROL},
             open,
             "Ctrl + O",
@@ -223,11 +228,6 @@ std::vector<HelpLine> helpLines() {
     return lines;
 }
 
-std::string helpText() {
-    std::string text;
-    for (HelpLine& line : helpLines()) {
-        if (!line.heading.empty()) text.append(line.heading).append(":\n");
-        line.triggers.resize(std::max<std::size_t>(line.triggers.size() + 2, 34), ' ');
 std::vector<HelpLine> helpLines(std::string_view search) {
     const auto contains = [search](std::string_view text) {
         const auto isSame = [](unsigned char a, unsigned char b) {
@@ -246,6 +246,11 @@ std::vector<HelpLine> helpLines(std::string_view search) {
     return found;
 }
 
+std::string helpText() {
+    std::string text;
+    for (HelpLine& line : helpLines()) {
+        if (!line.heading.empty()) text.append(line.heading).append(":\n");
+        line.triggers.resize(std::max<std::size_t>(line.triggers.size() + 2, 34), ' ');
         text.append("  ").append(line.triggers).append(line.help).append("\n");
     }
     return text;

@@ -50,6 +50,7 @@ enum class Action {
     lessGravity,
     previousScene,
     nextScene,
+    gallery,
     open,
     inspect,
     beside,
@@ -110,9 +111,9 @@ struct HelpLine {
     std::string_view heading = {}; ///< of the group that begins with this line; empty = the group goes on
 };
 std::vector<HelpLine> helpLines();
-/// The help lines as one text.
 /// The lines with this text in their triggers, their help or the heading of their group; case does not count.
 std::vector<HelpLine> helpLines(std::string_view search);
+/// The help lines as one text.
 std::string helpText();
 
 /// Name of the first key of an action: "Space".

@@ -3,6 +3,7 @@
 
 #include "scenes/built_in.hpp"
 #include "viewer/jobs/replay.hpp"
+#include "viewer/ui/preferences.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -30,14 +31,37 @@ std::vector<fs::path> sceneFiles(const fs::path& folder) {
     return files;
 }
 
-constexpr std::size_t headLength = 2000; // of a file, for its first sentence [bytes]
+constexpr std::size_t mostRead = 100'000; // of a file, for its first sentence and marks [bytes]
 
 std::string headOf(const fs::path& file) {
-    std::string head(headLength, '\0');
+    std::string head(mostRead, '\0');
     std::ifstream stream(file, std::ios::binary);
     stream.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(stream.gcount()));
     return head;
+}
+
+struct Listed {
+    std::string name, file, sentence; // no file: built in
+    scenes::Gallery mark;
+};
+
+Listed listed(const std::string& name, const std::string& file, std::string_view text) {
+    return {name, file, firstSentence(text), scenes::galleryOf(text)};
+}
+
+std::vector<Listed> listedFiles(const fs::path& folder) {
+    std::vector<Listed> all;
+    for (const fs::path& file : sceneFiles(folder))
+        all.push_back(listed(file.stem().string(), file.string(), headOf(file)));
+    return all;
+}
+
+std::vector<Listed> listedBuiltIn() {
+    std::vector<Listed> all;
+    for (const std::string_view name : scenes::builtInNames())
+        if (name != frameOfMeshes) all.push_back(listed(std::string(name), "", scenes::builtInText(name)));
+    return all;
 }
 
 } // namespace
@@ -63,21 +87,21 @@ SceneLoader::SceneLoader(Options options, Prepare prepare, Draw draw)
               return draw ? draw(ofScene(started, name), stop) : std::nullopt;
           }) {
     const fs::path opened = options_.scene;
-    if (opened.extension() == ".toml")
-        for (const fs::path& file : sceneFiles(opened.parent_path())) {
-            names_.push_back(file.stem().string());
-            files_.push_back(file.string());
-            sentences_.push_back(firstSentence(headOf(file)));
-            if (file.filename() == opened.filename()) current_ = names_.size() - 1;
-        }
-    if (names_.empty())
-        for (const std::string_view name : scenes::builtInNames())
-            if (name != frameOfMeshes) {
-                names_.emplace_back(name);
-                sentences_.push_back(firstSentence(scenes::builtInText(name)));
-                if (opened.empty() && name == options_.builtIn) current_ = names_.size() - 1;
-            }
+    std::vector<Listed> all =
+        opened.extension() == ".toml" ? listedFiles(opened.parent_path()) : std::vector<Listed>();
+    if (all.empty()) all = listedBuiltIn();
+    std::ranges::stable_sort(all, {}, [](const Listed& one) { return one.mark.isStudy; });
+    for (const Listed& one : all) {
+        const bool isOpened = one.file.empty() ? opened.empty() && one.name == options_.builtIn
+                                               : fs::path(one.file).filename() == opened.filename();
+        if (isOpened) current_ = names_.size();
+        names_.push_back(one.name);
+        sentences_.push_back(one.sentence);
+        marks_.push_back(one.mark);
+        if (!one.file.empty()) files_.push_back(one.file);
+    }
     shown_ = Request{options_, current_};
+    remember(*shown_);
 }
 
 void SceneLoader::open(std::size_t name, float aspect) {
@@ -130,6 +154,20 @@ void SceneLoader::playAgain(const InputFile& input, float aspect) {
     begin({shown_->options, shown_->name, std::nullopt, input}, aspect);
 }
 
+void SceneLoader::remember(const Request& shown) {
+    const std::string file = rememberedScene(shown.options.scene, "");
+    if (shown.name != none || file.empty()) return;
+    std::erase(recent_, file);
+    recent_.insert(recent_.begin(), file);
+    recent_.resize(std::min(recent_.size(), Preferences::mostRecent));
+}
+
+void SceneLoader::addRecent(const std::vector<std::string>& files) {
+    for (const std::string& file : files)
+        if (std::ranges::count(recent_, file) == 0 && recent_.size() < Preferences::mostRecent)
+            recent_.push_back(file);
+}
+
 void SceneLoader::begin(Request request, float aspect) {
     if (isOpening()) return;
     asked_ = std::move(request);
@@ -150,6 +188,7 @@ std::unique_ptr<OpenedScene> SceneLoader::take() {
     before_ = std::exchange(shown_, std::move(asked_));
     current_ = shown_->name;
     options_.device = shown_->options.device;
+    remember(*shown_);
     return opened;
 }
 

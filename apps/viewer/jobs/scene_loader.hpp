@@ -1,6 +1,7 @@
 // The list of scenes and their loader. Loading runs in another thread and may fail, while the window goes on.
 #pragma once
 
+#include "scenes/gallery.hpp"
 #include "viewer/jobs/opened_scene.hpp"
 #include "viewer/jobs/previews.hpp"
 
@@ -33,6 +34,12 @@ public:
     const std::vector<std::string>& names() const { return names_; }
     /// The first sentence of each scene's file, without the #; empty = the file has none.
     const std::vector<std::string>& sentences() const { return sentences_; }
+    /// Marks of each scene; scenes for studies come last.
+    const std::vector<scenes::Gallery>& marks() const { return marks_; }
+    /// Absolute paths of files that were opened though the list has them not, newest first.
+    const std::vector<std::string>& recent() const { return recent_; }
+    /// Those of earlier runs.
+    void addRecent(const std::vector<std::string>& files);
     /// Index of the scene on show, or -1 if it is not in the list.
     std::size_t current() const { return current_; }
     /// Previews of names(), if there is a Draw.
@@ -74,12 +81,15 @@ private:
         std::optional<ReloadRequest> reload = {};
         std::optional<InputFile> input = {};
     };
+    void remember(const Request& shown);
     void begin(Request request, float aspect);
     Options ofScene(Options options, std::size_t name) const;
 
     Options options_;
     Prepare prepare_;
     std::vector<std::string> names_, sentences_, files_; // files_ is empty for built-in scenes
+    std::vector<scenes::Gallery> marks_;
+    std::vector<std::string> recent_;
     std::size_t current_;
     std::optional<Request> shown_, before_, asked_;
     std::future<std::unique_ptr<OpenedScene>> opening_;

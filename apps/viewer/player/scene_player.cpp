@@ -164,10 +164,9 @@ void ScenePlayer::handle(Input& input) {
     if (!input.files.empty()) adjustments_.openFile(input.files.front());
     for (const Action action : input.actions) {
         if (action == Action::drop) observer_.forgetLook();
-        if (action == Action::drop && session_.panels().isHelpShown())
-            session_.panels().closeHelp();
-        else if (!journal_.takes(action) && !controller_.act(action) && !tools_.act(action) &&
-                 !layers_.act(action))
+        const bool isClosing = action == Action::drop && session_.panels().closeTop();
+        if (!isClosing && !journal_.takes(action) && !controller_.act(action) && !tools_.act(action) &&
+            !layers_.act(action))
             act(action);
     }
     if (!journal_.isReplaying()) tools_.handle(input, controller_);
@@ -383,6 +382,8 @@ Facts ScenePlayer::facts(std::optional<float> reduced) const {
     facts.scene = sceneLoader_.current();
     facts.isOpening = sceneLoader_.isOpening();
     facts.devices = devices_.list();
+    facts.marks = sceneLoader_.marks();
+    facts.recent = sceneLoader_.recent();
     layers_.addTo(facts);
     observer_.addTo(facts);
     facts.beside = comparison_.facts();

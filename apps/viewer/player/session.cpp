@@ -123,6 +123,8 @@ void Session::act(Action action) {
         return timing_.printTable();
     case Action::panels:
         return panels_.toggle();
+    case Action::gallery:
+        return panels_.toggleGallery();
     case Action::help:
         return panels_.toggleHelp();
     case Action::quit:

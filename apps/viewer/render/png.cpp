@@ -7,9 +7,16 @@
 #define STB_IMAGE_WRITE_STATIC
 #define STBI_WRITE_NO_STDIO
 #include <stb/stb_image_write.h>
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#include <stb/stb_image.h>
 
+#include <memory>
 #include <new>
 #include <ostream>
+#include <stdexcept>
 
 namespace sinew::viewer {
 
@@ -49,6 +56,18 @@ std::vector<std::uint8_t> withoutAlpha(const Picture& picture) {
 }
 
 } // namespace
+
+Picture decodePng(std::span<const unsigned char> bytes) {
+    int width = 0, height = 0, channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
+        stbi_image_free);
+    if (!pixels) throw std::runtime_error(std::string("not a PNG file: ") + stbi_failure_reason());
+    const auto size = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return {.width = static_cast<std::uint32_t>(width),
+            .height = static_cast<std::uint32_t>(height),
+            .pixels = {pixels.get(), pixels.get() + size}};
+}
 
 std::vector<std::uint8_t> encodePng(const Picture& picture, const PictureText& text) {
     const std::vector<std::uint8_t> rgb = withoutAlpha(picture);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,9 @@ struct Picture {
 
 /// Keyword and text of tEXt chunks, Latin-1: {"Software", "Sinew"}, {"Scene", "organ"} ...
 using PictureText = std::vector<std::pair<std::string, std::string>>;
+
+/// Reads a PNG file in memory. Throws std::runtime_error for any other bytes.
+Picture decodePng(std::span<const unsigned char> bytes);
 
 /// Encodes a PNG file without alpha. Takes about a tenth of a second for a million pixels.
 std::vector<std::uint8_t> encodePng(const Picture& picture, const PictureText& text);

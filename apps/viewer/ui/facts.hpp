@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/piece_count.hpp"
+#include "scenes/gallery.hpp"
 #include "sinew/vk/device.hpp"
 #include "viewer/input/bindings.hpp"
 #include "viewer/input/found.hpp"
@@ -140,11 +141,13 @@ struct Facts {
     std::uint64_t stepsRepeated = 0; ///< steps that were repeated because contact lists were incomplete
     std::uint32_t sleeping = 0, linksCut = 0;
     app::PieceCount pieces;
-    std::uint32_t debris = 0, debrisParticles = 0;    ///< removed fragments and their particles
-    float debrisMass = 0;                             ///< of removed fragments [kg]
-    std::vector<std::string> cuts;                    ///< cuts to undo, then cuts to redo
-    std::size_t undos = 0;                            ///< number of cuts to undo
-    std::vector<std::string> scenes, sentences;       ///< names, and what happens in each
+    std::uint32_t debris = 0, debrisParticles = 0; ///< removed fragments and their particles
+    float debrisMass = 0;                          ///< of removed fragments [kg]
+    std::vector<std::string> cuts;                 ///< cuts to undo, then cuts to redo
+    std::size_t undos = 0;                         ///< number of cuts to undo
+    std::vector<std::string> scenes, sentences;    ///< names, and what happens in each
+    std::vector<scenes::Gallery> marks;            ///< of each of `scenes`; those for studies come last
+    std::vector<std::string> recent; ///< absolute paths of files opened last, newest first; none of `scenes`
     std::size_t scene = static_cast<std::size_t>(-1); ///< index into `scenes`; -1 = none
     std::vector<bool> previews; ///< which of the first scenes have a preview in the sheet
     bool isOpening = false;

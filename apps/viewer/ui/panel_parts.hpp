@@ -9,8 +9,9 @@
 
 namespace sinew::viewer {
 struct HelpSearch;
-struct PathField;
-}
+struct GalleryState;
+struct SceneFields;
+} // namespace sinew::viewer
 
 namespace sinew::viewer::parts {
 
@@ -64,7 +65,9 @@ std::size_t toolbarGroups();
 void toolbar(const Facts& facts, float side, Wishes& wishes);
 
 void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
-void scenes(const SceneFacts& scene, const Facts& facts, PathField& path, Wishes& wishes);
+void scenes(const SceneFacts& scene, const Facts& facts, SceneFields& fields, Wishes& wishes);
+/// Cards of all scenes over the picture, while it is open.
+void gallery(const Facts& facts, GalleryState& state, Wishes& wishes);
 void play(const Facts& facts, Wishes& wishes);
 void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void look(const Facts& facts, Wishes& wishes);

@@ -198,7 +198,7 @@ float Panels::freeWidth(VkExtent2D extent) const {
 
 // A hidden text field gets no keys.
 bool Panels::isAsking() const {
-    return path_.isShown && isShown(lastExtent_);
+    return fields_.path.isShown && isShown(lastExtent_);
 }
 
 const ImDrawData& Panels::drawn() const {
@@ -209,8 +209,25 @@ void Panels::askForFile() {
     closeHelp(); // the help covers everything
     if (!isShown(lastExtent_)) toggle();
     folds_.reset(indexOf(Fold::scene));
-    path_ = {.isShown = true, .wantsKeys = true};
+    fields_.path = {.isShown = true, .wantsKeys = true};
     early_ = {};
+}
+
+void Panels::toggleGallery() {
+    GalleryState& gallery = fields_.gallery;
+    gallery.closes = gallery.isOpen;
+    gallery.wants = !gallery.isOpen;
+    if (!gallery.wants) return;
+    closeHelp();
+    if (!isShown(lastExtent_)) toggle();
+    folds_.reset(indexOf(Fold::scene));
+}
+
+bool Panels::closeTop() {
+    if (!isHelpShown_ && !fields_.gallery.isOpen) return false;
+    fields_.gallery.closes = !isHelpShown_;
+    closeHelp();
+    return true;
 }
 
 void Panels::feed(const PanelInput& input, VkExtent2D extent, double seconds) {
@@ -240,11 +257,12 @@ void Panels::feedButton(const PanelInput& input, std::size_t button) {
 
 // Holds keys that are typed before the text field for a path has the focus.
 void Panels::feedTyped(const PanelInput& input) {
+    if (takesLetters()) return search_.type(input);
     const bool isEarly = isAsking() && !ImGui::GetIO().WantTextInput;
     early_.keys.insert(early_.keys.end(), input.keys.begin(), input.keys.end());
     early_.characters.insert(early_.characters.end(), input.characters.begin(), input.characters.end());
     if (isEarly) {
-        if (++path_.pictures > mostPicturesUnfocused) path_ = {};
+        if (++fields_.path.pictures > mostPicturesUnfocused) fields_.path = {};
         return;
     }
     const PanelInput typed = std::exchange(early_, {});
@@ -257,7 +275,6 @@ void Panels::feedKeys(const PanelInput& input) {
     ImGuiIO& io = ImGui::GetIO();
     for (const int key : released_) io.KeysDown[key] = false;
     released_.clear();
-    if (takesLetters()) return search_.type(input);
     std::vector<int> pressed;
     for (const auto& [key, isDown] : input.keys) {
         if (key < 0 || key >= IM_ARRAYSIZE(io.KeysDown)) continue;
@@ -357,7 +374,7 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
 // A heading shows what matters of a section that is folded.
 void Panels::buildSections(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes) {
     if (parts::section(Fold::scene, folds_, facts.isOpening ? "opening ..." : "")) {
-        parts::scenes(scene, facts, path_, wishes);
+        parts::scenes(scene, facts, fields_, wishes);
         parts::play(facts, wishes);
     }
     if (parts::section(Fold::material, folds_)) parts::parameters(scene, facts, wishes);

@@ -24,6 +24,17 @@ struct PathField {
     std::array<char, 1024> text{};
 };
 
+/// The gallery opens in the picture after it is wanted.
+struct GalleryState {
+    bool wants = false, closes = false, isOpen = false;
+};
+
+/// Parts of the section of the scene that stay between pictures.
+struct SceneFields {
+    PathField path;
+    GalleryState gallery;
+};
+
 /// Text that is typed while the help is open.
 struct HelpSearch {
     std::string text;
@@ -56,6 +67,8 @@ public:
     bool covers(const Vector2& pixels) const;
     /// Whether a panel takes keys, or will: from askForFile() on.
     bool takesKeys() const;
+    /// Whether keys that type a letter belong to the search of the help; all others act as always.
+    bool takesLetters() const { return isHelpShown_ && !takesKeys(); }
 
     /// Opens a text field for a path (Wishes::file), unless it is open. `paste` provides the text to paste.
     void askForFile();
@@ -63,12 +76,14 @@ public:
     /// `copy` receives text that is copied or cut from a field.
     void setCopy(std::function<void(const std::string&)> copy) { copy_ = std::move(copy); }
 
+    /// Opens the gallery of scenes, or closes it.
+    void toggleGallery();
+    bool isGalleryShown() const { return fields_.gallery.isOpen || fields_.gallery.wants; }
+
     /// Sets the scale (see the constructor). The atlas changes.
     void rescale(float scale);
 
     /// The user's choice whether panels are shown; empty = no choice yet.
-    /// Whether keys that type a letter belong to the search of the help; all others act as always.
-    bool takesLetters() const { return isHelpShown_ && !takesKeys(); }
     const std::optional<bool>& choice() const { return isShown_; }
     void choose(std::optional<bool> isShown) { isShown_ = isShown; }
     /// The sections that are folded: the user's choice.
@@ -80,6 +95,8 @@ public:
         search_.text.clear();
     }
     void closeHelp() { isHelpShown_ = false; }
+    /// Closes the help, or else the gallery; false if neither is open.
+    bool closeTop();
     bool isHelpShown() const { return isHelpShown_; }
     /// Without a choice, panels are shown if the window is large enough.
     bool isShown(VkExtent2D extent) const;
@@ -117,8 +134,9 @@ private:
     std::optional<bool> isShown_;
     Folds folds_ = foldedAtFirst;
     bool isHelpShown_ = false;
+    HelpSearch search_;
     float sideHeight_ = 0; // of what the panel at the side holds [pixels]
-    PathField path_;
+    SceneFields fields_;
     std::function<std::string()> paste_;
     std::string pasted_;
     std::function<void(const std::string&)> copy_;
@@ -130,4 +148,3 @@ private:
 };
 
 } // namespace sinew::viewer
-    HelpSearch search_;

@@ -19,8 +19,8 @@ inline constexpr std::size_t sheetTexture = 1;
 /// Texels like those of Picture, one word each; missing pictures are black.
 class PictureSheet {
 public:
-    static constexpr VkExtent2D extent{192, 120}; ///< of each picture [texels]
-    static constexpr std::size_t most = 64;       ///< pictures in a sheet: 6 MB
+    static constexpr VkExtent2D extent{240, 135}; ///< of each picture [texels]
+    static constexpr std::size_t most = 64;       ///< pictures in a sheet: 8 MB
 
     explicit PictureSheet(std::size_t count) : has_(std::min(count, most)) {
         texels_.resize(has_.size() * wordsOfOne);

@@ -47,6 +47,13 @@ std::string text(float number) {
     return {digits.data(), written.ptr};
 }
 
+// Values of a key that may stand in several lines.
+std::string lines(const std::string& key, const std::vector<std::string>& values) {
+    std::string all;
+    for (const std::string& value : values) all.append(all.empty() ? "" : "\n" + key + " = ").append(value);
+    return all;
+}
+
 struct Key {
     std::string_view name;
     void (*read)(Preferences&, const std::string& value);
@@ -56,6 +63,11 @@ struct Key {
 const std::array keys{
     Key{"scene", [](Preferences& to, const std::string& value) { to.scene = value; },
         [](const Preferences& of) { return of.scene; }},
+    Key{"recent",
+        [](Preferences& to, const std::string& value) {
+            if (to.recent.size() < Preferences::mostRecent) to.recent.push_back(value);
+        },
+        [](const Preferences& of) { return lines("recent", of.recent); }},
     Key{"width", [](Preferences& to, const std::string& value) { to.width = sideIn(value); },
         [](const Preferences& of) { return of.width > 0 ? std::to_string(of.width) : ""; }},
     Key{"height", [](Preferences& to, const std::string& value) { to.height = sideIn(value); },

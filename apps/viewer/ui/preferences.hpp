@@ -21,6 +21,8 @@ struct Preferences {
     float scale = 1;              ///< of texts and panels, times the scale of the screen
     bool isVsync = true;
     std::string scene; ///< the last scene on show: absolute path of a file, or name of a built-in scene
+    static constexpr std::size_t mostRecent = 6;
+    std::vector<std::string> recent; ///< absolute paths of files opened last, newest first
     bool operator==(const Preferences&) const = default;
 };
 

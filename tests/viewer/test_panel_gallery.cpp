@@ -1,0 +1,67 @@
+// Tests of the gallery: cards of scenes, their pictures, and files opened last.
+#include "panels_test.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace sinew::viewer {
+namespace {
+
+// The name of the scene opens it. Pictures are requested only for visible entries.
+TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheGallery) {
+    facts.scenes = {"cloth", "cube", "organ", "tear"};
+    facts.previews = {false, true, false};
+    settle();
+    EXPECT_TRUE(picture().previews.value().empty());
+    Wishes wishes;
+    wishes.previews.emplace();
+    for (float y = 20; y < 300 && wishes.previews->empty(); y += 6) {
+        const bool isButton = std::ranges::count(click({1080, y}).actions, Action::gallery) > 0;
+        if (!isButton) continue;
+        panels.toggleGallery();
+        settle();
+        wishes = picture({.pointer = {1080, y}});
+    }
+    EXPECT_EQ(*wishes.previews, (std::vector<std::size_t>{0, 2})) << "what has one, or no place for one";
+}
+
+TEST_F(PanelsTest, ShowCardsOfScenesAndFilesOpenedLast) {
+    facts.scenes = {"cloth", "cube", "organ", "pile", "beam"};
+    facts.sentences = {"A cloth.", "A cube.", "An organ.", "A pile.", "A beam."};
+    facts.marks = {{}, {}, {}, {.isHeavy = true}, {.isStudy = true}};
+    facts.recent = {"/elsewhere/bunny.ply"};
+    settle();
+    EXPECT_FALSE(panels.closeTop());
+    panels.toggleGallery();
+    settle();
+    const ImGuiWindow* gallery = ImGui::GetCurrentContext()->OpenPopupStack.back().Window;
+    ASSERT_NE(gallery, nullptr);
+    std::set<std::size_t> chosen;
+    std::set<std::string> files;
+    for (float y = gallery->Pos.y + 20; y < gallery->Pos.y + gallery->Size.y; y += 10)
+        for (float x = gallery->Pos.x + 30; x < gallery->Pos.x + gallery->Size.x; x += 90) {
+            if (!panels.isGalleryShown()) panels.toggleGallery();
+            settle();
+            PanelInput press{.pointer = {x, y}};
+            picture(press);
+            press.isDown[0] = true;
+            press.presses[0] = 1;
+            picture(press);
+            const Wishes wishes = picture({.pointer = {x, y}});
+            if (wishes.scene) chosen.insert(*wishes.scene);
+            if (wishes.file) files.insert(*wishes.file);
+        }
+    EXPECT_EQ(chosen, (std::set<std::size_t>{0, 1, 2, 3, 4}));
+    EXPECT_EQ(files, (std::set<std::string>{"/elsewhere/bunny.ply"}));
+    if (!panels.isGalleryShown()) panels.toggleGallery();
+    settle();
+    EXPECT_TRUE(panels.closeTop()) << "Esc";
+    settle();
+    EXPECT_FALSE(panels.isGalleryShown());
+}
+
+} // namespace
+} // namespace sinew::viewer
