@@ -104,6 +104,20 @@ read -r left2 top2 right2 bottom2 <<<"$(boxOf wide.png 960)"
     fail "the view did not move by half a panel: $left to $right became $left2 to $right2"
 ((top2 - top < 3 && top - top2 < 3 && bottom2 - bottom < 3 && bottom - bottom2 < 3)) || fail "the view changed its size"
 keys Tab
+
+echo "framing: nothing moves while a button is down"
+awaitStill again.png
+xdotool mousemove 300 560 mousedown 3
+keys Tab
+awaitOther again.png held.png "Tab hides nothing"
+read -r left2 top2 right2 bottom2 <<<"$(boxOf held.png $((960 - panel)))"
+((left2 - left < 3 && left - left2 < 3 && right2 - right < 3 && right - right2 < 3)) ||
+    fail "the picture moved under a pressed button: $left to $right became $left2 to $right2"
+xdotool mouseup 3
+awaitOther held.png released.png "the picture stays beside panels that are gone"
+read -r left2 top2 right2 bottom2 <<<"$(boxOf released.png 960)"
+((left2 - left > panel / 2 - 4 && left2 - left < panel / 2 + 4)) || fail "the view did not move by half a panel: $left became $left2"
+keys Tab
 keys Home
 awaitOther orbited.png home.png "Home changes nothing"
 expectInside home.png $((960 - panel)) "on request"

@@ -172,6 +172,7 @@ std::uint32_t Comparison::freeWidth() const {
 }
 
 // Both halves stand beside the panels, if those leave room.
+    if (heldShift_) return *heldShift_;
 std::uint32_t Comparison::halvesWidth() const {
     const VkExtent2D extent = player_.session.presenter().extent();
     const std::uint32_t side = player_.session.panels().sideWidth(extent);
@@ -201,7 +202,9 @@ void Comparison::takeOver(const Comparison& before) {
     isButtonDown_ = before.isButtonDown_;
 }
 
+        heldShift_.reset();
 void Comparison::drawHalves(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
+        if (press.isDown && !beside_) heldShift_ = fold_;
     Presenter& presenter = player_.session.presenter();
     const std::uint32_t width = halvesWidth();
     if (view.halves && view.halves->width != width) {
@@ -210,6 +213,7 @@ void Comparison::drawHalves(const Presenter::Frame& frame, const Overlay& overla
     }
     if (!view.halves)
         view.halves.emplace(view.renderer.makeHalves(presenter.extent(), presenter.views(), width));
+    heldShift_ = before.heldShift_;
     const std::uint32_t other = frame.slot + 3 * Presenter::framesInFlight;
     const Camera& camera = player_.controller.camera;
     for (Canvas& canvas : view.halves->canvases) view.renderer.prepareCanvas(overlay.layers, canvas);

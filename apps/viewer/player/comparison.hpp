@@ -7,6 +7,7 @@
 
 #include <future>
 #include <memory>
+#include <optional>
 
 namespace sinew::viewer {
 
@@ -72,5 +73,7 @@ private:
     float fold_ = 0; // from the middle of the window to that of the pointer's picture, as Input::pointer
     bool isButtonDown_ = false;
 };
+    // Picture and pointer keep their place while a button is down, whatever panels come and go.
+    std::optional<float> heldShift_;
 
 } // namespace sinew::viewer
