@@ -127,4 +127,28 @@ done
 quit
 awaitEnd 0
 (($(grep -c 'pipelines made while keys waited: 0$' viewer.out) == 1)) || fail "the window's thread made pipelines: $(grep pipelines viewer.out)"
+
+echo "first use: B compares in the next scene, too, which needs another default"
+: >viewer.err
+start
+keys b
+for _ in {1..300}; do
+    shoot halves.png
+    [[ $(line halves.png) == 1 ]] && break
+    sleep 0.3
+done
+[[ $(line halves.png) == 1 ]] || fail "B shows no halves"
+keys Prior
+awaitTitle crowd
+sleep 2 # until the picture is that of the scene
+for _ in {1..300}; do
+    shoot halves.png
+    [[ $(line halves.png) == 1 ]] && break
+    sleep 0.3
+done
+[[ $(line halves.png) == 1 ]] || fail "the comparison ends with the scene: $(cat viewer.err)"
+grep -q "Can't compare" viewer.err && fail "another default was not tried: $(cat viewer.err)"
+: >viewer.err
+quit
+awaitEnd 0
 echo passed

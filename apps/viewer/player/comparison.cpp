@@ -19,14 +19,26 @@ std::string firstLine(const std::string& text) {
 } // namespace
 
 void Comparison::toggle() {
-    std::optional<BesideShape>& wanted = player_.session.beside();
-    const bool isGaussSeidel = player_.document.settings().solver == sim::Solver::gaussSeidel;
-    isDefault_ = !wanted;
+    Session& session = player_.session;
+    isOfScene_ = true;
     isInstead_ = false;
-    if (!wanted)
-        wanted = BesideShape{isGaussSeidel ? sim::Solver::split : sim::Solver::gaussSeidel};
+    session.isBesideDefault() = !session.beside();
+    if (session.beside())
+        session.beside().reset();
     else
-        wanted.reset();
+        session.beside() = defaultShape();
+}
+
+BesideShape Comparison::defaultShape() const {
+    const bool isGaussSeidel = player_.document.settings().solver == sim::Solver::gaussSeidel;
+    return {isGaussSeidel ? sim::Solver::split : sim::Solver::gaussSeidel};
+}
+
+// A comparison that the key B began in the scene before begins anew: another default may suit this scene.
+void Comparison::beginInScene() {
+    Session& session = player_.session;
+    if (std::exchange(isOfScene_, true) || !session.beside() || !session.isBesideDefault()) return;
+    session.beside() = defaultShape();
 }
 
 // A solver that the key B has chosen cannot play the scene: compares with fewer substeps. False if nothing
@@ -34,7 +46,7 @@ void Comparison::toggle() {
 bool Comparison::compareInstead() {
     std::optional<BesideShape>& wanted = player_.session.beside();
     const auto instead = shapeInstead(player_.document.settings());
-    if (!std::exchange(isDefault_, false) || !instead || wanted != asked_) return false;
+    if (!player_.session.isBesideDefault() || isInstead_ || !instead || wanted != asked_) return false;
     isInstead_ = true;
     player_.session.tell(toText(*asked_) + " cannot play this scene; comparing " + toText(*instead));
     wanted = instead;
@@ -42,6 +54,7 @@ bool Comparison::compareInstead() {
 }
 
 void Comparison::tend(bool isDiverged) {
+    beginInScene();
     const std::optional<BesideShape>& wanted = player_.session.beside();
     if (making_.valid()) {
         if (making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) take();
@@ -98,7 +111,6 @@ void Comparison::take() {
     drop();
     asked_ = asked; // another one may be wanted by now: that is made then
     beside_ = std::move(made);
-    isDefault_ = false;
     const bool isExpected = std::exchange(isInstead_, false); // fewer substeps are softer
     for (const std::string& warning : beside_->warnings())
         if (!isExpected) player_.session.warn("beside: " + warning);
@@ -160,6 +172,7 @@ float Comparison::pictureAspect() const {
 float Comparison::shift() const {
     const VkExtent2D extent = player_.session.presenter().extent();
     if (beside_ || extent.height == 0) return 0;
+    if (heldShift_) return *heldShift_;
     return 0.5f * (static_cast<float>(freeWidth()) - static_cast<float>(extent.width)) /
            static_cast<float>(extent.height);
 }
@@ -172,7 +185,6 @@ std::uint32_t Comparison::freeWidth() const {
 }
 
 // Both halves stand beside the panels, if those leave room.
-    if (heldShift_) return *heldShift_;
 std::uint32_t Comparison::halvesWidth() const {
     const VkExtent2D extent = player_.session.presenter().extent();
     const std::uint32_t side = player_.session.panels().sideWidth(extent);
@@ -190,7 +202,9 @@ void Comparison::fold(Input& input) {
     };
     if (!isButtonDown_) fold_ = foldAt(input.pointer);
     for (Input::Press& press : input.presses) {
+        heldShift_.reset();
         if (press.isDown) fold_ = foldAt(press.pointer);
+        if (press.isDown && !beside_) heldShift_ = fold_;
         isButtonDown_ = press.isDown;
         press.pointer.x() -= fold_;
     }
@@ -199,12 +213,12 @@ void Comparison::fold(Input& input) {
 
 void Comparison::takeOver(const Comparison& before) {
     fold_ = before.fold_;
+    heldShift_ = before.heldShift_;
     isButtonDown_ = before.isButtonDown_;
+    isOfScene_ = before.isOfScene_; // it is the same scene
 }
 
-        heldShift_.reset();
 void Comparison::drawHalves(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
-        if (press.isDown && !beside_) heldShift_ = fold_;
     Presenter& presenter = player_.session.presenter();
     const std::uint32_t width = halvesWidth();
     if (view.halves && view.halves->width != width) {
@@ -213,7 +227,6 @@ void Comparison::drawHalves(const Presenter::Frame& frame, const Overlay& overla
     }
     if (!view.halves)
         view.halves.emplace(view.renderer.makeHalves(presenter.extent(), presenter.views(), width));
-    heldShift_ = before.heldShift_;
     const std::uint32_t other = frame.slot + 3 * Presenter::framesInFlight;
     const Camera& camera = player_.controller.camera;
     for (Canvas& canvas : view.halves->canvases) view.renderer.prepareCanvas(overlay.layers, canvas);

@@ -57,6 +57,8 @@ private:
     bool isFit() const;
     void make(const BesideShape& shape, const sim::Settings& room);
     void take();
+    BesideShape defaultShape() const;
+    void beginInScene();
     bool compareInstead();
     void drop();
     std::uint32_t freeWidth() const;
@@ -68,12 +70,12 @@ private:
     std::optional<BesideShape> asked_; // that it is, or is being made as
     std::future<std::unique_ptr<SecondSimulation>> making_;
     bool isBehind_ = false;
-    // Nobody chose what is wanted: something else may be shown instead; it is.
-    bool isDefault_ = false, isInstead_ = false;
+    bool isOfScene_ = false; // what is wanted was looked at in this scene
+    bool isInstead_ = false; // something else than the default is shown, as the scene has no form for that
     float fold_ = 0; // from the middle of the window to that of the pointer's picture, as Input::pointer
-    bool isButtonDown_ = false;
-};
     // Picture and pointer keep their place while a button is down, whatever panels come and go.
     std::optional<float> heldShift_;
+    bool isButtonDown_ = false;
+};
 
 } // namespace sinew::viewer

@@ -155,7 +155,10 @@ void ScenePlayer::grant(const Wishes& wishes, Input& input) {
         layers_.moveSectionTo(*wishes.sectionOffset);
         input.needsRedraw = true;
     }
-    if (wishes.beside) session_.beside() = shapeOf(*wishes.beside);
+    if (wishes.beside) {
+        session_.beside() = shapeOf(*wishes.beside);
+        session_.isBesideDefault() = false;
+    }
     if (wishes.knobs && !journal_.isReplaying()) adjustments_.turn(*wishes.knobs); // else the log has them
 }
 
@@ -379,11 +382,11 @@ Facts ScenePlayer::facts(std::optional<float> reduced) const {
     facts.undos = tools_.history().undos();
     facts.scenes = sceneLoader_.names();
     facts.sentences = sceneLoader_.sentences();
+    facts.marks = sceneLoader_.marks();
+    facts.recent = sceneLoader_.recent();
     facts.scene = sceneLoader_.current();
     facts.isOpening = sceneLoader_.isOpening();
     facts.devices = devices_.list();
-    facts.marks = sceneLoader_.marks();
-    facts.recent = sceneLoader_.recent();
     layers_.addTo(facts);
     observer_.addTo(facts);
     facts.beside = comparison_.facts();

@@ -44,6 +44,8 @@ public:
     /// Settings of the comparison, shared by all scenes; empty = none.
     std::optional<BesideShape>& beside() { return beside_; }
     const std::optional<BesideShape>& beside() const { return beside_; }
+    /// Whether the key B has chosen them: another scene may then have others.
+    bool& isBesideDefault() { return isBesideDefault_; }
 
     /// Present preferences of the window and the panels.
     Preferences preferences() const;
@@ -91,6 +93,7 @@ private:
     Notices notices_;
     Layers layers_;
     std::optional<BesideShape> beside_;
+    bool isBesideDefault_ = false;
     float ownScale_, windowScale_; // of texts: the user's choice, and the display's request
     Clock::time_point lastPicture_ = Clock::now(), panelsDrawn_{};
     std::uint32_t picturesOfPanels_ = 0; // since then
