@@ -126,6 +126,37 @@ TEST(Picture, OfARoundBodyIsSmoothFromEverySide) {
         }
 }
 
+// Regression test. The few taps of moving pictures missed small blockers in many pixels:
+// the shadow of a lobe on a roll had bright specks.
+TEST(Picture, HasNoSpecksInTheShadowOfASmallBody) {
+    sim::Scene scene;
+    const sim::Lattice lattice{.origin = {-0.05f, 0.04f, -0.05f}, .cells = {1, 1, 1}, .spacing = 0.1f};
+    const sim::LatticeCorners corners = sim::addLattice(scene, lattice);
+    sim::addLatticeSkin(scene, lattice, corners, {0.70f, 0.12f, 0.10f});
+    scene.colliders = {{.shape = sim::ColliderShape::box,
+                        .halfExtents = {1, 0.1f, 1},
+                        .pose = {{0, -0.1f, 0}},
+                        .color = {0.45f, 0.45f, 0.48f}}};
+    SceneShot shot(scene, lookingFrom({0.1f, 0.6f, 0.5f}, {0, 0, 0}, 40), reducedQuality());
+    const Picture picture = shot.take();
+    const auto at = [&](std::uint32_t x, std::uint32_t y) {
+        const std::uint8_t* pixel = &picture.pixels[4 * (std::size_t{y} * picture.width + x)];
+        return Color{pixel[0], pixel[1], pixel[2]};
+    };
+    int specks = 0, shadowed = 0;
+    for (std::uint32_t y = 1; y + 1 < picture.height; ++y)
+        for (std::uint32_t x = 1; x + 1 < picture.width; ++x) {
+            const std::array around{at(x - 1, y), at(x + 1, y), at(x, y - 1), at(x, y + 1)};
+            if (std::ranges::any_of(around, [](const Color& one) { return redness(one) > 20; })) continue;
+            int brightest = 0;
+            for (const Color& one : around) brightest = std::max(brightest, brightness(one));
+            shadowed += brightest < 300;
+            specks += brightest < 300 && brightness(at(x, y)) > brightest + 60;
+        }
+    EXPECT_GT(shadowed, 300);
+    EXPECT_EQ(specks, 0);
+}
+
 TEST(Picture, OfABodyOnTheGroundIsNotBlackBelow) {
     sim::Scene scene = block(0, true);
     scene.colliders = {{.radius = 0.3f, .pose = {{0, 0.3f, 0}}, .color = {0.5f, 0.5f, 0.5f}}};

@@ -57,12 +57,13 @@ float depthAt(MapPoint point, vec2 offset) {
     return min(point.depth + dot(point.slope, offset) / frame.shadow.y, 1.0);
 }
 
-// Mean depth of the blockers between the light and a disc around the point; 1 if there are none.
+// Mean depth of the blockers between the light and a disc around the point; 1 if there are none. The first tap is at
+// the point: otherwise few taps, turned differently in each pixel, miss a small blocker here and there.
 float blockerDepth(MapPoint point, float radius, uint taps, vec2 turn) {
     const float margin = 0.15 / frame.shadow.y; // per offset, because of the surface's own curvature
     float blockers = 0.0, depth = 0.0;
     for (uint i = 0u; i < taps; ++i, turn = nextTurn(turn)) {
-        const vec2 offset = radius * discRadius(i, taps) * turn;
+        const vec2 offset = i == 0u ? vec2(0.0) : radius * discRadius(i, taps) * turn;
         const float here = textureLod(shadowDepth, point.uv + offset / frame.shadow.x, 0.0).r;
         const float isBlocker = float(here < depthAt(point, offset) - margin * length(offset));
         blockers += isBlocker;
