@@ -7,6 +7,7 @@
 #include "vk/allocator.hpp"
 #include "vk/choice.hpp"
 #include "vk/instance.hpp"
+#include "vk/pipeline_cache.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -151,7 +152,7 @@ Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;
 Device::~Device() = default;
 
-void Device::complete(bool hasDebugUtils, const BufferHook& hook) {
+void Device::complete(bool hasDebugUtils, const BufferHook& hook, std::span<const std::byte> pipelines) {
     State& state = *state_;
     const VkQueueFamilyProperties family =
         readFamily(state.instanceFunctions, state.physical, state.queueFamily);
@@ -164,7 +165,10 @@ void Device::complete(bool hasDebugUtils, const BufferHook& hook) {
     state.instanceFunctions.vkGetPhysicalDeviceMemoryProperties(state.physical, &memory);
     state.allocator =
         hook.create ? makeHookAllocator(hook) : makeBlockAllocator(state.device, state.functions, memory);
-    const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    const std::span<const std::byte> earlier = unsealed(pipelines);
+    const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
+                                         .initialDataSize = earlier.size(),
+                                         .pInitialData = earlier.data()};
     check(state.functions.vkCreatePipelineCache(state.device, &info, nullptr, &state.pipelineCache),
           "vkCreatePipelineCache", state.description.name);
     name(VK_OBJECT_TYPE_PIPELINE_CACHE, handleValue(state.pipelineCache), "sinew.pipelines");
@@ -184,7 +188,7 @@ Device Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const Devic
     state.description = chosen.description;
     state.description.isChosen = true;
     state.device = createDevice(state.instanceFunctions, chosen, request);
-    device.complete(state.ownInstance->hasDebugUtils(), {});
+    device.complete(state.ownInstance->hasDebugUtils(), {}, request.pipelineCache);
     return device;
 }
 
@@ -205,7 +209,7 @@ Device Device::borrow(const HostDevice& host) {
     const auto& enabled = host.enabledInstanceExtensions;
     device.complete(std::find(enabled.begin(), enabled.end(),
                               std::string_view(VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) != enabled.end(),
-                    host.buffers);
+                    host.buffers, host.pipelineCache);
     return device;
 }
 
@@ -251,6 +255,22 @@ Allocator& Device::allocator() const noexcept {
 }
 VkPipelineCache Device::pipelineCache() const noexcept {
     return state_->pipelineCache;
+}
+
+std::vector<std::byte> Device::pipelineCacheData() const {
+    std::vector<std::byte> data;
+    VkResult result = VK_INCOMPLETE; // another thread may add pipelines between the two calls
+    while (result == VK_INCOMPLETE) {
+        std::size_t size = 0;
+        check(state_->functions.vkGetPipelineCacheData(state_->device, state_->pipelineCache, &size, nullptr),
+              "vkGetPipelineCacheData", "sinew.pipelines");
+        data.resize(size);
+        result = state_->functions.vkGetPipelineCacheData(state_->device, state_->pipelineCache, &size,
+                                                          data.data());
+        check(result, "vkGetPipelineCacheData", "sinew.pipelines");
+        data.resize(size);
+    }
+    return sealed(std::move(data));
 }
 
 void Device::name(VkObjectType type, std::uint64_t handle, const std::string& name) const noexcept {

@@ -42,6 +42,7 @@ public:
     /// that provides other memory (BufferAllocation::memory): then call flush() after writing and before the
     /// submission that reads, and invalidate() before reading results of a finished submission.
     std::byte* mapped() const noexcept { return allocation_.mapped; }
+    bool isCoherent() const noexcept { return allocation_.memory == VK_NULL_HANDLE; } ///< if it is mapped
     /// Make writes of the host visible to the device, and of the device to the host. Do nothing for coherent
     /// memory. `size` [B] from `offset` [B]; ranges grow to whole atoms (Limits::nonCoherentAtom), of which
     /// the other side must not write any part meanwhile.

@@ -55,6 +55,9 @@ struct SINEW_API HostDevice {
     std::span<const char* const>
         enabledInstanceExtensions{}; ///< must contain VK_EXT_debug_utils for names and labels
     BufferHook buffers{};            ///< both empty = Sinew's block allocator
+    /// Pipelines of an earlier run (Device::pipelineCacheData()); empty = none. Read during borrow() only.
+    /// Bytes of another device or driver, or damaged ones, are ignored.
+    std::span<const std::byte> pipelineCache{};
 };
 
 /// Device request of a program without an engine.
@@ -69,6 +72,7 @@ struct SINEW_API DeviceRequest {
     /// Receives each validation message at once, including those of the device's destruction (leaks). Called
     /// from within Vulkan calls, in their thread; must not throw or call Vulkan.
     std::function<void(const std::string&)> onValidationMessage{};
+    std::span<const std::byte> pipelineCache{}; ///< as HostDevice::pipelineCache, read during create() only
 };
 
 /// Largest number of storage buffers that a kernel binds. Vulkan guarantees only 4: a device with fewer than
@@ -140,6 +144,9 @@ public:
     Allocator& allocator() const noexcept;
     KernelStore& kernels() const noexcept;
     VkPipelineCache pipelineCache() const noexcept;
+    /// The pipelines made so far, for HostDevice::pipelineCache of a later run on the same device and driver.
+    /// Any thread. Throws Error.
+    std::vector<std::byte> pipelineCacheData() const;
     /// The same device at an address that stays valid when this one is moved: for objects that keep a
     /// reference.
     const Device& anchored() const noexcept;
@@ -159,7 +166,7 @@ private:
     using Handle = std::unique_ptr<State, Release>;
     explicit Device(Handle state);
     static Device make();
-    void complete(bool hasDebugUtils, const BufferHook& hook);
+    void complete(bool hasDebugUtils, const BufferHook& hook, std::span<const std::byte> pipelines);
     Handle state_;
 };
 
