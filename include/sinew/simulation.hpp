@@ -322,6 +322,10 @@ public:
     /// Any buffer of program(), for inspection; empty for an invalid id. Contents between steps are private
     /// to the solver.
     vk::BufferView view(BufferId buffer) const noexcept;
+    /// Host address of what a view of this simulation shows, or null: its memory is not host visible, as on
+    /// most GPUs, or not coherent. Read there when the commands that wrote it have finished, the last of them
+    /// vk::Commands::hostBarrier(). Searches all buffers.
+    const std::byte* mapped(const vk::BufferView& view) const noexcept;
     std::vector<std::string> phases() const; ///< names of the spans of `timestamps`
 
 private:

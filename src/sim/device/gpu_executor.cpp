@@ -278,4 +278,11 @@ vk::BufferView GpuExecutor::view(BufferId buffer) const noexcept {
     return found == initialOf_.end() ? buffers_[buffer.index].view() : stagingOf({found->second})->view();
 }
 
+const std::byte* GpuExecutor::mapped(const vk::BufferView& view) const noexcept {
+    const auto found = std::ranges::find_if(
+        buffers_, [&](const vk::Buffer& buffer) { return buffer.view().buffer == view.buffer; });
+    const bool isReadable = found != buffers_.end() && found->mapped() != nullptr && found->isCoherent();
+    return isReadable ? found->mapped() + view.offset : nullptr;
+}
+
 } // namespace sinew::sim

@@ -37,7 +37,8 @@ public:
     /// Records only those passes of a step that write the surface of cuts.
     void surface(vk::Commands& commands) noexcept;
 
-    vk::BufferView view(BufferId buffer) const noexcept; ///< empty for an invalid id
+    vk::BufferView view(BufferId buffer) const noexcept;                ///< empty for an invalid id
+    const std::byte* mapped(const vk::BufferView& view) const noexcept; ///< Simulation::mapped
     /// Phases of the step list that contain a pass, in order: the spans of `timestamps`.
     const std::vector<std::uint32_t>& timedPhases() const noexcept { return timedPhases_; }
 

@@ -232,6 +232,9 @@ std::span<const HostColliderState> Simulation::hostColliders() const noexcept {
 vk::BufferView Simulation::view(BufferId buffer) const noexcept {
     return state_->executor.view(buffer);
 }
+const std::byte* Simulation::mapped(const vk::BufferView& view) const noexcept {
+    return state_->executor.mapped(view);
+}
 const StepProgram& Simulation::program() const noexcept {
     return state_->program;
 }
