@@ -46,7 +46,7 @@ struct Block {
 };
 
 struct Placement {
-    std::list<Block>::iterator block;
+    std::list<Block>::iterator block{};
     VkDeviceSize offset = 0, size = 0; ///< [B]
 };
 
@@ -84,12 +84,12 @@ private:
 BufferAllocation BlockAllocator::create(const VkBufferCreateInfo& info, MemoryKind kind, const char* name) {
     const std::lock_guard lock(mutex_);
     BufferAllocation allocation{.token = nextToken_++};
-    check(functions_.vkCreateBuffer(device_, &info, nullptr, &allocation.buffer), "vkCreateBuffer", name);
+    Placement& placement = placements_[allocation.token]; // first: what has a place must be found again
     try {
+        check(functions_.vkCreateBuffer(device_, &info, nullptr, &allocation.buffer), "vkCreateBuffer", name);
         VkMemoryRequirements need;
         functions_.vkGetBufferMemoryRequirements(device_, allocation.buffer, &need);
-        const Placement placement = place(need, kind, name);
-        placements_.emplace(allocation.token, placement);
+        placement = place(need, kind, name);
         if (placement.block->mapped != nullptr)
             allocation.mapped = placement.block->mapped + placement.offset;
         check(functions_.vkBindBufferMemory(device_, allocation.buffer, placement.block->memory,
@@ -110,8 +110,8 @@ void BlockAllocator::destroy(const BufferAllocation& allocation) noexcept {
 void BlockAllocator::remove(const BufferAllocation& allocation) noexcept {
     functions_.vkDestroyBuffer(device_, allocation.buffer, nullptr);
     const auto placement = placements_.find(allocation.token);
-    if (placement == placements_.end()) return; // create() failed before it found a place
-    giveBack(placement->second);
+    if (placement->second.size > 0)
+        giveBack(placement->second); // else create() failed before it found a place
     placements_.erase(placement);
 }
 
@@ -153,20 +153,22 @@ VkResult BlockAllocator::addBlock(std::uint32_t type, VkDeviceSize size) {
     if (size > freeInHeap(type)) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
     const VkMemoryAllocateInfo info{
         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = size, .memoryTypeIndex = type};
-    Block block{.size = size, .type = type, .free = FreeRanges(size)};
+    Block& block = blocks_.emplace_back(Block{.size = size, .type = type, .free = FreeRanges(size)});
     if (const VkResult result = functions_.vkAllocateMemory(device_, &info, nullptr, &block.memory);
-        result < 0)
+        result < 0) {
+        blocks_.pop_back();
         return result;
+    }
     if ((properties_.memoryTypes[type].propertyFlags & hostCoherent) == hostCoherent) {
         void* mapped = nullptr;
         const VkResult result = functions_.vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped);
         if (result < 0) {
             functions_.vkFreeMemory(device_, block.memory, nullptr);
+            blocks_.pop_back();
             return result;
         }
         block.mapped = static_cast<std::byte*>(mapped);
     }
-    blocks_.push_back(std::move(block));
     return VK_SUCCESS;
 }
 

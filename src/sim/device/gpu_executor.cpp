@@ -190,13 +190,10 @@ std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>&
 
 void GpuExecutor::upload(vk::Commands& commands) noexcept {
     commands.beginStep();
-    std::vector<bool> hasContents(buffers_.size());
-    for (const auto& [index, initial] : staging_) {
-        commands.copy(initial.view(), buffers_[index].view());
-        hasContents[index] = true;
-    }
-    for (std::size_t b = 0; b < buffers_.size(); ++b) {
-        if (!hasContents[b]) commands.fill(buffers_[b].view(), 0);
+    for (const auto& [index, initial] : staging_) commands.copy(initial.view(), buffers_[index].view());
+    for (std::uint32_t b = 0; b < buffers_.size(); ++b) {
+        const auto isOfThis = [b](const auto& staged) { return staged.first == b; };
+        if (std::ranges::none_of(staging_, isOfThis)) commands.fill(buffers_[b].view(), 0);
     }
     commands.endStep();
 }
