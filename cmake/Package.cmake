@@ -1,10 +1,10 @@
 # The libraries as hosts use them, and their installation as a CMake package (docs/embedding.md, "Install").
 #
-#   sinew_package(<component> <name> [STATIC] OUTPUT <file name> OBJECTS <targets...> [LINKS <targets...>])
+#   sinew_package(<component> <name> [STATIC] OUTPUT <file name> [MAP <symbols>] OBJECTS <targets...> [LINKS <targets...>])
 #
 # makes the library sinew::<name> of the objects of other targets, which are compiled once for it, for the
-# programs and for the tests. BUILD_SHARED_LIBS is its kind, unless STATIC is given. With SINEW_INSTALL the
-# component installs it.
+# programs and for the tests. BUILD_SHARED_LIBS is its kind, unless STATIC is given. A shared one exports the symbols of a
+# version script, by default those of the C++ interface. With SINEW_INSTALL the component installs it.
 option(SINEW_INSTALL "Make install rules" ${PROJECT_IS_TOP_LEVEL})
 set(SINEW_ABI ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}) # before 1.0 a minor version may change interfaces
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/sinew.map @ONLY CONTENT
@@ -13,13 +13,23 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/sinew.map @ONLY CONTENT
     local: *;
 };
 ")
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/sinew_c.map @ONLY CONTENT
+"SINEW_C_@SINEW_ABI@ {
+    global: sinew*;
+    local: *;
+};
+")
 set(SINEW_PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/sinew)
 
 function(sinew_package component name)
-    cmake_parse_arguments(PARSE_ARGV 2 ARG "STATIC" "OUTPUT" "OBJECTS;LINKS")
+    cmake_parse_arguments(PARSE_ARGV 2 ARG "STATIC" "OUTPUT;MAP" "OBJECTS;LINKS")
     set(target sinew_package_${name})
     list(TRANSFORM ARG_OBJECTS REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>")
     set(kind STATIC)
+    set(map ${PROJECT_BINARY_DIR}/sinew.map)
+    if(ARG_MAP)
+        set(map ${ARG_MAP})
+    endif()
     if(BUILD_SHARED_LIBS AND NOT ARG_STATIC)
         set(kind SHARED)
     endif()
@@ -31,11 +41,13 @@ function(sinew_package component name)
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${ARG_OUTPUT} EXPORT_NAME ${name} LINKER_LANGUAGE CXX
         ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/package LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/package)
     if(kind STREQUAL "SHARED")
-        target_compile_definitions(${target} INTERFACE SINEW_SHARED)
+        if(NOT ARG_MAP)
+            target_compile_definitions(${target} INTERFACE SINEW_SHARED)
+        endif()
         set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${SINEW_ABI})
         # Symbols get a version. Instances of the standard library's templates are not exported.
-        target_link_options(${target} PRIVATE -Wl,--version-script=${PROJECT_BINARY_DIR}/sinew.map)
-        set_target_properties(${target} PROPERTIES LINK_DEPENDS ${PROJECT_BINARY_DIR}/sinew.map)
+        target_link_options(${target} PRIVATE -Wl,--version-script=${map})
+        set_target_properties(${target} PROPERTIES LINK_DEPENDS ${map})
     endif()
     if(NOT PROJECT_IS_TOP_LEVEL AND NOT SINEW_INSTALL) # an installed target must be built
         set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
@@ -60,7 +72,8 @@ if(SINEW_INSTALL)
     include(CMakePackageConfigHelpers)
     set_target_properties(sinew_headers PROPERTIES EXPORT_NAME headers)
     install(TARGETS sinew_headers EXPORT sinew_core COMPONENT core)
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/sinew DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT core)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/sinew DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT core
+        PATTERN sinew.h EXCLUDE) # of the component c
     sinew_install_component(core)
     configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/sinewConfig.cmake.in ${PROJECT_BINARY_DIR}/sinewConfig.cmake
         INSTALL_DESTINATION ${SINEW_PACKAGE_FOLDER} NO_SET_AND_CHECK_MACRO)

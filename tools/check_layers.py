@@ -12,6 +12,7 @@ LAYERS = {
     "mesh": ["sim", "vk"],
     "scenes": ["mesh", "sim"],
     "app": ["mesh", "sim", "vk"],
+    "capi": ["scenes", "mesh", "sim", "vk"],
 }
 # The rooms of the core, lowest first, as src/sim/CMakeLists.txt lists them; the reference, which shares no code with them, is last.
 ROOMS = re.findall(r"^sinew_room\((\w+)", (ROOT / "src/sim/CMakeLists.txt").read_text(encoding="utf-8"), re.M) + ["reference"]

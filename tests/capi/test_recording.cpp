@@ -1,0 +1,356 @@
+// The C interface on a device of a host: the same bits as by the C++ interface, through command buffers of
+// the host.
+#include "capi/support.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/simulation.hpp"
+#include "support/host_device.hpp"
+
+#include <cstring>
+#include <functional>
+
+namespace sinew::test {
+namespace {
+
+SinewHostDevice handlesOf(const HostDevice& host) {
+    const vk::HostDevice given = host.handles();
+    SinewHostDevice handles = sinewDefaultHostDevice();
+    handles.getInstanceProcAddr = given.getInstanceProcAddr;
+    handles.instance = given.instance;
+    handles.physicalDevice = given.physicalDevice;
+    handles.device = given.device;
+    handles.queueFamily = given.queueFamily;
+    handles.instanceExtensions = given.enabledInstanceExtensions.data();
+    handles.instanceExtensionCount = static_cast<std::uint32_t>(given.enabledInstanceExtensions.size());
+    return handles;
+}
+
+// Buffers of the host, each with memory of its own that is mapped.
+struct HostBuffers {
+    explicit HostBuffers(HostDevice& itsHost) : host(itsHost) {}
+    HostDevice& host;
+    std::size_t made = 0, freed = 0, refuseFrom = ~std::size_t{0};
+
+    static SinewResult create(void* user, const VkBufferCreateInfo* info, uint32_t, const char* name,
+                              SinewBuffer* buffer) {
+        auto& self = *static_cast<HostBuffers*>(user);
+        if (self.made == self.refuseFrom || name == nullptr) return SINEW_ERROR_OUT_OF_MEMORY;
+        ++self.made;
+        const vk::DeviceFunctions& functions = self.host.functions();
+        const VkDevice device = self.host.handles().device;
+        VkMemoryRequirements need;
+        if (functions.vkCreateBuffer(device, info, nullptr, &buffer->buffer) < 0)
+            return SINEW_ERROR_OUT_OF_MEMORY;
+        functions.vkGetBufferMemoryRequirements(device, buffer->buffer, &need);
+        const VkMemoryAllocateInfo allocation{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                              .allocationSize = need.size,
+                                              .memoryTypeIndex = 0}; // lavapipe has one type
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        if (functions.vkAllocateMemory(device, &allocation, nullptr, &memory) < 0)
+            return SINEW_ERROR_OUT_OF_MEMORY;
+        functions.vkBindBufferMemory(device, buffer->buffer, memory, 0);
+        functions.vkMapMemory(device, memory, 0, VK_WHOLE_SIZE, 0, &buffer->mapped);
+        buffer->token = vk::handleValue(memory);
+        return SINEW_OK;
+    }
+    static void destroy(void* user, const SinewBuffer* buffer) {
+        auto& self = *static_cast<HostBuffers*>(user);
+        ++self.freed;
+        const VkDevice device = self.host.handles().device;
+        self.host.functions().vkDestroyBuffer(device, buffer->buffer, nullptr);
+        self.host.functions().vkFreeMemory(device, reinterpret_cast<VkDeviceMemory>(buffer->token), nullptr);
+    }
+};
+
+using Positions = std::vector<std::array<float, 4>>;
+
+// Reads a view through a buffer of the host.
+Positions read(HostDevice& host, const SinewBufferView& view) {
+    const vk::Device device = vk::Device::borrow(host.handles());
+    const vk::Buffer copy(
+        device,
+        {.name = "readback", .count = view.size / 16, .stride = 16, .kind = vk::MemoryKind::readback});
+    host.submit([&](VkCommandBuffer buffer) {
+        vk::Commands commands(device, buffer);
+        commands.copy({view.buffer, view.offset, view.size, view.stride}, copy.view());
+        commands.hostBarrier();
+    });
+    Positions elements(view.size / 16);
+    std::memcpy(elements.data(), copy.mapped(), elements.size() * 16);
+    return elements;
+}
+
+Positions positionsOf(HostDevice& host, SinewSimulation simulation) {
+    SinewBufferView view{};
+    EXPECT_TRUE(isOk(sinewGetView(simulation, SINEW_POSITIONS, &view)));
+    return read(host, view);
+}
+
+// A cuttable cube that is grabbed, pushed, blown at and cut, described twice.
+struct Example {
+    sim::Scene scene;
+    sim::Settings settings{.substeps = 8, .grabs = 1, .hostColliders = 1, .fields = 1};
+    Example() {
+        sim::Lattice lattice{.name = "cube", .origin = {0, 0.2f, 0}, .cells = {3, 3, 3}, .isCuttable = true};
+        const sim::LatticeCorners corners = sim::addLattice(scene, lattice);
+        sim::addLatticeSkin(scene, lattice, corners, {0.78f, 0.36f, 0.32f});
+        scene.planes.push_back({});
+        scene.attachments.push_back({.particle = 0, .anchor = {0, 0.2f, 0}, .compliance = 1e-3f});
+    }
+    static constexpr std::array<sim::Vec3, 2> bladeFrom{{{0.15f, -1, -1}, {0.15f, -1, 1}}},
+        bladeTo{{{0.15f, 1, -1}, {0.15f, 1, 1}}};
+};
+
+void makeExample(Scene& scene) {
+    ASSERT_TRUE(isOk(sinewCreateScene(&scene)));
+    SinewLattice lattice = sinewDefaultLattice();
+    lattice.name = "cube";
+    lattice.origin.y = 0.2f;
+    lattice.cells[0] = lattice.cells[1] = lattice.cells[2] = 3;
+    lattice.isCuttable = 1;
+    lattice.hasSkin = 1;
+    ASSERT_TRUE(isOk(sinewAddLattice(scene, &lattice, nullptr)));
+    const SinewPlane plane = sinewDefaultPlane();
+    ASSERT_TRUE(isOk(sinewAddPlane(scene, &plane)));
+    const SinewAttachment attachment{.particle = 0, .anchor = {0, 0.2f, 0}, .compliance = 1e-3f};
+    ASSERT_TRUE(isOk(sinewAddAttachments(scene, 1, &attachment, nullptr)));
+}
+
+SinewSettings exampleSettings() {
+    SinewSettings settings = sinewDefaultSettings();
+    settings.substeps = 8;
+    settings.grabs = settings.hostColliders = settings.fields = 1;
+    return settings;
+}
+
+constexpr std::uint64_t steps = 12, cutAt = 5;
+
+Positions runByCpp(HostDevice& host) {
+    const vk::Device device = vk::Device::borrow(host.handles());
+    const Example example;
+    sim::Simulation simulation(device, example.scene, example.settings);
+    for (std::uint64_t frame = 0; frame < steps; ++frame)
+        host.submit([&](VkCommandBuffer commands) {
+            const std::array anchors{sim::Vec3{0.1f, 0.3f, 0}};
+            const std::array grabs{sim::Grab{.particle = 63, .radius = 0.1f, .target = {0.5f, 0.8f, 0.5f}}};
+            const std::array colliders{sim::HostCollider{.shape = sim::ColliderShape::box,
+                                                         .halfExtents = {0.1f, 0.1f, 0.1f},
+                                                         .pose = {.position = {0.4f, 0.1f, 0.1f}}}};
+            const std::array fields{
+                sim::ForceField{.kind = sim::FieldKind::wind, .vector = {2, 0, 0}, .strength = 0.6f}};
+            sim::Step step{.dt = 0.01f,
+                           .gravity = {0, -5, 0},
+                           .frame = frame,
+                           .anchors = anchors,
+                           .grabs = grabs,
+                           .hostColliders = colliders,
+                           .fields = fields};
+            if (frame == cutAt) step.blade = {.from = Example::bladeFrom, .to = Example::bladeTo};
+            if (frame == 0) simulation.recordReset(commands);
+            simulation.record(commands, step);
+        });
+    EXPECT_GT(simulation.status(steps - 1).linksCutInAll, 0u);
+    const vk::BufferView view = simulation.positions();
+    return read(host,
+                {.buffer = view.buffer, .offset = view.offset, .size = view.size, .stride = view.stride});
+}
+
+// Records the same steps by the C interface, frames from `first` on.
+void stepByC(HostDevice& host, SinewSimulation simulation, std::uint64_t first, std::uint64_t end) {
+    for (std::uint64_t frame = first; frame < end; ++frame)
+        host.submit([&](VkCommandBuffer commands) {
+            const SinewVec3 anchor{0.1f, 0.3f, 0};
+            SinewGrab grab = sinewDefaultGrab();
+            grab.particle = 63;
+            grab.radius = 0.1f;
+            grab.target = {0.5f, 0.8f, 0.5f};
+            SinewHostCollider collider = sinewDefaultHostCollider();
+            collider.shape = SINEW_BOX;
+            collider.halfExtents = {0.1f, 0.1f, 0.1f};
+            collider.pose.position = {0.4f, 0.1f, 0.1f};
+            SinewField field = sinewDefaultField();
+            field.kind = SINEW_FIELD_WIND;
+            field.vector = {2, 0, 0};
+            field.strength = 0.6f;
+            const SinewVec3 from[] = {{0.15f, -1, -1}, {0.15f, -1, 1}},
+                            to[] = {{0.15f, 1, -1}, {0.15f, 1, 1}};
+            SinewStep step = sinewDefaultStep();
+            step.dt = 0.01f;
+            step.gravity = {0, -5, 0};
+            step.frame = frame;
+            step.anchors = &anchor;
+            step.grabs = &grab;
+            step.hostColliders = &collider;
+            step.fields = &field;
+            step.anchorCount = step.grabCount = step.hostColliderCount = step.fieldCount = 1;
+            step.bladeFrom = from;
+            step.bladeTo = to;
+            step.bladeCount = frame == cutAt ? 2 : 0;
+            EXPECT_TRUE(isOk(sinewRecordStep(simulation, commands, &step)));
+        });
+}
+
+void reset(HostDevice& host, SinewSimulation simulation) {
+    host.submit([&](VkCommandBuffer commands) { EXPECT_TRUE(isOk(sinewRecordReset(simulation, commands))); });
+}
+
+TEST(CApiRecording, GivesTheBitsOfTheCppInterface) {
+    HostDevice host;
+    const Positions expected = runByCpp(host);
+    {
+        HostBuffers buffers(host);
+        SinewHostDevice handles = handlesOf(host);
+        handles.createBuffer = &HostBuffers::create;
+        handles.destroyBuffer = &HostBuffers::destroy;
+        handles.bufferUser = &buffers;
+        {
+            Device device;
+            ASSERT_TRUE(isOk(sinewBorrowDevice(&handles, &device)));
+            Scene scene;
+            makeExample(scene);
+            const SinewSettings settings = exampleSettings();
+            Simulation simulation;
+            buffers.refuseFrom = 5;
+            EXPECT_TRUE(failsWith(SINEW_ERROR_OUT_OF_MEMORY, "the host's hook",
+                                  sinewCreateSimulation(device, scene, &settings, &simulation)));
+            EXPECT_EQ(buffers.freed, buffers.made);
+            buffers.refuseFrom = ~std::size_t{0};
+            ASSERT_TRUE(isOk(sinewCreateSimulation(device, scene, &settings, &simulation)));
+            reset(host, simulation);
+            stepByC(host, simulation, 0, steps);
+            EXPECT_EQ(positionsOf(host, simulation), expected);
+
+            SinewStatus status{};
+            status.size = sizeof status;
+            ASSERT_TRUE(isOk(sinewGetStatus(simulation, steps - 1, &status)));
+            EXPECT_GT(status.linksCutInAll, 0u);
+            EXPECT_EQ(status.pieces, 2u);
+            EXPECT_EQ(sinewGetStatus(simulation, 0, &status), SINEW_NOT_READY); // too old
+            host.submit(
+                [&](VkCommandBuffer commands) { EXPECT_TRUE(isOk(sinewRecordSkin(simulation, commands))); });
+            SinewSkin skin{};
+            skin.size = sizeof skin;
+            ASSERT_TRUE(isOk(sinewGetSkin(simulation, 0, &skin)));
+            EXPECT_EQ(skin.indexCount, 3u * 2 * 6 * 9);
+            EXPECT_EQ(sinewGetSkin(simulation, 1, &skin), SINEW_END);
+            for (std::uint32_t output = SINEW_POSITIONS; output < SINEW_FORCE_SUMS; ++output) {
+                SinewBufferView view{};
+                EXPECT_TRUE(isOk(sinewGetView(simulation, output, &view)));
+                EXPECT_EQ(view.size > 0, output != SINEW_PIECE_DRAWS) << output; // those of sheets
+            }
+            SinewBufferView none{};
+            EXPECT_TRUE(
+                failsWith(SINEW_ERROR_INVALID_ARGUMENT, "output 12", sinewGetView(simulation, 12, &none)));
+            const char* complaint = nullptr;
+            EXPECT_EQ(sinewNextComplaint(simulation, &complaint), SINEW_END) << complaint;
+        }
+        EXPECT_EQ(buffers.freed, buffers.made);
+    }
+    EXPECT_EQ(host.finish(), std::vector<std::string>{});
+}
+
+TEST(CApiRecording, SavedStatesAndTakeOverContinueWithTheSameBits) {
+    HostDevice host;
+    const Positions expected = runByCpp(host);
+    {
+        const SinewHostDevice handles = handlesOf(host);
+        Device device;
+        ASSERT_TRUE(isOk(sinewBorrowDevice(&handles, &device)));
+        Scene scene;
+        makeExample(scene);
+        SinewSettings settings = exampleSettings();
+        Simulation first, second;
+        ASSERT_TRUE(isOk(sinewCreateSimulation(device, scene, &settings, &first)));
+        settings.contactRoom = 16;
+        ASSERT_TRUE(isOk(sinewCreateSimulation(device, scene, &settings, &second)));
+        reset(host, first);
+        stepByC(host, first, 0, 8);
+        host.submit([&](VkCommandBuffer commands) {
+            EXPECT_TRUE(isOk(sinewRecordTakeOver(second, commands, first)));
+            EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "itself",
+                                  sinewRecordTakeOver(first, commands, first)));
+        });
+        stepByC(host, second, 8, steps);
+        EXPECT_EQ(positionsOf(host, second), expected);
+
+        // Without the grab, which begins anew after a load, a repeated step has equal bits.
+        SinewSimulationInfo info{};
+        info.size = sizeof info;
+        ASSERT_TRUE(isOk(sinewGetSimulationInfo(first, &info)));
+        const vk::Device same = vk::Device::borrow(host.handles());
+        const vk::Buffer kept(same, {.name = "kept", .count = info.stateSize / 4, .stride = 4});
+        SinewBufferView view{.buffer = kept.view().buffer, .offset = 0, .size = info.stateSize, .stride = 4};
+        State state;
+        SinewStep step = sinewDefaultStep();
+        step.frame = 8;
+        host.submit([&](VkCommandBuffer commands) {
+            EXPECT_TRUE(isOk(sinewRecordStep(first, commands, &step)));
+            EXPECT_TRUE(isOk(sinewRecordSaveState(first, commands, &view, &state)));
+            step.frame = 9;
+            EXPECT_TRUE(isOk(sinewRecordStep(first, commands, &step)));
+        });
+        const Positions once = positionsOf(host, first);
+        host.submit([&](VkCommandBuffer commands) {
+            EXPECT_TRUE(isOk(sinewRecordLoadState(first, commands, &view, state)));
+            step.frame = 10;
+            EXPECT_TRUE(isOk(sinewRecordStep(first, commands, &step)));
+        });
+        EXPECT_EQ(positionsOf(host, first), once);
+        --view.size;
+        host.submit([&](VkCommandBuffer commands) {
+            EXPECT_TRUE(failsWith(SINEW_ERROR_MISMATCH, "a state has",
+                                  sinewRecordLoadState(first, commands, &view, state)));
+        });
+        Scene other;
+        makeCube(other);
+        Simulation foreign;
+        ASSERT_TRUE(isOk(sinewCreateSimulation(device, other, &settings, &foreign)));
+        ++view.size;
+        host.submit([&](VkCommandBuffer commands) {
+            EXPECT_TRUE(failsWith(SINEW_ERROR_MISMATCH, "another scene",
+                                  sinewRecordLoadState(foreign, commands, &view, state)));
+            EXPECT_TRUE(failsWith(SINEW_ERROR_MISMATCH, "", sinewRecordTakeOver(foreign, commands, first)));
+        });
+    }
+    EXPECT_EQ(host.finish(), std::vector<std::string>{});
+}
+
+TEST(CApiRecording, ComplainsOfMistakesOnce) {
+    HostDevice host;
+    {
+        const SinewHostDevice handles = handlesOf(host);
+        Device device;
+        ASSERT_TRUE(isOk(sinewBorrowDevice(&handles, &device)));
+        Scene scene;
+        makeCube(scene);
+        const SinewSettings settings = sinewDefaultSettings();
+        Simulation simulation;
+        ASSERT_TRUE(isOk(sinewCreateSimulation(device, scene, &settings, &simulation)));
+        std::vector<SinewGrab> grabs(20, sinewDefaultGrab());
+        SinewStep step = sinewDefaultStep();
+        host.submit([&](VkCommandBuffer commands) {
+            EXPECT_TRUE(isOk(sinewRecordStep(simulation, commands, &step))); // before a reset
+            EXPECT_TRUE(isOk(sinewRecordReset(simulation, commands)));
+            step.grabs = grabs.data();
+            step.grabCount = 20;
+            step.frame = 1;
+            EXPECT_TRUE(isOk(sinewRecordStep(simulation, commands, &step)));
+            EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "commands is null",
+                                  sinewRecordStep(simulation, nullptr, &step)));
+            step.grabs = nullptr; // but there are 20
+            EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "grabs is null",
+                                  sinewRecordStep(simulation, commands, &step)));
+        });
+        std::string all;
+        const char* sentence = nullptr;
+        while (sinewNextComplaint(simulation, &sentence) == SINEW_OK) all += std::string(sentence) + "\n";
+        EXPECT_NE(all.find("recordReset"), std::string::npos) << all;
+        EXPECT_NE(all.find("grab"), std::string::npos) << all;
+        EXPECT_EQ(sentence, nullptr);
+        step.grabCount = 0;
+        EXPECT_TRUE(failsWith(SINEW_ERROR_UNSUPPORTED, "borrowed", sinewStep(simulation, &step, 1)));
+    }
+    EXPECT_EQ(host.finish(), std::vector<std::string>{});
+}
+
+} // namespace
+} // namespace sinew::test
