@@ -18,7 +18,7 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Position based dynamics of soft bodies as
 set(CPACK_SOURCE_PACKAGE_FILE_NAME sinew-${PROJECT_VERSION})
 set(CPACK_SOURCE_IGNORE_FILES "/__pycache__/")
 set(CPACK_SOURCE_INSTALLED_DIRECTORIES ${PROJECT_BINARY_DIR}/archive/top .)
-foreach(folder .ci apps cmake debian docs include packaging scenes shaders src tests tools)
+foreach(folder .ci apps cmake debian docs include packaging python scenes shaders src tests tools)
     list(APPEND CPACK_SOURCE_INSTALLED_DIRECTORIES ${PROJECT_SOURCE_DIR}/${folder} ${folder})
 endforeach()
 include(CPack)

@@ -2,7 +2,7 @@
 #   cmake -DSOURCE=<sources> -DLIST=<file: target, hash of its list, folder of its modules, a line each> -DOUTPUT=<folder> -P StageArchive.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/HashShaders.cmake)
 file(REMOVE_RECURSE ${OUTPUT})
-foreach(name CHANGELOG.md CMakeLists.txt CMakePresets.json LICENSE README.md .clang-format)
+foreach(name CHANGELOG.md CMakeLists.txt CMakePresets.json LICENSE README.md pyproject.toml .clang-format)
     file(COPY ${SOURCE}/${name} DESTINATION ${OUTPUT})
 endforeach()
 sinew_hash_shaders(hash ${SOURCE}/shaders/glsl)

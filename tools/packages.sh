@@ -28,10 +28,11 @@ build_packages=(ca-certificates cmake ninja-build g++ libc6-dev
     libvulkan-dev libvulkan1 mesa-vulkan-drivers glslang-tools spirv-tools
     libeigen3-dev libassimp-dev zlib1g-dev libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev
     librsvg2-bin libbullet-dev # plots of `sinew study` as PNG; `sinew bench --peers`
+    pybind11-dev python3-dev python3-numpy # the Python module
     libgtest-dev) # required by the configure step, even without tests
 # Further packages for the tests.
 test_packages=(clang libx11-dev vulkan-validationlayers spirv-cross xvfb xauth xdotool imagemagick x11-apps
-    assimp-testmodels python3-minimal binutils pkg-config clang-format)
+    assimp-testmodels python3-minimal python3-pip python3-venv binutils pkg-config clang-format)
 
 # build PRESET [TARGET...]: configures at the first call, then builds.
 build() {

@@ -1,0 +1,50 @@
+// Arrays and vectors between Python and the C interface.
+#include "arrays.hpp"
+
+#include <string>
+
+namespace sinew::python {
+
+std::uint32_t rowsOf(const py::array& array, std::size_t columns, const char* name) {
+    const bool fits = columns == 1 ? array.ndim() == 1
+                                   : array.ndim() == 2 && static_cast<std::size_t>(array.shape(1)) == columns;
+    if (!fits || array.shape(0) > 0x7fffffff)
+        throw py::value_error(
+            std::string(name) + " must have " +
+            (columns == 1 ? "one dimension" : "the shape (n, " + std::to_string(columns) + ")"));
+    return static_cast<std::uint32_t>(array.shape(0));
+}
+
+PerElement::PerElement(const Floats& values, std::uint32_t count, const char* name)
+    : values_(values), data_(values_.data()), isOne_(values_.ndim() == 0) {
+    if (!isOne_ && (values_.ndim() != 1 || values_.shape(0) != static_cast<py::ssize_t>(count)))
+        throw py::value_error(std::string(name) + " must be a number, or an array of " +
+                              std::to_string(count));
+}
+
+py::array outputArray(SinewDevice device, SinewSimulation simulation, std::uint32_t output,
+                      py::object owner) {
+    SinewBufferView view{};
+    check(sinewGetView(simulation, output, &view));
+    const bool isIndices = view.stride == 4;
+    const py::ssize_t columns = isIndices ? 1 : view.stride / 4;
+    const py::ssize_t rows = view.stride == 0 ? 0 : static_cast<py::ssize_t>(view.size / view.stride);
+    const py::dtype type = isIndices ? py::dtype::of<std::uint32_t>() : py::dtype::of<float>();
+    const std::vector<py::ssize_t> shape =
+        columns == 1 ? std::vector<py::ssize_t>{rows} : std::vector<py::ssize_t>{rows, columns};
+    const void* address = nullptr;
+    std::size_t size = 0;
+    py::array array;
+    if (rows == 0) {
+        array = py::array(type, shape);
+    } else if (sinewMap(simulation, output, &address, &size) == SINEW_OK) {
+        array = py::array(type, shape, address, owner);
+    } else {
+        array = py::array(type, shape);
+        check(sinewDownload(device, &view, static_cast<std::size_t>(view.size), array.mutable_data()));
+    }
+    array.attr("setflags")(py::arg("write") = false);
+    return array;
+}
+
+} // namespace sinew::python

@@ -1,0 +1,136 @@
+"""Types and documentation of the module. Arrays are float32 and uint32; units are SI; y points up."""
+import os
+from typing import Any, Literal, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+Vector = Sequence[float]
+
+class Error(RuntimeError):
+    """A failure of the library or of the program. `result` names it: "SINEW_ERROR_INVALID_SCENE"."""
+    result: str
+
+class Device:
+    """A Vulkan device with a queue: by index or part of a name, else the best; `software` asks for lavapipe."""
+    def __init__(self, device: Optional[str] = None, software: bool = False, validation: bool = False, pipeline_cache: bytes = b"") -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def is_software(self) -> bool: ...
+    def pipeline_cache(self) -> bytes:
+        """Pipelines made so far, for `pipeline_cache` of a later run."""
+
+class Settings:
+    """How a scene is solved. Each property is also a keyword of the constructor."""
+    def __init__(self, **settings: Any) -> None: ...
+    solver: str  # "split", "jacobi", "gauss_seidel"
+    substeps: int  # a step; 0 = chosen by stiffness and tolerance
+    iterations: int
+    tolerance: float
+    contact_margin: float
+    contact_room: int
+    grabs: int  # at a time, at most 8
+    fields: int  # at a time, at most 16
+    frames_in_flight: int
+    omega: float
+    theta: float
+    weight: float
+    over_relaxation: float
+    warm_start: float
+    sleeps: bool
+    keeps_forces: bool
+
+class Scene:
+    """Bodies, constraints and colliders. Empty, or read from a scene file or a mesh file."""
+    def __init__(self, path: Optional[str] = None) -> None: ...
+    dt: float  # [s]
+    gravity: Sequence[float]  # [m/s^2]
+    @property
+    def particle_count(self) -> int: ...
+    @property
+    def settings(self) -> Settings:
+        """Settings of the file."""
+    def add_particles(self, positions: ArrayLike, velocities: Optional[ArrayLike] = None, inverse_masses: ArrayLike = 1.0,
+                      radii: ArrayLike = 0.0) -> int:
+        """Particles at positions (n, 3) [m]; inverse masses [1/kg], 0 = never moves; radii of contacts [m]. Returns the first index."""
+    def add_links(self, pairs: ArrayLike, rest_lengths: ArrayLike, compliances: ArrayLike = 0.0) -> None:
+        """Distance constraints of pairs (n, 2) of particles: rest lengths [m], compliances [m/N], 0 = rigid."""
+    def add_fixed(self, particles: ArrayLike) -> None: ...
+    def add_attachments(self, particles: ArrayLike, anchors: ArrayLike, compliances: ArrayLike = 0.0) -> int:
+        """Springs to points (n, 3) that `step(anchors=...)` moves [m]. Returns the first index."""
+    def add_body(self, name: str, first: int, count: int) -> int:
+        """Names a range of particles. Returns the index of the body, as the functions below do."""
+    def add_plane(self, normal: Vector = (0, 1, 0), offset: float = 0.0, friction: float = 0.0, restitution: float = 0.0) -> None: ...
+    def add_cloth(self, **sheet: Any) -> int:
+        """name, columns, rows, spacing, origin, right, down, area_density, membrane_stiffness, bending_stiffness, skip_stiffness,
+        thickness, tethers, pinned, cuttable, tear_strain: as SinewCloth in sinew.h."""
+    def add_lattice(self, **lattice: Any) -> int:
+        """name, cells, origin, spacing, young_modulus, poisson_ratio, recovery, density, radius, cuttable, tear_strain, skin, faces,
+        fill: as SinewLattice in sinew.h."""
+    def add_mesh(self, vertices: ArrayLike, triangles: ArrayLike, **mesh: Any) -> int:
+        """A voxel body of a triangle mesh: vertices (n, 3) [m], triangles (m, 3); name, spacing, resolution, young_modulus,
+        poisson_ratio, recovery, density, touches, cuttable, tear_strain: as SinewMesh in sinew.h."""
+    def add_mesh_file(self, path: str, scale: float = 1.0, **mesh: Any) -> int: ...
+    def validate(self, settings: Optional[Settings] = None) -> None:
+        """Raises Error with a sentence a line."""
+    def describe(self, settings: Optional[Settings] = None) -> str: ...
+
+class Grab:
+    """Pulls the particles near one particle towards a target, from its second step on."""
+    def __init__(self, particle: int, target: Vector, radius: float = 0.0, stiffness: float = 400.0, damping: float = 40.0) -> None: ...
+
+class Field:
+    """A force field: as SinewField in sinew.h."""
+    def __init__(self, kind: Literal["uniform", "radial", "wind", "turbulence"], vector: Vector = (0, 0, 0), center: Vector = (0, 0, 0),
+                 radius: float = 0.0, strength: float = 0.0, scale: float = 1.0, body: int = 0xFFFFFFFF) -> None: ...
+
+class State:
+    """A saved state of a simulation."""
+
+class Simulation:
+    """A scene that is stepped. Arrays are views of its memory if the host sees that, else copies; they cannot be written to. A view
+    shows later steps too, and keeps the simulation alive; when a step has needed more room, ask for the array again."""
+    def __init__(self, device: Device, scene: Scene, settings: Optional[Settings] = None) -> None:
+        """Without settings, those of the scene's file."""
+    def step(self, count: int = 1, dt: Optional[float] = None, gravity: Optional[Vector] = None, anchors: Optional[ArrayLike] = None,
+             grabs: Sequence[Grab] = (), fields: Sequence[Field] = ()) -> None:
+        """Takes `count` steps with this input and waits for them; dt [s] and gravity [m/s^2] are by default those of the scene."""
+    def reset(self) -> None: ...
+    def update_skin(self) -> None:
+        """Computes skin_vertices of the newest state."""
+    def save(self) -> State: ...
+    def load(self, state: State) -> None: ...
+    def status(self) -> dict[str, Any]:
+        """Figures of the newest step; empty before the first one."""
+    def impulses(self) -> NDArray[np.float32]:
+        """Impulses on bodies in the newest step (Settings.keeps_forces): (bodies, 5, 2, 3), by contacts, planes, colliders, holds and
+        grabs, linear [N s] and angular [N m s]."""
+    def complaints(self) -> list[str]:
+        """Sentences on input that was ignored, each kind once."""
+    @property
+    def positions(self) -> NDArray[np.float32]:
+        """(n, 4): position [m] and inverse mass [1/kg], 0 while the particle sleeps."""
+    @property
+    def velocities(self) -> NDArray[np.float32]:
+        """(n, 4): velocity [m/s], 0."""
+    @property
+    def skin_vertices(self) -> NDArray[np.float32]:
+        """(n, 8): position [m], 1, normal, 0 of the skins, after update_skin()."""
+    @property
+    def skin_indices(self) -> NDArray[np.uint32]: ...
+    @property
+    def pieces(self) -> NDArray[np.uint32]:
+        """For each particle the one that names its piece; empty if nothing can be cut."""
+    @property
+    def substeps(self) -> int: ...
+    @property
+    def steps_done(self) -> int: ...
+
+def run(scene: Union[str, os.PathLike[str]], frames: int = 240, **options: Any) -> dict[str, Any]:
+    """Runs a scene file or mesh by the program `sinew` and returns the report (docs/report.md)."""
+def describe(scene: Union[Scene, str, os.PathLike[str]], settings: Optional[Settings] = None) -> str:
+    """The passes, buffers and barriers of a step, as text."""
+def study(scene: str, out: Union[str, os.PathLike[str], None] = None, **options: Any) -> dict[str, Any]:
+    """Measures speed against error of every solver by the program `sinew` and returns the report. `out` keeps its folder."""

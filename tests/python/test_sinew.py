@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""Tests of the Python module, over arrays, files and the program. PYTHONPATH leads to the module."""
+import gc
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+
+import sinew
+
+SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
+
+
+def cube(height=0.2):
+    scene = sinew.Scene()
+    scene.add_lattice(cells=(2, 2, 2), origin=(0, height, 0), young_modulus=1e5, skin=True)
+    scene.add_plane()
+    return scene
+
+
+class Module(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.device = sinew.Device(software=True)
+
+    def test_device_has_a_name_and_keeps_pipelines(self):
+        self.assertTrue(self.device.is_software)
+        self.assertIn("llvmpipe", self.device.name)
+        again = sinew.Device(software=True, pipeline_cache=self.device.pipeline_cache())
+        self.assertEqual(again.name, self.device.name)
+
+    def test_particles_from_arrays_fall_as_bodies_do(self):
+        scene = sinew.Scene()
+        positions = np.random.default_rng(1).uniform(0, 1, (50, 3))
+        velocities = np.tile([0.0, 1.0, 0.0], (50, 1))
+        self.assertEqual(scene.add_particles(positions, velocities, inverse_masses=np.full(50, 2.0)), 0)
+        scene.gravity = (0, -10, 0)
+        scene.dt = 0.01
+        simulation = sinew.Simulation(self.device, scene, sinew.Settings(substeps=10))
+        simulation.step(20)
+        t = 0.2
+        expected = positions[:, 1] + t - 5 * t * t
+        np.testing.assert_allclose(simulation.positions[:, 1], expected, atol=0.02)
+        np.testing.assert_allclose(simulation.positions[:, 3], 2)
+        np.testing.assert_allclose(simulation.velocities[:, 1], -1, atol=0.02)
+        self.assertEqual((simulation.steps_done, simulation.substeps), (20, 10))
+
+    def test_links_hold_a_pendulum(self):
+        scene = sinew.Scene()
+        scene.add_particles([[0, 0, 0], [1, 0, 0]])
+        scene.add_links(np.array([[0, 1]]), 1.0)
+        scene.add_fixed([0])
+        simulation = sinew.Simulation(self.device, scene, sinew.Settings(substeps=50))
+        simulation.step(30)
+        self.assertAlmostEqual(float(np.linalg.norm(simulation.positions[1, :3])), 1, delta=0.01)
+        self.assertLess(simulation.positions[1, 1], -0.5)
+
+    def test_arrays_are_views_that_outlive_their_simulation(self):
+        simulation = sinew.Simulation(self.device, cube())
+        positions = simulation.positions
+        before = positions.copy()
+        self.assertFalse(positions.flags.owndata)
+        self.assertFalse(positions.flags.writeable)
+        simulation.step(5)
+        self.assertFalse(np.array_equal(positions, before))
+        np.testing.assert_array_equal(positions, simulation.positions)
+        after = positions.copy()
+        del simulation
+        gc.collect()
+        np.testing.assert_array_equal(positions, after)
+
+    def test_skins_have_unit_normals(self):
+        simulation = sinew.Simulation(self.device, cube())
+        simulation.step(3)
+        simulation.update_skin()
+        vertices, indices = simulation.skin_vertices, simulation.skin_indices
+        self.assertEqual(indices.size, 3 * 2 * 6 * 4)
+        self.assertLess(indices.max(), len(vertices))
+        np.testing.assert_allclose(np.linalg.norm(vertices[:, 4:7], axis=1), 1, atol=1e-3)
+
+    def test_states_are_restored_to_the_bit(self):
+        simulation = sinew.Simulation(self.device, cube())
+        simulation.step(10)
+        state = simulation.save()
+        simulation.step(10)
+        later = simulation.positions.copy()
+        simulation.load(state)
+        simulation.step(10)
+        np.testing.assert_array_equal(simulation.positions, later)
+        simulation.reset()
+        self.assertAlmostEqual(float(simulation.positions[:, 1].min()), 0.2, places=6)
+
+    def test_grabs_and_fields_move_bodies(self):
+        simulation = sinew.Simulation(self.device, cube(), sinew.Settings(grabs=1, fields=1))
+        simulation.step(60)
+        start = simulation.positions[:, :3].mean(axis=0)
+        held = simulation.positions[26, :3].tolist()
+        simulation.step(1, grabs=[sinew.Grab(26, held, radius=0.1)])
+        held[1] += 0.5
+        simulation.step(60, grabs=[sinew.Grab(26, held, radius=0.1)], fields=[sinew.Field("uniform", vector=(2, 0, 0))])
+        end = simulation.positions[:, :3].mean(axis=0)
+        self.assertGreater(end[1] - start[1], 0.2)
+        self.assertGreater(end[0] - start[0], 0.01)
+        simulation.step(1, grabs=[sinew.Grab(26, held)] * 3)
+        self.assertIn("grabs", "".join(simulation.complaints()))
+
+    def test_impulses_carry_the_weight(self):
+        scene = cube(height=0)
+        simulation = sinew.Simulation(self.device, scene, sinew.Settings(keeps_forces=True))
+        simulation.step(240)
+        force = simulation.impulses()[0, 1, 0] / scene.dt  # of the plane
+        weight = 1000 * 0.2**3 * 9.81
+        self.assertAlmostEqual(float(force[1]), weight, delta=0.02 * weight)
+
+    def test_errors_are_sentences(self):
+        scene = sinew.Scene()
+        scene.add_particles([[0, 0, 0]])
+        scene.add_links([[0, 5]], 1.0)
+        with self.assertRaises(sinew.Error) as raised:
+            scene.validate()
+        self.assertEqual(raised.exception.result, "SINEW_ERROR_INVALID_SCENE")
+        self.assertIn("distance[0]", str(raised.exception))
+        with self.assertRaises(ValueError):
+            scene.add_particles(np.zeros((4, 2)))
+        with self.assertRaises(ValueError):
+            scene.add_particles(np.zeros((4, 3)), inverse_masses=np.ones(3))
+        with self.assertRaises(TypeError):
+            scene.add_lattice(cell=(1, 1, 1))
+        with self.assertRaises(TypeError):
+            sinew.Settings(substep=3)
+        with self.assertRaises(ValueError):
+            sinew.Settings(solver="magic")
+        with self.assertRaises(sinew.Error):
+            sinew.Scene("no such file.toml")
+
+    def test_meshes_become_bodies(self):
+        scene = sinew.Scene()
+        vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        self.assertEqual(scene.add_mesh(vertices, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], resolution=8), 0)
+        self.assertGreater(scene.particle_count, 100)
+        scene.validate()
+
+    def test_files_and_descriptions(self):
+        scene = sinew.Scene(str(SCENES / "cube.toml"))
+        self.assertGreater(scene.settings.substeps, 0)
+        self.assertIn("gather_lattice", sinew.describe(scene))
+        self.assertEqual(sinew.describe(SCENES / "cube.toml"), sinew.describe(scene))
+
+    def test_the_program_gives_reports(self):
+        report = sinew.run(SCENES / "cube.toml", frames=5, substeps=8)
+        self.assertEqual(report["schema"], 1)
+        with self.assertRaises(sinew.Error) as raised:
+            sinew.run("no such file.toml")
+        self.assertEqual(raised.exception.result, "exit code 3")
+
+    def test_a_study_is_a_report(self):
+        with tempfile.TemporaryDirectory() as folder:
+            report = sinew.study("chain", out=folder, points=1, frames=2)
+            self.assertTrue((pathlib.Path(folder) / "study.json").exists())
+        self.assertIsInstance(report, dict)
+
+    def test_stubs_name_all_that_there_is(self):
+        stub = (pathlib.Path(sinew.__file__).parent / "__init__.pyi").read_text(encoding="utf-8")
+        for name in sinew.__all__:
+            self.assertRegex(stub, rf"(class|def) {name}\b")
+            for member in dir(getattr(sinew, name)) if isinstance(getattr(sinew, name), type) and name != "Error" else []:
+                if not member.startswith("_") and "pybind11" not in member:
+                    self.assertRegex(stub, rf"\b{member}\b", f"{name}.{member}")
+
+
+if __name__ == "__main__":
+    unittest.main()
