@@ -1,6 +1,7 @@
 #version 460
-// Impact zones, search: finds loose points whose path in the substep leads through a face, or so near to it that rounding
-// may soon decide the side, after all contacts and constraints. Such a point and the corners of the face join one zone.
+// Impact zones, search: finds loose points, and corners of sheets at other sheets, whose path in the substep leads
+// through a face, or so near to it that rounding may soon decide the side, after all contacts and constraints. Such a
+// point and the corners of the face join one zone.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define RUNS_LISTED
@@ -22,6 +23,8 @@ layout(std430, binding = 11) readonly buffer SearchedFaces { uint searchedFaces[
 layout(std430, binding = 12) readonly buffer Large { uint large[]; };                 // wide ones
 layout(std430, binding = 13) readonly buffer Meets { uint meeting[]; }; // by element of lists: 1 = comes within reach (find_face_contacts)
 layout(push_constant) uniform Push { ZonePush push; };
+#define SHEETS_BINDING 14
+#include "collision/one_sheet.glsl"
 #include "collision/zone_test.glsl"
 #include "collision/zone_trees.glsl"
 
@@ -57,10 +60,15 @@ bool areOne(uint i, ContactFace face) {
     return zone != 0u && SOLVED(face.a) == zone && SOLVED(face.b) == zone && SOLVED(face.c) == zone;
 }
 
+// A sheet is kept from itself by separations, and contacts alone hold it at faces of bodies.
+bool isLeftOut(uint i, uint f, ContactFace face) {
+    return hasSheets && sheets[i] != 0u && (f >= push.sheets || areOneSheet(i, face.a));
+}
+
 // Tests a point with a face that it touches at distances below `reach`; the sign bit is that of the thickness.
 void testPair(uint i, Path point, uint f, float reach) {
     const ContactFace face = faces[f];
-    if (areOne(i, face)) return;
+    if (areOne(i, face) || isLeftOut(i, f, face)) return;
     const bool isSolid = f >= push.sheets && f < push.moving;
     const float front = floatBitsToUint(reach) >> 31 != 0u ? -1.0 : 1.0;
     const float time = timeOfPassing(passageOf(point, face), abs(reach), isSolid ? front : 0.0);

@@ -284,9 +284,20 @@ row_contacts::Rows addRows(ProgramBuilder& program, const SceneModel& model, con
     return rows;
 }
 
-// The points and faces of impact zones. Loose points have no links, and are no corner of a face.
+// Whether a scene has more than one sheet.
+bool haveSeveral(std::span<const std::uint32_t> sheetsOfSlots) {
+    std::uint32_t first = 0;
+    for (const std::uint32_t sheet : sheetsOfSlots) {
+        if (first == 0) first = sheet;
+        if (sheet != 0 && sheet != first) return true;
+    }
+    return false;
+}
+
+// The points and faces of impact zones. Loose points have no links, and are no corner of a face; corners of
+// sheets start zones with other sheets.
 impact_zones::Request zonesOf(const Scene& scene, const StateLayout& layout, const Faces& faces,
-                              const face_lists::Lists& lists) {
+                              const face_lists::Lists& lists, const separations::Separations& sheets) {
     impact_zones::Request request{.slots = layout.count,
                                   .moving = faces.moving,
                                   .sheets = faces.sheets,
@@ -301,6 +312,9 @@ impact_zones::Request zonesOf(const Scene& scene, const StateLayout& layout, con
         for (const std::uint32_t i : face.particles) request.loose[layout.slot[i]] = 0;
     for (const DistanceConstraint& link : scene.distances)
         request.loose[layout.slot[link.a]] = request.loose[layout.slot[link.b]] = 0;
+    if (haveSeveral(sheets.ofSlots))
+        for (std::size_t slot = 0; slot < sheets.ofSlots.size(); ++slot)
+            if (sheets.ofSlots[slot] != 0) request.loose[slot] = -1;
     return request;
 }
 
@@ -333,9 +347,10 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const ParticleBuf
     shown.faceLists = contacts.lists.pooled.ranges;
     if (std::ranges::find(faces.isOfCells, true) != faces.isOfCells.end())
         contacts.opened = program.scratch<std::uint32_t>("faces.opened", faces.faces.size());
-    contacts.zones = impact_zones::add(program, zonesOf(model.scene, model.layout, faces, contacts.lists));
     contacts.separations = separations::add(program, model, std::span(faces.faces).first(faces.sheets),
                                             contacts.lists.grid.frames);
+    contacts.zones = impact_zones::add(
+        program, zonesOf(model.scene, model.layout, faces, contacts.lists, contacts.separations));
     contacts.rows.touching = {contacts.zones.finding, contacts.zones.solving, contacts.zones.meeting,
                               contacts.separations.sheets};
     if (contacts.hasStops()) addStopBuffers(program, model, particles, faces, contacts);
@@ -393,7 +408,9 @@ void addZones(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                              .lists = rows.lists.ranges,
                              .searched = contacts.lists.searched,
                              .large = contacts.lists.large,
-                             .groups = rows.particles.listed},
+                             .groups = rows.particles.listed,
+                             .sheets = contacts.separations.sheets,
+                             .constants = contacts.separations.constants()},
                             predicted, state);
 }
 

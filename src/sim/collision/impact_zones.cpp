@@ -47,15 +47,16 @@ void addPasses(ProgramBuilder& program, const Zones& zones, const Found& found,
                                        state.velocities,    state.step,           zones.words,
                                        zones.pairs};
     std::vector<BufferId> searching = shared, solving = shared;
-    searching.insert(searching.end(), {found.faces, found.contacts, found.lists, zones.solving,
-                                       found.searched, found.large, zones.meeting, found.groups});
+    searching.insert(searching.end(),
+                     {found.faces, found.contacts, found.lists, zones.solving, found.searched, found.large,
+                      zones.meeting, found.sheets, found.groups});
     solving.insert(solving.end(), {zones.zones, zones.finding});
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
     forces::bindTo(state, &forces::Forces::ofContacts, solving, constants);
     layout::ZonePush push = zones.push;
     for (push.round = 0; push.round < ZONE_ROUNDS; ++push.round) {
         program.dispatchIndirect(k::findPassingPoints, {zones.finding, push.round, push.count}, searching,
-                                 push);
+                                 push, found.constants);
         program.dispatchIndirect(k::solveZones, {zones.solving, push.round, GROUP_ITEMS}, solving, push,
                                  constants);
     }

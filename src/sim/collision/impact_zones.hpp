@@ -1,10 +1,10 @@
-// Impact zones: a loose point that passes a face in a substep after all contacts and constraints, although
-// contacts act against it. Contacts divide a particle among all that it touches, so a fast or heavy ball may
-// pass cloth whose particles are held by others. A search finds each loose point whose path leads through a
-// face. The point and the corners of the face join one zone, which moves on like one rigid body that does
-// not turn: momentum is exact, and nothing passes within the zone. A zone may then pass other faces, so
-// searches and solutions alternate, ZONE_ROUNDS times at most. If nothing is fast or deep enough to pass,
-// all passes are empty.
+// Impact zones: a loose point, or a corner of a sheet at another sheet, that passes a face in a substep after
+// all contacts and constraints, although contacts act against it. Contacts divide a particle among all that
+// it touches, so a fast or heavy ball may pass cloth whose particles are held by others. A search finds each
+// such point whose path leads through a face. The point and the corners of the face join one zone, which
+// moves on like one rigid body that does not turn: momentum is exact, and nothing passes within the zone. A
+// zone may then pass other faces, so searches and solutions alternate, ZONE_ROUNDS times at most. If nothing
+// is fast or deep enough to pass, all passes are empty.
 #pragma once
 
 #include "sim/model/state.hpp"
@@ -18,7 +18,7 @@ struct Request {
     std::uint32_t large = 0; ///< as in layout::FaceFindPush
     std::uint32_t room = 0;  ///< elements of the lists
     /// By slot: radius [m] of a point without links that is no corner of a face, else 0. Below 0, the point
-    /// is tested with the faces of its list alone.
+    /// is tested with the faces of its list alone: so are corners of sheets, with faces of other sheets.
     std::vector<float> loose;
 };
 
@@ -38,8 +38,10 @@ Zones add(ProgramBuilder& program, const Request& request);
 /// Contacts of points with faces.
 struct Found {
     BufferId faces, contacts, lists;
-    BufferId searched, large; ///< small and wide faces that exist (face_lists::Lists)
-    BufferId groups;          ///< work groups that have a point with candidates
+    BufferId searched, large;            ///< small and wide faces that exist (face_lists::Lists)
+    BufferId groups;                     ///< work groups that have a point with candidates
+    BufferId sheets;                     ///< separations::Separations::sheets
+    ProgramBuilder::Constants constants; ///< of the kernels that read it
 };
 
 /// Appends the passes; nothing if there are no zones. `predicted`: positions and velocities before contacts

@@ -60,9 +60,10 @@ std::vector<std::uint32_t> sheetsOf(const SceneModel& model, std::span<const lay
 
 Separations add(ProgramBuilder& program, const SceneModel& model, std::span<const layout::ContactFace> sheets,
                 const body_frames::Frames& frames) {
-    const std::vector<std::uint32_t> ofSlots = sheetsOf(model, sheets);
+    std::vector<std::uint32_t> ofSlots = sheetsOf(model, sheets);
     if (std::ranges::count(ofSlots, 0u) == std::ssize(ofSlots)) return {};
     return {.sheets = program.upload("faces.sheets", ofSlots),
+            .ofSlots = ofSlots,
             .parts = program.upload("separations.parts", std::vector<float>(ofSlots.size(), 1)),
             .frames = frames};
 }

@@ -12,9 +12,10 @@
 namespace sinew::sim::collision::separations {
 
 struct Separations {
-    BufferId sheets = unbound;  ///< by slot: the sheet that it is a corner of (collision/sheet_marks.h)
-    BufferId parts;             ///< by slot: part of its way in the substep that a particle may go
-    body_frames::Frames frames; ///< of the lists of faces: their sums give the speed of a sheet
+    BufferId sheets = unbound; ///< by slot: the sheet that it is a corner of (collision/sheet_marks.h)
+    std::vector<std::uint32_t> ofSlots; ///< the contents of `sheets`
+    BufferId parts;                     ///< by slot: part of its way in the substep that a particle may go
+    body_frames::Frames frames;         ///< of the lists of faces: their sums give the speed of a sheet
 
     /// Constants of the kernels that find contacts, which get `sheets` as well (collision/one_sheet.glsl).
     ProgramBuilder::Constants constants() const {
