@@ -50,6 +50,6 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with zipfile.ZipFile(pathlib.Path(wheel_directory) / wheel, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in files.items():
             entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
-            entry.external_attr = (0o755 if name.startswith("sinew/bin/") else 0o644) << 16
+            entry.external_attr = (0o100755 if name.startswith("sinew/bin/") else 0o100644) << 16  # pip asks for a regular file
             archive.writestr(entry, data, zipfile.ZIP_DEFLATED)
     return wheel
