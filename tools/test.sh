@@ -24,8 +24,7 @@ tests() {
     local preset=$1
     shift
     echo "testing (build/$preset)"
-    # three at a time on the two cores of continuous integration: tests with a window wait for half of their time
-    ctest --preset "$preset" --output-on-failure -j3 "$@" | tee "build/$preset/tests.log"
+    ctest --preset "$preset" --output-on-failure -j2 "$@" | tee "build/$preset/tests.log"
 }
 
 # summary PRESET: prints the number of tests that passed and the names of the others.
