@@ -29,10 +29,12 @@ struct SINEW_API PartRange {
 /// A scene of parts, and its simulation. A part is a Scene of its own: bodies with their constraints, faces,
 /// grids and skins, colliders, planes, attachments. After a change, a thread makes a simulation of the new
 /// scene beside the one that runs; between two steps that one takes over all that lives on: positions,
-/// velocities, cuts, the memory of contacts, grabs and sleep. With `split` and `jacobi` its steps have the
-/// same bits as without the change where no pass needs a sum over all bodies, as contacts with faces do, and
-/// nothing new touches it. With `gauss_seidel` the multipliers of the last step are lost. All that sleeps
-/// wakes if a part is removed, if one with colliders or planes arrives, or if the number of substeps grows.
+/// velocities, cuts, the memory of contacts, grabs and sleep. With `split` and `jacobi` the state has the
+/// same bits afterwards. Its steps have the bits that they have without the change if nothing new touches it
+/// and the new scene has the same kernels; other bodies may lead to another order of sums, or to another unit
+/// of integer sums, and then to another last digit. With `gauss_seidel` the multipliers of the last step are
+/// lost. All that sleeps wakes if a part is removed, if one with colliders or planes arrives, or if the
+/// number of substeps grows.
 ///
 /// A material that was changed by Simulation::recordChange() lasts until the next take-over.
 ///
