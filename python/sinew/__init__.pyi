@@ -128,6 +128,45 @@ class Simulation:
     @property
     def steps_done(self) -> int: ...
 
+class Part:
+    """Names a part of a world; may be a key of a dict."""
+
+class World:
+    """A simulation to which parts are added, and from which they are removed, while it runs. `base` stays for good."""
+    def __init__(self, device: Device, base: Scene, settings: Optional[Settings] = None) -> None:
+        """Without settings, those of the file of `base`."""
+    def add(self, scene: Scene) -> Part:
+        """Adds a copy of a scene as a part, at its positions; it arrives before the next step. Each of its particles belongs to a body
+        of its own. Gravity, dt and damping are those of the base."""
+    def remove(self, part: Part) -> None:
+        """Removes a part; it leaves before the next step."""
+    def __contains__(self, part: Part) -> bool:
+        """Whether the part was added and not removed since."""
+    def find(self, part: Part) -> Optional[dict[str, tuple[int, int]]]:
+        """First index and number of its elements by kind, as "particles"; None before it has arrived. Raises Error for a part that has
+        left."""
+    def update(self) -> None:
+        """Waits until all changes have arrived: find() then gives the indices that the next step has."""
+    def step(self, count: int = 1, dt: Optional[float] = None, gravity: Optional[Vector] = None, anchors: Optional[ArrayLike] = None,
+             grabs: Sequence[Grab] = (), fields: Sequence[Field] = ()) -> None:
+        """update(), then `count` steps as Simulation.step()."""
+    def positions(self, part: Optional[Part] = None) -> NDArray[np.float32]:
+        """A copy for a part, or for all: (n, 4), position [m] and inverse mass [1/kg], 0 while the particle sleeps."""
+    def velocities(self, part: Optional[Part] = None) -> NDArray[np.float32]:
+        """A copy for a part, or for all: (n, 4), velocity [m/s], 0."""
+    def counts(self) -> dict[str, int]:
+        """Number of elements of each kind."""
+    @property
+    def is_changing(self) -> bool:
+        """Whether changes have not arrived yet."""
+    @property
+    def take_overs(self) -> int:
+        """How often changes have arrived: each time indices are new."""
+    @property
+    def substeps(self) -> int: ...
+    @property
+    def steps_done(self) -> int: ...
+
 def run(scene: Union[str, os.PathLike[str]], frames: int = 240, **options: Any) -> dict[str, Any]:
     """Runs a scene file or mesh by the program `sinew` and returns the report (docs/report.md)."""
 def describe(scene: Union[Scene, str, os.PathLike[str]], settings: Optional[Settings] = None) -> str:

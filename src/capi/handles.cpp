@@ -24,25 +24,36 @@ const char* nameOf(Kind kind) noexcept {
     case Kind::simulation:
         return "simulation";
     case Kind::state:
+        return "state";
+    case Kind::world:
         break;
     }
-    return "state";
+    return "world";
 }
 
 class Table {
 public:
-    std::uint64_t add(std::unique_ptr<Object> object, Object* parent) {
+    std::uint64_t add(std::unique_ptr<Object> object, Object* parent, std::unique_ptr<Object> companion) {
         const std::lock_guard lock(mutex_);
-        if (free_ == none) {
-            slots_.emplace_back();
-            free_ = slots_.size() - 1;
+        reserveTwo();
+        if (companion) {
+            companion->isCompanion_ = true;
+            object->companion_ = place(std::move(companion));
         }
-        const std::size_t index = free_;
-        free_ = slots_[index].nextFree;
         object->parent_ = parent;
         if (parent != nullptr) ++parent->dependents_;
-        slots_[index].object = std::move(object);
-        return handleOf(slots_[index].generation, index);
+        return place(std::move(object));
+    }
+
+    std::uint64_t companionOf(const Object& object) noexcept {
+        const std::lock_guard lock(mutex_);
+        return object.companion_;
+    }
+
+    void renewCompanion(Object& object) noexcept {
+        const std::lock_guard lock(mutex_);
+        const std::size_t index = (object.companion_ & 0xffffffff) - 1;
+        object.companion_ = handleOf(++slots_[index].generation, index);
     }
 
     Object& acquire(std::uint64_t id, Kind kind, Access access) {
@@ -63,22 +74,25 @@ public:
     }
 
     void destroy(std::uint64_t id, Kind kind) {
-        std::unique_ptr<Object> object;
+        std::unique_ptr<Object> object, companion;
         {
             const std::lock_guard lock(mutex_);
             Slot& slot = find(id, kind);
-            if (slot.object->users_.load(std::memory_order_acquire) != 0) throw inUse(kind);
-            if (const std::size_t count = slot.object->dependents_)
-                throw Failed{SINEW_ERROR_IN_USE, "the " + std::string(nameOf(kind)) + " is still used by " +
-                                                     std::to_string(count) + " simulation" +
-                                                     (count > 1 ? "s" : "") + ": destroy them first"};
-            object = std::move(slot.object);
-            ++slot.generation;
-            slot.nextFree = free_;
-            free_ = static_cast<std::size_t>(&slot - slots_.data());
+            if (slot.object->isCompanion_)
+                throw Failed{SINEW_ERROR_IN_USE, "the " + std::string(nameOf(kind)) +
+                                                     " belongs to a world, and is destroyed with it"};
+            requireUnused(*slot.object);
+            Slot* other = nullptr;
+            if (const std::uint64_t its = slot.object->companion_) {
+                other = &slots_[(its & 0xffffffff) - 1];
+                requireUnused(*other->object);
+            }
+            object = takeOut(slot);
+            if (other != nullptr) companion = takeOut(*other);
         }
         Object* parent = object->parent_;
-        object.reset(); // without the lock: a simulation waits for its queue
+        companion.reset(); // without the lock: a simulation waits for its queue
+        object.reset();
         const std::lock_guard lock(mutex_);
         if (parent != nullptr) --parent->dependents_;
     }
@@ -90,6 +104,38 @@ private:
         std::uint32_t generation = 1;   // of the object, or of the next one
         std::size_t nextFree = none;
     };
+
+    /// Makes two free slots, so that placing objects cannot fail.
+    void reserveTwo() {
+        while (free_ == none || slots_[free_].nextFree == none) {
+            slots_.emplace_back();
+            slots_.back().nextFree = free_;
+            free_ = slots_.size() - 1;
+        }
+    }
+
+    std::uint64_t place(std::unique_ptr<Object> object) noexcept {
+        const std::size_t index = free_;
+        free_ = slots_[index].nextFree;
+        slots_[index].object = std::move(object);
+        return handleOf(slots_[index].generation, index);
+    }
+
+    std::unique_ptr<Object> takeOut(Slot& slot) noexcept {
+        ++slot.generation;
+        slot.nextFree = free_;
+        free_ = static_cast<std::size_t>(&slot - slots_.data());
+        return std::move(slot.object);
+    }
+
+    static void requireUnused(const Object& object) {
+        if (object.users_.load(std::memory_order_acquire) != 0) throw inUse(object.kind_);
+        if (const std::size_t count = object.dependents_)
+            throw Failed{
+                SINEW_ERROR_IN_USE,
+                "the " + std::string(nameOf(object.kind_)) + " is still used by " + std::to_string(count) +
+                    (count > 1 ? " simulations or worlds" : " simulation or world") + ": destroy them first"};
+    }
 
     static Failed inUse(Kind kind) {
         return {SINEW_ERROR_IN_USE,
@@ -105,7 +151,9 @@ private:
             throw Failed{SINEW_ERROR_INVALID_HANDLE, handleOfThe(kind) + " was never given out"};
         Slot& slot = slots_[index];
         if (slot.generation != id >> 32 || !slot.object)
-            throw Failed{SINEW_ERROR_INVALID_HANDLE, "the " + std::string(nameOf(kind)) + " was destroyed"};
+            throw Failed{SINEW_ERROR_INVALID_HANDLE,
+                         "the " + std::string(nameOf(kind)) + " was destroyed" +
+                             (kind == Kind::simulation ? ", or its world has taken changes over since" : "")};
         if (slot.object->kind_ != kind)
             throw Failed{SINEW_ERROR_INVALID_HANDLE,
                          handleOfThe(kind) + " is that of a " + std::string(nameOf(slot.object->kind_))};
@@ -128,7 +176,16 @@ Table& table() {
 } // namespace
 
 std::uint64_t addObject(std::unique_ptr<Object> object, Object* parent) {
-    return table().add(std::move(object), parent);
+    return table().add(std::move(object), parent, nullptr);
+}
+std::uint64_t addObject(std::unique_ptr<Object> object, Object* parent, std::unique_ptr<Object> companion) {
+    return table().add(std::move(object), parent, std::move(companion));
+}
+std::uint64_t companionOf(const Object& object) noexcept {
+    return table().companionOf(object);
+}
+void renewCompanion(Object& object) noexcept {
+    table().renewCompanion(object);
 }
 Object& acquire(std::uint64_t id, Kind kind, Access access) {
     return table().acquire(id, kind, access);

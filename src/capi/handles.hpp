@@ -17,7 +17,7 @@ struct Failed {
     std::string sentence;
 };
 
-enum class Kind { device, scene, simulation, state };
+enum class Kind { device, scene, simulation, state, world };
 const char* nameOf(Kind kind) noexcept;
 
 enum class Access {
@@ -38,12 +38,21 @@ private:
     const Kind kind_;
     std::atomic<int> users_ = 0; ///< readers, or -1 while it is written; grows under the mutex of the table
     // Guarded by the mutex of the table:
-    std::size_t dependents_ = 0; ///< objects that were made with this one and exist
-    Object* parent_ = nullptr;   ///< that this one is a dependent of
+    std::size_t dependents_ = 0;  ///< objects that were made with this one and exist
+    Object* parent_ = nullptr;    ///< that this one is a dependent of
+    std::uint64_t companion_ = 0; ///< handle of an object that is destroyed with this one alone; 0 = none
+    bool isCompanion_ = false;
 };
 
 /// Adds an object and returns its handle. `parent`, if not null, must not be destroyed before it.
 std::uint64_t addObject(std::unique_ptr<Object> object, Object* parent = nullptr);
+/// The same with a companion, which has a handle of its own and is destroyed before `object`, by no other
+/// call.
+std::uint64_t addObject(std::unique_ptr<Object> object, Object* parent, std::unique_ptr<Object> companion);
+/// Handle of the companion of an object.
+std::uint64_t companionOf(const Object& object) noexcept;
+/// Gives the companion a new handle: the former one is stale. Both objects must be in use by this call.
+void renewCompanion(Object& object) noexcept;
 /// Throws Failed with SINEW_ERROR_INVALID_HANDLE or SINEW_ERROR_IN_USE.
 Object& acquire(std::uint64_t id, Kind kind, Access access);
 void release(Object& object, Access access) noexcept;

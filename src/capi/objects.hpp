@@ -7,6 +7,7 @@
 #include "sinew/simulation.hpp"
 #include "sinew/vk/loader.hpp"
 #include "sinew/vk/queue.hpp"
+#include "sinew/world.hpp"
 
 #include <deque>
 #include <mutex>
@@ -46,22 +47,36 @@ struct StepInput {
 struct SimulationObject final : Object {
     static constexpr Kind kind = Kind::simulation;
     SimulationObject(DeviceObject& itsDevice, const sim::Scene& itsScene, const sim::Settings& itsSettings);
+    /// The present simulation of a world, which outlives this object.
+    SimulationObject(DeviceObject& itsDevice, sim::World& itsWorld);
     ~SimulationObject() override;
 
     DeviceObject& device;
-    sim::Settings settings;          ///< of `simulation`, with a number of substeps
-    std::optional<sim::Scene> scene; ///< for successors; only on a device with a queue
-    std::unique_ptr<sim::Simulation> simulation;
+    sim::Settings settings;                 ///< of `simulation`, with a number of substeps
+    std::optional<sim::Scene> scene;        ///< for successors; only on a device with a queue
+    std::unique_ptr<sim::Simulation> owned; ///< null for that of a world
+    sim::Simulation* simulation;
     std::uint32_t particles = 0, bodies = 0;
     StepInput input;
     std::deque<std::string> complaints; ///< not yet returned
     std::string told;                   ///< returned last
     // Of sinewStep():
     sim::Rooms rooms;
-    bool isReset = false;
+    bool isReset = false; ///< also of a world's
     std::uint64_t nextFrame = 0, stepsDone = 0;
     std::vector<std::unique_ptr<sim::Simulation>> predecessors; ///< kept for addresses that were given out
     bool isMapped = false;                                      ///< addresses of `simulation` were given out
+};
+
+struct WorldObject final : Object {
+    static constexpr Kind kind = Kind::world;
+    WorldObject(DeviceObject& itsDevice, const sim::Scene& base, const sim::Settings& settings)
+        : Object(kind), device(itsDevice), world(itsDevice.device, base, settings),
+          attachments(base.attachments.size()) {}
+    DeviceObject& device;
+    sim::World world;
+    std::uint64_t takeOvers = 0;
+    std::size_t attachments; ///< at least as many as any scene has that is being made
 };
 
 struct StateObject final : Object {
@@ -87,10 +102,27 @@ private:
     bool isKept_ = false;
 };
 
+/// A world and its simulation, in use by this call: one thread uses both.
+class UseOfWorld {
+public:
+    explicit UseOfWorld(std::uint64_t id)
+        : world_(id, Access::write), simulation_(companionOf(*world_), Access::write) {}
+    WorldObject* operator->() const noexcept { return &*world_; }
+    WorldObject& object() const noexcept { return *world_; }
+    SimulationObject& simulation() const noexcept { return *simulation_; }
+
+private:
+    Use<WorldObject> world_;
+    Use<SimulationObject> simulation_;
+};
+
 /// Throws Failed (UNSUPPORTED) if the device has no queue of its own.
 vk::Queue& queueOf(DeviceObject& device);
 /// The step of the core, with spans into `input`. Allocates nothing.
 sim::Step stepOf(const SinewStep& step, StepInput& input);
+SinewStatus fromStatus(const sim::StepStatus& status);
+/// Moves complaints of the core to those that are not yet returned.
+void collectComplaints(SimulationObject& object);
 /// Empty for an output that the scene does not have. Throws for an unknown output.
 vk::BufferView viewOf(const SimulationObject& object, std::uint32_t output);
 

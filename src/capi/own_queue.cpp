@@ -1,5 +1,5 @@
 // Steps, copies and saved states for programs without an engine, on the queue of their device.
-#include "capi/objects.hpp"
+#include "capi/stepper.hpp"
 
 #include "sinew/vk/check.hpp"
 
@@ -10,35 +10,14 @@ namespace sinew::capi {
 
 namespace {
 
-/// The queue of a device, for one thread. What is submitted and not waited for has finished at the end, also
-/// if an exception leaves the scope: the objects that it uses may then be destroyed.
-class Submitting {
-public:
-    explicit Submitting(DeviceObject& device)
-        : queue_(queueOf(device)), lock_(device.queueMutex), drain_(queue_) {}
-    vk::Queue* operator->() const noexcept { return &queue_; }
-
-    /// Submits what `record` records, and waits.
-    template <typename Record> void run(const vk::Device& device, Record&& record) {
-        const VkCommandBuffer commands = queue_.begin();
-        record(commands);
-        vk::Commands(device, commands).hostBarrier();
-        queue_.wait(queue_.submit(commands));
-    }
-
-private:
-    vk::Queue& queue_;
-    std::lock_guard<std::mutex> lock_;
-    vk::Drain drain_;
-};
-
 /// Continues in a simulation with these settings; all steps have finished.
 void continueWith(SimulationObject& object, Submitting& queue, const sim::Settings& settings) {
     const vk::Device& device = object.device.device;
     auto next = std::make_unique<sim::Simulation>(device, *object.scene, settings);
     if (object.isMapped) object.predecessors.reserve(object.predecessors.size() + 1);
     queue.run(device, [&](VkCommandBuffer commands) { next->recordTakeOver(commands, *object.simulation); });
-    std::swap(object.simulation, next);
+    std::swap(object.owned, next);
+    object.simulation = object.owned.get();
     if (object.isMapped) object.predecessors.push_back(std::move(next));
     object.isMapped = false;
     object.settings = settings;
@@ -68,71 +47,18 @@ void growSurface(SimulationObject& object, Submitting& queue, std::uint32_t need
     }
 }
 
-void resetOnce(SimulationObject& object, Submitting& queue) {
-    if (object.isReset) return;
-    const VkCommandBuffer commands = queue->begin();
-    object.simulation->recordReset(commands);
-    queue->submit(commands);
-    object.isReset = true;
-}
-
-/// Takes steps as far as several may be in flight, and repeats those that must be.
-class Stepper {
+/// Steps of a simulation that is replaced when it needs more room.
+class OwnStepper final : public Stepper {
 public:
-    Stepper(SimulationObject& object, Submitting& queue, const sim::Step& step)
-        : object_(object), queue_(queue), step_(step), values_(object.settings.framesInFlight) {
-        step_.repeats = true;
-    }
-
-    void take(std::uint32_t count) {
-        const std::uint64_t end = object_.nextFrame + count;
-        std::uint64_t waiting = object_.nextFrame;
-        while (waiting < end) {
-            if (object_.nextFrame < end && object_.nextFrame - waiting < values_.size())
-                submit();
-            else if (finish(waiting))
-                ++waiting;
-            else
-                object_.nextFrame = waiting;
-        }
-        growSurface(object_, queue_, surfaceMissing_);
-    }
+    using Stepper::Stepper;
 
 private:
-    void submit() {
-        step_.frame = object_.nextFrame;
-        const VkCommandBuffer commands = queue_->begin();
-        object_.simulation->record(commands, step_);
-        vk::Commands(object_.device.device, commands).hostBarrier();
-        values_[step_.frame % values_.size()] = queue_->submit(commands);
-        ++object_.nextFrame;
+    void growContacts(const sim::StepStatus& status) override {
+        capi::growContacts(object_, queue_, status.contactRoom);
     }
-
-    /// False if the step and those behind it must be repeated.
-    bool finish(std::uint64_t frame) {
-        queue_->wait(values_[frame % values_.size()]);
-        const sim::StepStatus status = object_.simulation->status(frame);
-        if (!status.isFinished)
-            throw std::logic_error("the status of step " + std::to_string(frame) + " is not there");
-        if (status.contactRoom > 0 || status.lacksLists || status.nonFinite > 0) queue_->waitIdle();
-        if (status.contactRoom > 0) growContacts(object_, queue_, status.contactRoom);
-        if (status.contactRoom > 0 || status.lacksLists) return false;
-        if (status.nonFinite > 0)
-            throw Failed{SINEW_ERROR_DIVERGED, "step " + std::to_string(frame) + ": the state of " +
-                                                   std::to_string(status.nonFinite) +
-                                                   " particles is not finite, the first one is particle " +
-                                                   std::to_string(status.firstBadParticle) +
-                                                   ": take more substeps"};
-        ++object_.stepsDone;
-        surfaceMissing_ = status.cutSurfaceMissing;
-        return true;
+    void growSurface(const sim::StepStatus& status) override {
+        capi::growSurface(object_, queue_, status.cutSurfaceMissing);
     }
-
-    SimulationObject& object_;
-    Submitting& queue_;
-    sim::Step step_;
-    std::vector<std::uint64_t> values_; // of the timeline, of steps in flight
-    std::uint32_t surfaceMissing_ = 0;
 };
 
 vk::Buffer bufferFor(const vk::Device& device, std::uint64_t size, vk::MemoryKind kind) {
@@ -176,10 +102,12 @@ SinewResult sinewStep(SinewSimulation simulation, const SinewStep* step, uint32_
     return call(__func__, [&] {
         const SinewStep& given = checked(step, "SinewStep");
         const Use<SimulationObject> object(simulation.id, Access::write);
+        if (!object->owned)
+            throw Failed{SINEW_ERROR_UNSUPPORTED, "the simulation belongs to a world: use sinewStepWorld"};
         const sim::Step taken = stepOf(given, object->input);
         Submitting queue(object->device);
         resetOnce(*object, queue);
-        Stepper(*object, queue, taken).take(count);
+        OwnStepper(*object, queue, taken).take(count);
     });
 }
 

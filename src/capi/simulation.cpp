@@ -12,7 +12,7 @@ namespace sinew::capi {
 SimulationObject::SimulationObject(DeviceObject& itsDevice, const sim::Scene& itsScene,
                                    const sim::Settings& itsSettings)
     : Object(kind), device(itsDevice), settings(itsSettings),
-      simulation(std::make_unique<sim::Simulation>(device.device, itsScene, settings)),
+      owned(std::make_unique<sim::Simulation>(device.device, itsScene, settings)), simulation(owned.get()),
       particles(static_cast<std::uint32_t>(itsScene.particles.size())),
       bodies(static_cast<std::uint32_t>(itsScene.bodies.size())),
       input{.anchors = std::vector<sim::Vec3>(itsScene.attachments.size() + 1),
@@ -22,6 +22,15 @@ SimulationObject::SimulationObject(DeviceObject& itsDevice, const sim::Scene& it
     settings = sim::withSubsteps(itsScene, settings); // of a scene that is valid: it was compiled
     if (device.queue) scene = itsScene;
 }
+
+SimulationObject::SimulationObject(DeviceObject& itsDevice, sim::World& itsWorld)
+    : Object(kind), device(itsDevice), settings(itsWorld.settings()), simulation(&itsWorld.simulation()),
+      particles(static_cast<std::uint32_t>(itsWorld.scene().particles.size())),
+      bodies(static_cast<std::uint32_t>(itsWorld.scene().bodies.size())),
+      input{.anchors = std::vector<sim::Vec3>(itsWorld.scene().attachments.size() + 1),
+            .bladeFrom = std::vector<sim::Vec3>(sim::ranges::mostBladePoints + 1),
+            .bladeTo = std::vector<sim::Vec3>(sim::ranges::mostBladePoints + 1)},
+      rooms(settings) {}
 
 SimulationObject::~SimulationObject() {
     if (!device.queue) return;
@@ -125,6 +134,35 @@ sim::Step stepOf(const SinewStep& step, StepInput& input) {
                   .to = converted<sim::Vec3>(input.bladeTo, step.bladeTo, step.bladeCount, "bladeTo", vector),
                   .isCarried = step.bladeIsCarried != 0},
         .ray = {.from = toVec3(step.rayFrom), .to = toVec3(step.rayTo), .radius = step.rayRadius}};
+}
+
+SinewStatus fromStatus(const sim::StepStatus& status) {
+    const auto flag = [](bool value) { return value ? 1u : 0u; };
+    return {.size = sizeof(SinewStatus),
+            .frame = status.frame,
+            .stepsUndone = status.stepsUndone,
+            .isUndone = flag(status.isUndone),
+            .nonFinite = status.nonFinite,
+            .firstBadParticle = status.firstBadParticle,
+            .contactRoom = status.contactRoom,
+            .lacksLists = flag(status.lacksLists),
+            .isCalm = flag(status.isCalm),
+            .laterLists = status.laterLists,
+            .slowed = status.slowed,
+            .sleeping = status.sleeping,
+            .lostTime = status.lostTime,
+            .linksCut = status.linksCut,
+            .linksCutInAll = status.linksCutInAll,
+            .pieces = status.pieces,
+            .debris = status.debris,
+            .debrisParticles = status.debrisParticles,
+            .debrisMass = status.debrisMass,
+            .cutSurfaceMissing = status.cutSurfaceMissing};
+}
+
+void collectComplaints(SimulationObject& object) {
+    for (std::string& complaint : object.simulation->complaintsOfUse())
+        object.complaints.push_back(std::move(complaint));
 }
 
 vk::BufferView viewOf(const SimulationObject& object, std::uint32_t output) {
@@ -311,27 +349,7 @@ SinewResult sinewGetStatus(SinewSimulation simulation, uint64_t frame, SinewStat
         const Use<SimulationObject> object(simulation.id, Access::write);
         const sim::StepStatus from = object->simulation->status(frame);
         if (!from.isFinished) return SINEW_NOT_READY;
-        const auto flag = [](bool value) { return value ? 1u : 0u; };
-        result = {.size = sizeof result,
-                  .frame = from.frame,
-                  .stepsUndone = from.stepsUndone,
-                  .isUndone = flag(from.isUndone),
-                  .nonFinite = from.nonFinite,
-                  .firstBadParticle = from.firstBadParticle,
-                  .contactRoom = from.contactRoom,
-                  .lacksLists = flag(from.lacksLists),
-                  .isCalm = flag(from.isCalm),
-                  .laterLists = from.laterLists,
-                  .slowed = from.slowed,
-                  .sleeping = from.sleeping,
-                  .lostTime = from.lostTime,
-                  .linksCut = from.linksCut,
-                  .linksCutInAll = from.linksCutInAll,
-                  .pieces = from.pieces,
-                  .debris = from.debris,
-                  .debrisParticles = from.debrisParticles,
-                  .debrisMass = from.debrisMass,
-                  .cutSurfaceMissing = from.cutSurfaceMissing};
+        result = fromStatus(from);
         return SINEW_OK;
     });
 }
@@ -373,8 +391,7 @@ SinewResult sinewNextComplaint(SinewSimulation simulation, const char** sentence
     return call(__func__, [&] {
         requireNotNull(sentence, "sentence");
         const Use<SimulationObject> object(simulation.id, Access::write);
-        for (std::string& complaint : object->simulation->complaintsOfUse())
-            object->complaints.push_back(std::move(complaint));
+        collectComplaints(*object);
         *sentence = nullptr;
         if (object->complaints.empty()) return SINEW_END;
         object->told = std::move(object->complaints.front());

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""check_abi.py <header> <shared library> <golden file> <C compiler> <Vulkan headers> [--write]: fails if sizes and offsets of the
-structs of sinew.h, its constants or the symbols that the library exports are not those of the golden file. --write renews it,
-after a change that programs must be compiled anew for, or after an addition."""
+"""check_abi.py <folder of headers> <shared library> <golden file> <C compiler> <Vulkan headers> [--write]: fails if sizes and
+offsets of the structs of sinew.h and sinew_world.h, their constants or the symbols that the library exports are not those of the
+golden file. --write renews it, after a change that programs must be compiled anew for, or after an addition."""
 import difflib
 import pathlib
 import re
@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 
+HEADERS = ["sinew.h", "sinew_world.h"]
 STRUCT = re.compile(r"^typedef struct (\w+) \{\n(.*?)^\} \1;", re.M | re.S)
 MEMBERS = re.compile(r"^[\w *]+?[\w*]\s+\**(\w+(?:\[\d+\])?(?:, ?\**\w+(?:\[\d+\])?)*)$")
 CONSTANT = re.compile(r"^\s+(SINEW_\w+) = -?\d+", re.M)
@@ -25,10 +26,9 @@ def members(body):
             yield re.sub(r"[*\s]|\[\d+\]", "", name)
 
 
-def layout(header, compiler, vulkan):
+def layout(headers, text, compiler, vulkan):
     """Lines on structs and constants, printed by a C program."""
-    text = header.read_text(encoding="utf-8")
-    lines = ['#include "sinew/sinew.h"', "#include <stdio.h>", "int main(void) {"]
+    lines = [f'#include "sinew/{name}"' for name in HEADERS] + ["#include <stdio.h>", "int main(void) {"]
     structs = STRUCT.findall(text)
     if len(structs) != len(re.findall(r"^typedef struct", text, re.M)):
         sys.exit("check_abi.py does not find every struct")
@@ -40,17 +40,18 @@ def layout(header, compiler, vulkan):
     with tempfile.TemporaryDirectory() as folder:
         source, program = pathlib.Path(folder) / "abi.c", pathlib.Path(folder) / "abi"
         source.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        subprocess.run([compiler, "-std=c11", "-Werror", f"-I{header.parent.parent}", "-idirafter", vulkan, source, "-o", program], check=True)
+        subprocess.run([compiler, "-std=c11", "-Werror", f"-I{headers.parent}", "-idirafter", vulkan, source, "-o", program], check=True)
         return subprocess.run([program], check=True, capture_output=True, text=True).stdout.splitlines()
 
 
 def main():
-    header, library, golden = (pathlib.Path(argument) for argument in sys.argv[1:4])
+    folder, library, golden = (pathlib.Path(argument) for argument in sys.argv[1:4])
+    text = "".join((folder / name).read_text(encoding="utf-8") for name in HEADERS)
     output = subprocess.run(["nm", "-D", "--defined-only", library], check=True, capture_output=True, text=True).stdout
     exported = sorted(line.split()[2] for line in output.splitlines() if line.split()[1] != "A")
-    declared = sorted(f"{name}@@SINEW_C_0.1" for name in FUNCTION.findall(header.read_text(encoding="utf-8")))
+    declared = sorted(f"{name}@@SINEW_C_0.1" for name in FUNCTION.findall(text))
     found = list(difflib.unified_diff(declared, exported, "declared", "exported", lineterm="", n=0))
-    lines = layout(header, sys.argv[4], sys.argv[5]) + exported
+    lines = layout(folder, text, sys.argv[4], sys.argv[5]) + exported
     if "--write" in sys.argv:
         golden.write_text("\n".join(lines) + "\n", encoding="utf-8")
     found += difflib.unified_diff(golden.read_text(encoding="utf-8").splitlines(), lines, str(golden), "now", lineterm="", n=1)

@@ -25,7 +25,7 @@ endfunction()
 # copy_consumer(<folder>): the sources of a program that uses the package, with the example of the README.
 function(copy_consumer folder)
     set(tests ${SINEW_FOLDER}/tests/embedding)
-    file(COPY ${tests}/installed/ ${tests}/soft_bodies.hpp ${tests}/x11_macros.hpp ${tests}/part/host.cpp ${SINEW_FOLDER}/tests/capi/headless.c DESTINATION ${folder})
+    file(COPY ${tests}/installed/ ${tests}/soft_bodies.hpp ${tests}/x11_macros.hpp ${tests}/part/host.cpp ${SINEW_FOLDER}/tests/capi/headless.c ${SINEW_FOLDER}/tests/capi/world.c DESTINATION ${folder})
 endfunction()
 
 # use_by_cmake(<prefix> <folder>): builds and runs a program with strict flags that finds the package by CMake.
@@ -43,8 +43,10 @@ function(use_by_cmake prefix folder)
         message(STATUS "${step_output}")
     endif()
     if(EXISTS ${prefix}/include/sinew/sinew.h)
-        step("the program in C fails" ${folder}/build/headless)
-        message(STATUS "${step_output}")
+        foreach(program headless world)
+            step("the program in C fails" ${folder}/build/${program})
+            message(STATUS "${step_output}")
+        endforeach()
     endif()
 endfunction()
 

@@ -160,6 +160,46 @@ class Module(unittest.TestCase):
             self.assertTrue((pathlib.Path(folder) / "study.json").exists())
         self.assertIsInstance(report, dict)
 
+    def test_bodies_come_and_go_and_the_others_keep_their_bits(self):
+        def box(x, cells=2):
+            scene = sinew.Scene()
+            scene.add_lattice(cells=(cells,) * 3, origin=(x, 0.2, 0), spacing=0.05, young_modulus=5e4)
+            return scene
+
+        base = sinew.Scene()
+        base.add_plane(friction=0.5)
+        settings = sinew.Settings(substeps=6)
+        world, alone = (sinew.World(self.device, base, settings) for _ in range(2))
+        first, kept = world.add(box(-1)), world.add(box(0))
+        self.assertIsNone(world.find(kept))
+        self.assertTrue(world.is_changing)
+        with self.assertRaises(ValueError):
+            world.positions(kept)
+        world.step(20)
+        self.assertEqual(world.find(kept)["particles"], (27, 27))
+        world.remove(first)
+        self.assertNotIn(first, world)
+        other = world.add(box(1, 3))
+        world.step(20)
+        self.assertEqual(world.find(kept)["particles"], (0, 27))
+        same = alone.add(box(0))
+        alone.step(40)
+        positions = world.positions(kept)
+        self.assertLess(positions[0, 1], 0.19)
+        np.testing.assert_array_equal(positions.view(np.uint32), alone.positions(same).view(np.uint32))
+        np.testing.assert_array_equal(world.velocities(kept).view(np.uint32), alone.velocities(same).view(np.uint32))
+        self.assertEqual(world.positions(other).shape, (64, 4))
+        self.assertEqual(world.positions().shape, (27 + 64, 4))
+        self.assertEqual((world.counts()["bodies"], world.steps_done, world.substeps, world.take_overs), (2, 40, 6, 2))
+        self.assertEqual(len({kept: 1, other: 2}), 2)
+        with self.assertRaises(sinew.Error) as raised:
+            world.remove(first)
+        self.assertEqual(raised.exception.result, "SINEW_ERROR_INVALID_HANDLE")
+        with self.assertRaises(sinew.Error):
+            world.find(first)
+        with self.assertRaises(sinew.Error):
+            alone.remove(kept)
+
     def test_stubs_name_all_that_there_is(self):
         stub = (pathlib.Path(sinew.__file__).parent / "__init__.pyi").read_text(encoding="utf-8")
         for name in sinew.__all__:
