@@ -17,13 +17,13 @@ using namespace sinew;
 using namespace sinew::sim;
 using Clock = std::chrono::steady_clock;
 
-Scene block(const Vec3& origin, std::uint32_t cells) {
+Scene block(const Vec3& origin, std::uint32_t cells, float radius) {
     Scene scene;
     const Lattice lattice{.origin = origin,
                           .cells = {cells, cells, cells},
                           .spacing = 0.02f,
                           .youngModulus = 2e4f,
-                          .radius = 0.009f};
+                          .radius = radius};
     addLatticeSkin(scene, lattice, addLattice(scene, lattice), {0.7f, 0.4f, 0.3f});
     return scene;
 }
@@ -39,11 +39,12 @@ double median(std::vector<double> values) {
 
 } // namespace
 
-int main() {
+int main(int argc, char**) {
+    const float radius = argc > 1 ? 0.009f : 0;
     const vk::Loader loader;
     const vk::Device device = vk::Device::create(loader.getInstanceProcAddr(), {});
     vk::Queue queue(device);
-    Scene base = block({0, 0.01f, 0}, 30);
+    Scene base = block({0, 0.01f, 0}, 30, radius);
     base.planes.push_back({.friction = 0.5f});
     World world(device, base, {.substeps = 8});
     std::uint64_t frame = 0;
@@ -67,7 +68,8 @@ int main() {
         for (int change = 0; change < 12; ++change) {
             const auto start = Clock::now();
             if (change % 2 == 0)
-                parts.push_back(world.add(block({1.0f + 0.5f * static_cast<float>(change), 0.2f, 0}, 9)));
+                parts.push_back(
+                    world.add(block({1.0f + 0.5f * static_cast<float>(change), 0.2f, 0}, 9, radius)));
             else
                 world.remove(parts.back());
             const double asking = millisecondsSince(start);
