@@ -477,6 +477,29 @@ TEST(World, RecordsValidCommands) {
     play.run(1);
 }
 
+// The first step with contacts is undone: a ball that touched nothing before has no saved state but the one
+// that it arrived with.
+TEST(World, KeepsTheStateWhereTheFirstStepAfterATakeOverIsUndone) {
+    Scene ball, heap;
+    addParticles(ball, {.count = {1, 1, 1}, .radius = 0.05f, .velocity = {1, 2, 0}});
+    addParticles(heap, {.center = {5, 0, 0}, .count = {4, 4, 4}, .spacing = 0.101f, .radius = 0.05f});
+    Play play(Scene{}, {.substeps = 4, .contactRoom = 1}), roomy(Scene{}, {.substeps = 4, .contactRoom = 64});
+    const PartId first = play.add(ball), expected = roomy.add(ball);
+    play.run(10);
+    roomy.run(10);
+    play.add(heap);
+    roomy.add(heap);
+    const Step step{.dt = play.world().scene().dt, .gravity = play.world().scene().gravity};
+    const Status status = play.tryStep(step);
+    ASSERT_TRUE(status.isUndone);
+    ASSERT_TRUE(play.world().observe(status));
+    play.settle();
+    play.run(3);
+    roomy.run(3);
+    EXPECT_TRUE(play.bits(first) == roomy.bits(expected));
+    EXPECT_GT(play.positions(first)[0].x, 0.2f) << "it has flown";
+}
+
 TEST(World, KnowsTheStatusOfStepsBeforeATakeOver) {
     vk::Queue& queue = test::queue();
     World world(test::device(), ground(), {.substeps = 2});

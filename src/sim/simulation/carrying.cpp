@@ -171,10 +171,18 @@ private:
     }
 
     // The buffer of the same name before; labels of the state are unique, except for those of lists that cuts
-    // change, which are not carried.
+    // change, which are not carried. A saved copy that only this program has starts as the value that it is
+    // a copy of.
     const StateBuffer* counterpart(const StateBuffer& buffer) const {
         if (buffer.carry.of == Elements::none) return nullptr;
-        const std::string& label = labelOf(now_.program, buffer.to);
+        const StateBuffer* found = named(labelOf(now_.program, buffer.to));
+        for (const StateBuffer& other : now_.program.stateBuffers)
+            if (found == nullptr && other.from == buffer.to && other.to != buffer.to)
+                found = named(labelOf(now_.program, other.to));
+        return found;
+    }
+
+    const StateBuffer* named(const std::string& label) const {
         const auto found = std::ranges::find_if(before_.program.stateBuffers, [&](const StateBuffer& other) {
             return labelOf(before_.program, other.to) == label;
         });
