@@ -146,13 +146,15 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     }
 }
 
+void requireGroups(const vk::Kernel& kernel, std::uint32_t groups, std::uint32_t most) {
+    if (groups <= most) return;
+    throw vk::Error(vk::Failure::outOfMemory, "dispatch of " + kernel.name() + ": " + std::to_string(groups) +
+                                                  " groups, the device allows " + std::to_string(most));
+}
+
 void GpuExecutor::checkGroups(const std::vector<Recorded>& passes, std::uint32_t most) {
-    for (const Recorded& pass : passes) {
-        if (pass.groups <= most) continue;
-        throw vk::Error(vk::Failure::outOfMemory, "dispatch of " + pass.kernel->name() + ": " +
-                                                      std::to_string(pass.groups) +
-                                                      " groups, the device allows " + std::to_string(most));
-    }
+    for (const Recorded& pass : passes)
+        if (pass.kernel != nullptr) requireGroups(*pass.kernel, pass.groups, most);
 }
 
 std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>& passes,

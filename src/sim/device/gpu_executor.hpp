@@ -12,6 +12,9 @@
 
 namespace sinew::sim {
 
+/// Throws vk::Error if a dispatch has more than `most` groups, with both figures.
+void requireGroups(const vk::Kernel& kernel, std::uint32_t groups, std::uint32_t most);
+
 /// Owns every device object of one program. Must not outlive the Device or the program.
 class GpuExecutor {
 public:

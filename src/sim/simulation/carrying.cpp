@@ -3,6 +3,7 @@
 
 #include "common/layout.h"
 #include "kernels.hpp"
+#include "sim/program/first_contents.hpp"
 #include "sinew/vk/check.hpp"
 
 #include <algorithm>
@@ -18,14 +19,6 @@ namespace sinew::sim {
 namespace {
 
 template <std::size_t n> using Corners = std::vector<std::array<std::uint32_t, n>>;
-
-template <typename T> std::vector<T> firstContents(const StepProgram& program, BufferId buffer) {
-    if (buffer == BufferId{}) return {};
-    const std::vector<std::byte>& bytes = program.buffers[buffer.index].initial;
-    std::vector<T> values(bytes.size() / sizeof(T));
-    if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
-}
 
 Corners<3> facesOf(const StepProgram& program) {
     Corners<3> result;
@@ -220,11 +213,7 @@ private:
     }
 
     void requireGroups(const vk::Kernel& kernel, std::uint32_t items) const {
-        const std::uint32_t groups = groupsOf(kernel, items), most = device_.limits().maxGroupCount;
-        if (groups <= most) return;
-        throw vk::Error(vk::Failure::outOfMemory, "dispatch of " + kernel.name() + ": " +
-                                                      std::to_string(groups) + " groups, the device allows " +
-                                                      std::to_string(most));
+        sim::requireGroups(kernel, groupsOf(kernel, items), device_.limits().maxGroupCount);
     }
 
     // The state and its saved copy.
