@@ -62,7 +62,7 @@ public:
     void remove(PartId part);
     /// Whether the part was added and not removed since; it may not have arrived.
     bool contains(PartId part) const noexcept;
-    /// Where the part is in scene(); empty before it arrives, and after it has left.
+    /// The place of the part in scene(); empty before it arrives, and after it has left.
     std::optional<PartRange> find(PartId part) const noexcept;
 
     /// Simulation::status() of any step since the last release(), before a take-over or after.
@@ -97,7 +97,8 @@ private:
     struct Slot {
         std::uint32_t generation = 0;
         bool isWanted = false;
-        std::uint32_t arrival = 0; ///< Body::arrival of its bodies
+        std::uint32_t arrival = 0;  ///< Body::arrival of its bodies
+        std::uint32_t substeps = 0; ///< that it needs; 0 = any number, or the host asked for one
         std::shared_ptr<const Scene> scene{};
     };
     /// A part in a scene: its slot and generation, and its place.
@@ -112,7 +113,7 @@ private:
     SINEW_LOCAL void giveUp(const Making& making) noexcept;
 
     const vk::Device& device_;
-    Settings asked_;    ///< by the host, with the rooms and substeps of the next simulation
+    Settings asked_;    ///< by the host, with the rooms of the next simulation
     Settings settings_; ///< of simulation_
     bool choosesSubsteps_;
     std::shared_ptr<const Scene> base_;

@@ -19,7 +19,7 @@ namespace sinew::sim {
 
 namespace {
 
-// What a part shares with the base: all that holds for a whole scene, and the surroundings.
+// The part with all that holds for the whole scene of the base, and among its surroundings.
 Scene inSurroundings(const Scene& base, const Scene& part) {
     Scene scene = part;
     scene.gravity = base.gravity;
@@ -161,11 +161,9 @@ PartId World::add(Scene part) {
     const Scene alone = inSurroundings(*base_, part);
     requireNone(validate(alone, asked_));
     requireBodies(part);
-    if (choosesSubsteps_) {
-        Settings chosen = asked_;
-        chosen.substeps = 0;
-        asked_.substeps = std::max(asked_.substeps, withSubsteps(alone, chosen).substeps);
-    }
+    Settings chosen = asked_;
+    chosen.substeps = 0;
+    const std::uint32_t substeps = choosesSubsteps_ ? withSubsteps(alone, chosen).substeps : 0;
     auto scene = std::make_shared<const Scene>(std::move(part));
     if (freeSlots_.empty()) {
         freeSlots_.reserve(slots_.size() + 1); // forget() allocates nothing
@@ -177,6 +175,7 @@ PartId World::add(Scene part) {
     Slot& slot = slots_[index];
     slot.isWanted = true;
     slot.arrival = ++arrivals_;
+    slot.substeps = substeps;
     slot.scene = std::move(scene);
     hasChanged_ = true;
     return {index, slot.generation};
@@ -242,10 +241,14 @@ bool World::isReady() const {
 // Parts stay in the order of their arrival, so that sums over contacts keep their order.
 void World::begin() {
     auto making = std::make_unique<Making>();
+    making->settings = asked_;
+    making->settings.substeps = settings_.substeps; // never less than before
     std::vector<Making::Part> parts;
     for (std::uint32_t index = 0; index < slots_.size(); ++index) {
         const Slot& slot = slots_[index];
-        if (slot.isWanted) parts.push_back({{index, slot.generation}, slot.arrival, slot.scene});
+        if (!slot.isWanted) continue;
+        parts.push_back({{index, slot.generation}, slot.arrival, slot.scene});
+        making->settings.substeps = std::max(making->settings.substeps, slot.substeps);
     }
     std::ranges::sort(parts, {}, &Making::Part::arrival);
     std::size_t particles = base_->particles.size(), faces = base_->faces.size();
@@ -261,7 +264,6 @@ void World::begin() {
     for (const Placed& placed : placed_)
         making->hasLost = making->hasLost || (placed.part != PartId{} && slotOf(placed.part) == nullptr);
     making->wakes = making->wakes || making->hasLost;
-    making->settings = asked_;
     making->settings.contactRoom = contactRoomFor(particles, faces);
     making->made = std::async(std::launch::async, [&device = device_, base = base_, parts = std::move(parts),
                                                    settings = making->settings, &running = *simulation_,
@@ -299,7 +301,6 @@ void World::giveUp(const Making& making) noexcept {
     }
     asked_.contactRoom = std::min(asked_.contactRoom, settings_.contactRoom);
     asked_.cutSurfaceRoom = std::min(asked_.cutSurfaceRoom, settings_.cutSurfaceRoom);
-    asked_.substeps = std::min(asked_.substeps, settings_.substeps);
     hasChanged_ = hasChanged_ || (making.hasLost && !making.arriving.empty());
 }
 
