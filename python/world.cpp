@@ -7,7 +7,7 @@ namespace sinew::python {
 
 namespace {
 
-/// Where the elements of a part are, or those of the whole world.
+/// The place of the elements of a part, or those of the whole world.
 py::dict dictOf(const SinewSceneCounts& counts) {
     using namespace py::literals;
     return py::dict("particles"_a = counts.particles, "links"_a = counts.links, "bends"_a = counts.bends,

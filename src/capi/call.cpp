@@ -13,7 +13,7 @@ namespace sinew::capi {
 
 namespace {
 
-// Of fixed size, so that a lack of memory can be told too.
+// Has a fixed size, so that a lack of memory can be told too.
 thread_local char lastError[8192] = "";
 
 struct Log {

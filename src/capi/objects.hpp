@@ -60,7 +60,7 @@ struct SimulationObject final : Object {
     StepInput input;
     std::deque<std::string> complaints; ///< not yet returned
     std::string told;                   ///< returned last
-    // Of sinewStep():
+    // Used by sinewStep():
     sim::Rooms rooms;
     bool isReset = false; ///< also of a world's
     std::uint64_t nextFrame = 0, stepsDone = 0;
