@@ -1,28 +1,15 @@
 // The C interface on a device of a host: the same bits as by the C++ interface, through command buffers of
 // the host.
+#include "capi/host_handles.hpp"
 #include "capi/support.hpp"
 #include "sinew/bodies.hpp"
 #include "sinew/simulation.hpp"
-#include "support/host_device.hpp"
 
 #include <cstring>
 #include <functional>
 
 namespace sinew::test {
 namespace {
-
-SinewHostDevice handlesOf(const HostDevice& host) {
-    const vk::HostDevice given = host.handles();
-    SinewHostDevice handles = sinewDefaultHostDevice();
-    handles.getInstanceProcAddr = given.getInstanceProcAddr;
-    handles.instance = given.instance;
-    handles.physicalDevice = given.physicalDevice;
-    handles.device = given.device;
-    handles.queueFamily = given.queueFamily;
-    handles.instanceExtensions = given.enabledInstanceExtensions.data();
-    handles.instanceExtensionCount = static_cast<std::uint32_t>(given.enabledInstanceExtensions.size());
-    return handles;
-}
 
 // Buffers of the host, each with memory of its own that is mapped.
 struct HostBuffers {

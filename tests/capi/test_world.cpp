@@ -1,7 +1,7 @@
 // Worlds by the C interface: parts come and go, and the handles of parts and simulations that are gone fail.
+#include "capi/host_handles.hpp"
 #include "capi/support.hpp"
 #include "sinew/sinew_world.h"
-#include "support/host_device.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -331,13 +331,7 @@ TEST_F(CApiWorld, ASecondThreadIsRefusedMeanwhile) {
 // An engine steps on while the library makes the next simulation.
 TEST(CApiWorldRecording, TakesChangesOverBetweenSteps) {
     HostDevice host;
-    const vk::HostDevice given = host.handles();
-    SinewHostDevice handles = sinewDefaultHostDevice();
-    handles.getInstanceProcAddr = given.getInstanceProcAddr;
-    handles.instance = given.instance;
-    handles.physicalDevice = given.physicalDevice;
-    handles.device = given.device;
-    handles.queueFamily = given.queueFamily;
+    const SinewHostDevice handles = handlesOf(host);
     Device device;
     ASSERT_TRUE(isOk(sinewBorrowDevice(&handles, &device)));
     Scene ground;
