@@ -91,6 +91,7 @@ inline constexpr std::uint32_t mostLinksUnrolled = 128, mostLinks = 60'000;
 inline constexpr std::uint32_t mostBends = 128;
 inline constexpr Range omega{.low = 0, .high = 10, .isLowOpen = true, .isHighOpen = true};
 inline constexpr Range theta{0, 1};
+inline constexpr Range levels{0, 6};
 inline constexpr Range weight{0, 1};
 inline constexpr Range warmStart{0, 1};
 inline constexpr Range contactMargin{.low = 0, .high = 10, .isLowOpen = true};

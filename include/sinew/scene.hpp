@@ -345,6 +345,10 @@ struct SINEW_API Settings {
     std::uint32_t iterations = 1; ///< sweeps per substep, 1..1000; `split` always has one
     float omega = 2;              ///< `split`: stiffness clamp; stable below 4 / (1 + 2 theta) on any graph
     float theta = 0.1f;           ///< `split`: 0 symplectic .. 1 PBD order; damps like theta h k
+    /// `split`: coarse levels of every body on a grid, 0..6. A level has a block for 2 x 2 x 2 nodes of the
+    /// one below, and links between blocks carry the stiffness that a substep is too long for below. 0 =
+    /// none.
+    std::uint32_t levels = 0;
     float weight = 0;         ///< `jacobi`: factor on a particle's summed corrections; 0 = 1 / their number
     float overRelaxation = 1; ///< `jacobi`: second factor on that sum, below 4/3 with averaging
     float warmStart =

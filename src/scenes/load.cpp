@@ -62,6 +62,7 @@ void readSettings(LoadedScene& loaded, const Section& solver, const std::string&
                        .iterations = solver.count("iterations"),
                        .omega = solver.number("omega"),
                        .theta = solver.number("theta"),
+                       .levels = solver.count("levels"),
                        .weight = solver.number("weight"),
                        .overRelaxation = solver.number("over_relaxation"),
                        .warmStart = solver.number("warm_start"),
@@ -83,6 +84,7 @@ void apply(const Overrides& overrides, LoadedScene& loaded) {
     if (overrides.solver) settings.solver = solverNamed(*overrides.solver, "--solver");
     if (overrides.substeps) settings.substeps = *overrides.substeps;
     if (overrides.iterations) settings.iterations = *overrides.iterations;
+    if (overrides.levels) settings.levels = *overrides.levels;
     if (overrides.dt) loaded.scene.dt = *overrides.dt;
     settings.isReversed = overrides.isReversed;
 }
@@ -207,8 +209,12 @@ void warnAboutStiffness(LoadedScene& loaded) {
                                  ? giveSubsteps(loaded, stiffness.neededSubsteps) +
                                        " would keep all links of the scene within " + percent
                                  : "no number of substeps reaches " + percent + ", use weight or iterations";
+    const std::string carried = settings.solver == sim::Solver::split && settings.levels > 0
+                                    ? ", and coarse levels carry what they lack in smooth deformations"
+                                    : "";
     for (std::size_t b = 0; b < bodies.size() && b < mostNamed; ++b)
-        loaded.warnings.push_back(softnessText(bodies[b], loaded.scene.bodies.size() > 1) + ": " + cure);
+        loaded.warnings.push_back(softnessText(bodies[b], loaded.scene.bodies.size() > 1) + carried + ": " +
+                                  cure);
     if (bodies.size() > mostNamed)
         loaded.warnings.push_back("so are most elastic links of " +
                                   sim::counted(bodies.size() - mostNamed, "other body", "other bodies"));
@@ -282,6 +288,7 @@ void warnOfForeignKeys(LoadedScene& loaded, const Section& solver) {
     static constexpr std::pair<const char*, sim::Solver> ofOne[] = {
         {"omega", sim::Solver::split},
         {"theta", sim::Solver::split},
+        {"levels", sim::Solver::split},
         {"weight", sim::Solver::jacobi},
         {"over_relaxation", sim::Solver::jacobi},
         {"warm_start", sim::Solver::gaussSeidel},

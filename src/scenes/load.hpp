@@ -75,6 +75,7 @@ struct Overrides {
     std::optional<std::string> solver;
     std::optional<std::uint32_t> substeps; ///< 0 = chosen
     std::optional<std::uint32_t> iterations;
+    std::optional<std::uint32_t> levels; ///< coarse levels of `split`
     std::optional<float> dt;
     std::optional<float> voxel; ///< cell edge of mesh bodies [m]
     bool isReversed = false;

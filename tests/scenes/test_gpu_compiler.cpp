@@ -165,6 +165,9 @@ void makeKernelsOfAllScenes(Maker& maker) {
             if (!loaded) continue;
             loaded->settings.substeps = std::min(loaded->settings.substeps, fewSubsteps);
             makeForms(maker, loaded->scene, loaded->settings);
+            sim::Settings coarse = loaded->settings;
+            coarse.levels = 2;
+            if (sim::validate(loaded->scene, coarse).empty()) maker.make(loaded->scene, coarse);
             if (loaded->settings.solver == sim::Solver::split && !loaded->scene.grids.empty())
                 for (const sim::Scene& scene : {recovering(loaded->scene), withDebris(loaded->scene, false),
                                                 withDebris(loaded->scene, true)})

@@ -38,10 +38,13 @@ std::vector<Kind> kinds() {
     const Settings settings{.substeps = 6, .contactRoom = 64};
     Settings forces = settings;
     forces.keepsForces = true;
+    Settings levels = settings;
+    levels.levels = 2;
     return {{"boxes", slidingBoxes(), settings},
             {"sheet", drapedSheet(), settings},
             {"chain", chain(), settings},
             {"forces", slidingBoxes(), forces},
+            {"levels", slidingBoxes(), levels},
             {"jacobi", chain(), {.solver = Solver::jacobi, .substeps = 4, .iterations = 3}}};
 }
 

@@ -111,6 +111,8 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         .add_option("--iterations", overrides.iterations,
                     "sweeps per substep of jacobi and gauss_seidel, instead of the scene's")
         ->check(within(sim::ranges::iterations));
+    command.add_option("--levels", overrides.levels, "coarse levels of split, instead of the scene's")
+        ->check(within(sim::ranges::levels));
     command
         .add_option("--voxel", overrides.voxel,
                     "edge of the voxels of mesh bodies [m], instead of the scene's")

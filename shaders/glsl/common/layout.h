@@ -13,7 +13,6 @@ struct alignas(16) vec4 {
 #endif
 
 #define GROUP_ITEMS 128 // work-group size of every kernel
-
 #include "common/bindings.h"
 
 // Group count of an indirect dispatch, written by a kernel: VkDispatchIndirectCommand, padded to 16 bytes.
@@ -589,6 +588,7 @@ struct DampColorPush {
 #include "common/forces_layout.h"
 #include "common/field_layout.h"
 #include "common/carry_layout.h"
+#include "common/level_layout.h"
 struct SkinPush {
     uint count;
     uint firstVertex; // index of the skin's first vertex in the vertex buffer

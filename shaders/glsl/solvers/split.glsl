@@ -54,31 +54,21 @@ layout(std140, binding = STEP_BINDING) uniform Step { StepParams step; };
 #include "rigid/planes.glsl"
 layout(std140, binding = STEP_BINDING + 1) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = STEP_BINDING + 2) readonly buffer ContactOffsets { float contactOffsets[]; };
+#ifdef RESIDENT
 #define LINK_BINDING (STEP_BINDING + 3)
+#else
+// Coarse levels: the kick of the particle's block, as gravity is one.
+layout(constant_id = 23) const bool hasLevels = false;
+FETCHED_UVEC2(STEP_BINDING + 3, BlockOf, blockOf)       // by slot: LevelChild, with the share of its block's kick
+FETCHED_VEC4(STEP_BINDING + 4, BlockKicks, blockKickAt) // by block [m/s]
+#define LINK_BINDING (STEP_BINDING + 5)
+#endif
 
 // If true, a static particle stores the impulse of its links [N s] in place of its velocity, where extract_hold_impulses reads
 // it.
 layout(constant_id = 22) const bool keepsPulls = false;
 
-// Values that are equal for all particles of a substep.
-struct Substep {
-    float hh;      // H^2 [s^2]
-    float kick;    // k [s]
-    float impulse; // k / H^2 [1/s]
-    float thetaH;  // theta H of the stored positions [s]
-};
-
-Substep substepOf(bool isFirst) {
-    const float h = step.h, longest = isFirst ? max(step.hPrevious, h) : h;
-    const float kick = isFirst ? 0.5 * (step.hPrevious + h) : h;
-    return Substep(longest * longest, kick, kick / (longest * longest), isFirst ? step.thetaHPrevious : step.thetaH);
-}
-
-// dl n of a link from a to b [kg m]; its stiffness [kg] is clamped by the caller. Coincident ends give exactly 0.
-vec3 linkImpulse(vec3 a, vec3 b, float restLength, float stiffness) {
-    const vec3 d = b - a;
-    return stiffness * (1.0 - restLength * inversesqrt(dot3(d, d) + 1e-30)) * d;
-}
+#include "common/link_impulse.glsl"
 
 // Writes y of particle i after a displacement `way` [m] in this substep from `y` to x; `before` is the velocity at
 // its start.
@@ -100,6 +90,12 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     if (w > 0.0) { // else 0 times a neighbouring NaN would stay for ever in a slot without a particle, which is never restored
         v += substep.impulse * w * impulses;
         v += substep.kick * step.gravity.xyz;
+#ifndef RESIDENT
+        if (hasLevels) {
+            const uvec2 block = blockOf(i);
+            v += uintBitsToFloat(block.y) * blockKickAt(block.x).xyz;
+        }
+#endif
     }
     v *= step.velocityFactor;
     vec3 x = y.xyz - substep.thetaH * velocity.xyz + h * v;

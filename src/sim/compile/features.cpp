@@ -9,6 +9,7 @@
 #include "sim/fields/fields.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/grabs/grab.hpp"
+#include "sim/levels/levels.hpp"
 #include "sim/rigid/colliders.hpp"
 #include "sim/rigid/driven.hpp"
 #include "sim/sleep/sleep.hpp"
@@ -38,6 +39,7 @@ constexpr Feature rows[] = {
      .end = solvers::addContactMemory,
      .rewrite = solvers::addCutFilters},
     {.name = "cuts of listed links", .cutEnd = cutting::addListFilters},
+    {.name = "cuts of levels", .cutEnd = levels::addCuts, .rewrite = levels::addCuts},
     {.name = "tethers",
      .open = constraints::tether::add,
      .afterContacts = constraints::tether::addPass,

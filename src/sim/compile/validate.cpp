@@ -7,6 +7,7 @@
 #include "sim/cutting/cut_lists.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/lattice/check_grid.hpp"
+#include "sim/levels/levels.hpp"
 #include "sim/model/coloring.hpp"
 #include "sim/model/grids.hpp"
 #include "sim/model/links.hpp"
@@ -563,6 +564,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkFaces(scene, complaints);
     if (complaints.isEmpty()) checkContacts(scene, settings, complaints);
     if (complaints.isEmpty()) forces::check(scene, settings, complaints);
+    levels::check(scene, settings, complaints);
     checkLinks(scene, settings, complaints);
     checkSurfaces(scene.contacts, complaints);
     checkPlanes(scene, complaints);

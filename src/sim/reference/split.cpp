@@ -6,6 +6,7 @@
 // a^2) + 1/2)), C = V - V0, A its mean edges. Pressure that unfolds cells has a share in addition to those
 // (sim/stiffness/shares.hpp).
 #include "sim/reference/attached.hpp"
+#include "sim/reference/levels.hpp"
 #include "sim/reference/reference.hpp"
 
 #include <algorithm>
@@ -52,6 +53,14 @@ struct Split {
             clampTime.push_back(problem.inverseMass[i] > 0 && sums[i] > 0
                                     ? omega / (2 * problem.inverseMass[i] * sums[i])
                                     : infinite);
+    }
+
+    std::vector<ClampedLink> links(const Problem& problem) const {
+        std::vector<ClampedLink> links;
+        for (std::size_t c = 0; c < problem.links.size(); ++c)
+            links.push_back({stiffness[c], share[c] * std::min(clampTime[problem.links[c].a],
+                                                               clampTime[problem.links[c].b])});
+        return links;
     }
 
     // The largest k_c D_c / omega of the links, with D_c at most omega / (k~_c min(tau)) [1/s^2].
@@ -146,6 +155,7 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
     const double h = dt / settings.substeps, theta = double{settings.theta}, omega = double{settings.omega};
     const double spare = 0.9 * 4 / (1 + 2 * theta) / omega - 1;
     const Split split(problem, omega, double{scene.dt} / settings.substeps, spare); // shares ignore dt
+    const Levels levels(scene, settings, problem, split.links(problem), double{scene.dt} / settings.substeps);
     const double kept = std::exp(-problem.damping * h);
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         // v belongs to the middle of the last substep, which had this length.
@@ -156,6 +166,7 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
         const double share =
             dampingShare(problem, split.most(problem), omega, theta, std::max(state.previousH, h));
         std::vector<Eigen::Vector3d> force = forces(problem, split, longest, share, y, state.v);
+        levels.addForces(longest, y, force);
         addBendForces(problem, omega, theta, longest, y, force);
         for (std::size_t i = 0; i < problem.size(); ++i) {
             const double w = problem.inverseMass[i];

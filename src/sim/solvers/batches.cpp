@@ -111,11 +111,11 @@ void appendBody(Batch& batch, const lattice::Box& box, std::vector<layout::Latti
 } // namespace
 
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids) {
-    // attachments, grabs, fields, tethers, colliders, host colliders and driven bodies need passes between
-    // substeps
-    if (settings.keepsForces || !scene.attachments.empty() || settings.grabs > 0 || settings.fields > 0 ||
-        settings.hostColliders > 0 || !scene.tethers.empty() || !scene.colliders.empty() ||
-        !scene.driven.empty())
+    // levels, attachments, grabs, fields, tethers, colliders, host colliders and driven bodies need passes
+    // between substeps
+    if (settings.keepsForces || settings.levels > 0 || !scene.attachments.empty() || settings.grabs > 0 ||
+        settings.fields > 0 || settings.hostColliders > 0 || !scene.tethers.empty() ||
+        !scene.colliders.empty() || !scene.driven.empty())
         return false;
     if (grids.empty() || listedParticles(scene, grids) > 0) return false;
     return std::ranges::all_of(grids, [&](std::uint32_t g) {

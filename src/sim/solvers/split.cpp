@@ -7,6 +7,7 @@
 #include "sim/constraints/distance.hpp"
 #include "sim/cutting/cut_lists.hpp"
 #include "sim/forces/forces.hpp"
+#include "sim/levels/levels.hpp"
 #include "sim/model/grids.hpp"
 #include "sim/model/touching.hpp"
 #include "sim/rigid/planes.hpp"
@@ -24,7 +25,7 @@ namespace {
 
 // A dispatch of every substep, without the buffers that alternate.
 struct Gather {
-    std::vector<BufferId> buffers; // those after positions, next, velocities and step
+    std::vector<BufferId> buffers; // those of the links
     ProgramBuilder::Constants constants;
     std::function<void(std::span<const BufferId> buffers, bool isFirst)> dispatch;
     bool alternatesVelocities = false;
@@ -35,6 +36,7 @@ struct Common {
     Build& build;
     const stiffness::Shares& shares;
     rigid::planes::Planes planes;
+    std::optional<levels::Levels> levels;
     ProgramBuilder& program = build.program;
     const SceneModel& model = build.model;
 
@@ -42,7 +44,8 @@ struct Common {
         ProgramBuilder::Constants constants = remainderConstants(model.layout);
         if (model.settings.keepsForces) constants.merge(forces::pullConstants());
         constants.merge(planes.constants());
-        return {{planes.planes, planes.contactOffsets}, std::move(constants), {}};
+        if (levels) constants[hasLevelsId] = true;
+        return {{}, std::move(constants), {}};
     }
 };
 
@@ -228,7 +231,8 @@ void addResident(const Common& common) {
     for (const Batch& batch : batches.batches) {
         Gather gather = gridGather(common, batch, cells);
         gather.constants[residentSlotsId] = batch.push.bodySlots;
-        std::vector<BufferId> buffers{particles.positions, particles.velocities, particles.step};
+        std::vector<BufferId> buffers{particles.positions, particles.velocities, particles.step,
+                                      common.planes.planes, common.planes.contactOffsets};
         buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
         buffers.push_back(common.program.upload("grid.bodies", batch.bodies));
         const vk::ShaderCode& code = residentKernelFor(batch, common.model.settings.forms);
@@ -240,11 +244,21 @@ void addResident(const Common& common) {
 
 // Appends the links of a substep: one dispatch a kind of grid and one for listed links. `next` differs from
 // `current` in the buffers that alternate.
-void addLinks(const std::vector<Gather>& gathers, const ParticleBuffers& current, const ParticleBuffers& next,
-              bool isFirst) {
+void addLinks(const Common& common, const std::vector<Gather>& gathers, const ParticleBuffers& current,
+              const ParticleBuffers& next, bool isFirst) {
+    if (common.levels) common.levels->addPasses(common.program, current, isFirst);
+    const BufferId blockOf = common.levels ? common.levels->blockOf() : unbound,
+                   kicks = common.levels ? common.levels->kicks() : unbound;
     for (const Gather& gather : gathers) {
-        std::vector<BufferId> buffers{current.positions, next.positions, current.velocities, next.velocities,
-                                      current.step};
+        std::vector<BufferId> buffers{current.positions,
+                                      next.positions,
+                                      current.velocities,
+                                      next.velocities,
+                                      current.step,
+                                      common.planes.planes,
+                                      common.planes.contactOffsets,
+                                      blockOf,
+                                      kicks};
         buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
         gather.dispatch(buffers, isFirst);
     }
@@ -265,7 +279,7 @@ void addSubsteps(const Common& common) {
         program.beginSubstep();
         const Substep substep{.particles = current, .index = index};
         build.add(&Feature::substepBegin, substep);
-        addLinks(gathers, current, next, index == 0);
+        addLinks(common, gathers, current, next, index == 0);
         std::swap(current, next);
         build.add(&Feature::afterLinks, substep);
         build.add(&Feature::afterContacts, substep);
@@ -297,7 +311,7 @@ void addTouchingSubsteps(const Common& common) {
         const Substep substep{.particles = current, .index = index, .predicted = unseen};
         build.add(&Feature::substepBegin, substep);
         contacts.begin(current.velocities);
-        addLinks(gathers, current, predicted, index == 0);
+        addLinks(common, gathers, current, predicted, index == 0);
         build.add(&Feature::afterLinks, {.particles = predicted, .index = index});
         std::swap(current.velocities, spare);
         contacts.addPasses(program, predicted, current, index == 0);
@@ -316,10 +330,11 @@ void addPasses(Build& build, const stiffness::Shares& shares) {
     const SceneModel& model = build.model;
     build.program.program().sweeps = model.scene.distances.empty() ? 0 : model.settings.substeps;
     if (model.particlesTouch() || model.facesTouch() || model.settings.keepsForces) {
-        addTouchingSubsteps({build, shares, {}});
+        addTouchingSubsteps({build, shares, {}, levels::add(build, shares)});
         return;
     }
-    const Common common{build, shares, rigid::planes::add(build.program, model.scene, model.layout)};
+    const Common common{build, shares, rigid::planes::add(build.program, model.scene, model.layout),
+                        levels::add(build, shares)};
     if (isResident(model.scene, model.settings, model.grids))
         addResident(common);
     else

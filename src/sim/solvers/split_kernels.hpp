@@ -11,6 +11,7 @@ inline constexpr std::uint32_t degreeId = 1, firstGroupEndId = 3; // constant_id
 inline constexpr std::uint32_t bodyDiagonalsId = 6, residentSlotsId = 7, recoveryId = 8,
                                volumesId =
                                    9; // constant_id in gather_lattice.comp, split.glsl, cell_volume.glsl
+inline constexpr std::uint32_t hasLevelsId = 23;                    // constant_id in split.glsl
 inline constexpr std::uint32_t bendDegreeId = 6, hasDampingId = 12; // constant_id in gather_terms.glsl
 
 namespace k = kernels;

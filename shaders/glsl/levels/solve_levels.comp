@@ -1,0 +1,60 @@
+#version 460
+// Levels above the first, a work group for each body: places their blocks, and computes the kick of each from the
+// coarsest level down. A kick contains that of the parent.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#define GROUP_SIZE LEVEL_GROUP
+#include "common/kernel.glsl"
+#include "common/fetched.glsl"
+
+layout(std430, binding = 0) readonly buffer Ranges { LevelRange ranges[]; }; // push.levels for each body
+layout(std430, binding = 1) readonly buffer Blocks { LevelBlock blocks[]; };
+FETCHED_UVEC2(2, Children, childAt) // LevelChild
+FETCHED_UVEC4(3, Links, linkAt)     // LevelLink
+layout(std430, binding = 4) coherent buffer BlockPositions { vec4 positions[]; }; // of all blocks [m]
+layout(std430, binding = 5) coherent buffer Kicks { vec4 kicks[]; };              // of all blocks [m/s]
+layout(std140, binding = 6) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { LevelPush push; };
+
+#define LINK(k) linkAt(k)
+#define BLOCK_POSITION(b) positions[b].xyz
+#include "levels/levels.glsl"
+
+void place(uint b) {
+    const uint first = b * LEVEL_CHILDREN;
+    const vec3 x = positions[childAt(first).x].xyz;
+    vec3 sum = vec3(0.0);
+    [[unroll]] for (uint c = 1u; c < LEVEL_CHILDREN; ++c) {
+        const uvec2 child = childAt(first + c);
+        sum += uintBitsToFloat(child.y) * (positions[child.x].xyz - x);
+    }
+    positions[b] = vec4(x + sum, 0.0);
+}
+
+void kick(uint b, Substep substep) {
+    const LevelBlock block = blocks[b];
+    vec3 dv = kickOfLinks(block, positions[b].xyz, substep);
+    if (block.parent != NO_BLOCK) dv += kicks[block.parent].xyz;
+    kicks[b] = vec4(dv, 0.0);
+}
+
+void waitForGroup() {
+    memoryBarrierBuffer();
+    barrier();
+}
+
+void main() {
+    const uint body = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
+    const uint lane = isReversed ? LEVEL_GROUP - 1u - gl_LocalInvocationID.x : gl_LocalInvocationID.x;
+    const Substep substep = substepOf(push.isFirst != 0u);
+    for (uint l = 1u; l < push.levels; ++l) {
+        const LevelRange range = ranges[body * push.levels + l];
+        for (uint k = lane; k < range.count; k += LEVEL_GROUP) place(range.first + k);
+        waitForGroup();
+    }
+    for (uint l = push.levels; --l > 0u;) {
+        const LevelRange range = ranges[body * push.levels + l];
+        for (uint k = lane; k < range.count; k += LEVEL_GROUP) kick(range.first + k, substep);
+        waitForGroup();
+    }
+}

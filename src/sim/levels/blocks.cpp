@@ -1,0 +1,351 @@
+// Blocks by dense tables of a level's grid; block links by direction and block, so that a body of a million
+// links needs no hash table.
+#include "sim/levels/blocks.hpp"
+
+#include "sim/constraints/distance.hpp"
+#include "sim/lattice/placement.hpp"
+#include "sim/stiffness/shares.hpp"
+#include "sinew/ranges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace sinew::sim::levels {
+
+namespace {
+
+using Place = std::array<std::int32_t, 3>;
+
+constexpr std::uint32_t none = 0xffffffffu;
+constexpr double levelOmega = 0.95;
+constexpr double surfaceWeight = 2; // of 1, 2, 3, 4 and 6 the best one (docs/performance.md, "Levels")
+
+// A table over the places of a level.
+class Places {
+public:
+    explicit Places(const std::vector<Node>& nodes) {
+        for (const Node& node : nodes)
+            for (std::size_t d = 0; d < 3; ++d) size_[d] = std::max(size_[d], node.place[d] + 1);
+        at_.assign(std::size_t(size_[0]) * size_[1] * size_[2], none);
+    }
+
+    // The number at a place, which is set to `next` if there is none yet.
+    std::uint32_t& first(const Place& place, std::uint32_t next) {
+        std::uint32_t& found = at_[index(place)];
+        if (found == none) found = next;
+        return found;
+    }
+    std::uint32_t at(const Place& place) const {
+        for (std::size_t d = 0; d < 3; ++d)
+            if (place[d] < 0 || place[d] >= size_[d]) return none;
+        return at_[index(place)];
+    }
+
+private:
+    std::size_t index(const Place& place) const {
+        return std::size_t(place[0]) + std::size_t(size_[0]) * (place[1] + std::size_t(size_[1]) * place[2]);
+    }
+
+    Place size_{1, 1, 1};
+    std::vector<std::uint32_t> at_;
+};
+
+Place plus(const Place& a, const Place& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+Place minus(const Place& a, const Place& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double distance(const Node& a, const Node& b) {
+    return std::hypot(a.rest[0] - b.rest[0], a.rest[1] - b.rest[1], a.rest[2] - b.rest[2]);
+}
+
+Place halved(const Place& place) {
+    return {place[0] / 2, place[1] / 2, place[2] / 2};
+}
+
+// Sets the weights of the nodes in their blocks, which know whether they move.
+void weigh(std::vector<Node>& nodes, const std::vector<Node>& blocks) {
+    std::vector<double> sums(blocks.size(), 0);
+    for (Node& node : nodes) {
+        if (blocks[node.parent].inverseMass == 0)
+            node.weight = node.inverseMass == 0 ? 1 : 0;
+        else
+            node.weight = (node.isOfSurface ? surfaceWeight : 1) / node.inverseMass;
+        sums[node.parent] += node.weight;
+    }
+    for (Node& node : nodes) node.weight /= sums[node.parent];
+}
+
+// The blocks of a level's nodes, whose parents and weights are set.
+std::vector<Node> blocksOf(std::vector<Node>& nodes) {
+    std::vector<Node> blocks;
+    std::vector<Node> places = nodes;
+    for (Node& node : places) node.place = halved(node.place);
+    Places at(places);
+    for (Node& node : nodes) {
+        std::uint32_t& block = at.first(halved(node.place), static_cast<std::uint32_t>(blocks.size()));
+        if (block == blocks.size()) blocks.push_back({.place = halved(node.place), .inverseMass = 1});
+        node.parent = block;
+        if (node.inverseMass == 0) blocks[block].inverseMass = 0;
+    }
+    weigh(nodes, blocks);
+    for (Node& block : blocks) block.inverseMass = 0;
+    for (const Node& node : nodes) {
+        Node& block = blocks[node.parent];
+        block.inverseMass += node.weight * node.weight * node.inverseMass;
+        for (std::size_t d = 0; d < 3; ++d) block.rest[d] += node.weight * node.rest[d];
+    }
+    return blocks;
+}
+
+// Energy of a unit strain, by direction and block: (k - k') L^2.
+class Energies {
+public:
+    explicit Energies(std::size_t blocks) : blocks_(blocks) {}
+
+    void add(const Place& step, std::uint32_t from, double energy) {
+        std::size_t d = last_;
+        if (steps_.empty() || steps_[d] != step) {
+            d = static_cast<std::size_t>(std::ranges::find(steps_, step) - steps_.begin());
+            if (d == steps_.size()) {
+                steps_.push_back(step);
+                sums_.emplace_back(blocks_, absent);
+            }
+            last_ = d;
+        }
+        double& sum = sums_[d][from];
+        sum = std::max(sum, 0.0) + energy;
+    }
+
+    // The links of the blocks, which share what no pair of blocks stands for.
+    std::vector<Link> links(const std::vector<Node>& blocks, const Places& places) const {
+        std::vector<Link> links;
+        double kept = 0;
+        for (std::uint32_t a = 0; a < blocks.size(); ++a)
+            for (std::size_t d = 0; d < steps_.size(); ++d) {
+                if (sums_[d][a] == absent) continue;
+                const std::uint32_t b = places.at(plus(blocks[a].place, steps_[d]));
+                kept += sums_[d][a];
+                if (blocks[a].inverseMass + blocks[b].inverseMass == 0) continue;
+                const double length = distance(blocks[a], blocks[b]);
+                links.push_back({a, b, steps_[d], length, sums_[d][a] / (length * length), 0});
+            }
+        if (kept > 0)
+            for (Link& link : links) link.stiffness *= (kept + lost_) / kept;
+        return links;
+    }
+
+    void lose(double energy) { lost_ += energy; }
+
+private:
+    static constexpr double absent = -1;
+    std::size_t blocks_, last_ = 0;
+    double lost_ = 0;
+    std::vector<Place> steps_;
+    std::vector<std::vector<double>> sums_; // by direction, then by the block that a link comes from
+};
+
+// Sets the limits of all links: those of mass splitting (sim/stiffness/shares.hpp).
+void clamp(Level& level, double omega, double h) {
+    double inverseMasses = 0;
+    std::size_t moving = 0;
+    for (const Node& node : level.nodes) {
+        inverseMasses += node.inverseMass;
+        moving += node.inverseMass > 0 ? 1 : 0;
+    }
+    const double softening = moving > 0 ? 2 * inverseMasses / static_cast<double>(moving) * h * h : 0;
+    const auto share = [&](const Link& link) { return link.stiffness / (1 + softening * link.stiffness); };
+    std::vector<double> sums(level.nodes.size(), 0);
+    for (const Link& link : level.links) {
+        sums[link.a] += share(link);
+        sums[link.b] += share(link);
+    }
+    const auto time = [&](std::uint32_t i) {
+        const double w = level.nodes[i].inverseMass;
+        if (w == 0) return std::numeric_limits<double>::infinity();
+        return sums[i] > 0 ? omega / (2 * w * sums[i]) : 0; // links without stiffness
+    };
+    for (Link& link : level.links) link.most = share(link) * std::min(time(link.a), time(link.b));
+}
+
+// What a substep does not reach of a link's stiffness [N/m].
+double missingOf(const Link& link, double h) {
+    return std::max(link.stiffness - link.most / (h * h), 0.0);
+}
+
+// The level above, without limits of its links.
+Level above(Level& level, double h) {
+    Level next;
+    next.nodes = blocksOf(level.nodes);
+    Places places(next.nodes);
+    for (std::uint32_t b = 0; b < next.nodes.size(); ++b) places.first(next.nodes[b].place, b);
+    Energies energies(next.nodes.size());
+    for (const Link& link : level.links) {
+        const double energy = missingOf(link, h) * link.length * link.length;
+        const std::uint32_t a = level.nodes[link.a].parent, b = level.nodes[link.b].parent;
+        const std::uint32_t ahead = places.at(plus(next.nodes[a].place, link.step)),
+                            behind = places.at(minus(next.nodes[b].place, link.step));
+        const bool isOne = ahead == b && behind == a;
+        const bool hasAhead = ahead != none, hasBehind = behind != none && !isOne;
+        const double part = hasAhead && hasBehind ? energy / 2 : energy;
+        if (hasAhead) energies.add(link.step, a, part);
+        if (hasBehind) energies.add(link.step, behind, part);
+        if (!hasAhead && !hasBehind) energies.lose(energy);
+    }
+    next.links = energies.links(next.nodes, places);
+    return next;
+}
+
+bool isUnit(const Place& step) {
+    return std::ranges::all_of(step, [](std::int32_t s) { return std::abs(s) <= 1; });
+}
+
+Level particlesOf(const Scene& scene, const Grid& grid, std::span<const float> inverseMass,
+                  std::span<const float> ofLinks, std::span<const float> times) {
+    Level level;
+    for (std::uint32_t i = 0; i < grid.node.size(); ++i) {
+        const std::array<std::uint32_t, 3> at = lattice::coordinates(grid, grid.node[i]);
+        Node& node = level.nodes.emplace_back();
+        node.inverseMass = double{inverseMass[grid.firstParticle + i]};
+        for (std::size_t d = 0; d < 3; ++d) {
+            node.place[d] = static_cast<std::int32_t>(at[d]);
+            node.rest[d] = double{grid.restLength[0]} * at[d]; // the scene may start deformed
+        }
+    }
+    const std::size_t count = grid.node.size();
+    const auto isOurs = [&](std::uint32_t p) { return p - grid.firstParticle < count; };
+    for (std::size_t c = 0; c < scene.distances.size(); ++c) {
+        const DistanceConstraint& constraint = scene.distances[c];
+        if (!isOurs(constraint.a) || !isOurs(constraint.b)) continue;
+        if (!constraints::distance::canMove(constraint, inverseMass)) continue;
+        const std::uint32_t a = constraint.a - grid.firstParticle, b = constraint.b - grid.firstParticle;
+        const Place step = minus(level.nodes[b].place, level.nodes[a].place);
+        if (grid.isCuttable && !isUnit(step)) continue; // a blade between its ends would not be known
+        const double most =
+            double{ofLinks[c]} * std::min(double{times[constraint.a]}, double{times[constraint.b]});
+        level.links.push_back({a, b, step, double{constraint.restLength},
+                               double{stiffness::stiffnessOf(constraint.compliance)}, most});
+    }
+    std::vector<std::uint32_t> counts(level.nodes.size(), 0);
+    for (const Link& link : level.links) {
+        ++counts[link.a];
+        ++counts[link.b];
+    }
+    const std::uint32_t most = counts.empty() ? 0 : std::ranges::max(counts);
+    for (std::size_t i = 0; i < counts.size(); ++i) level.nodes[i].isOfSurface = counts[i] < most;
+    return level;
+}
+
+// Coordinates of the nodes of all levels, and the forces on them, for power iteration.
+class Modes {
+public:
+    explicit Modes(const std::vector<Level>& levels) : levels_(levels) {
+        for (const Level& level : levels) {
+            x_.emplace_back(level.nodes.size(), 0);
+            forces_.emplace_back(level.nodes.size(), 0);
+        }
+        std::uint32_t number = 1; // a start with a part of every mode, the same for the same body
+        for (double& x : x_[0]) {
+            number = number * 1664525 + 1013904223;
+            x = number / 4294967296.0 - 0.5;
+        }
+    }
+
+    // Replaces x of the particles by h^2 M^-1 K x at length 1; returns the Rayleigh quotient of x before.
+    double turn(double h) {
+        normalise();
+        for (std::size_t l = 1; l < levels_.size(); ++l) {
+            std::ranges::fill(x_[l], 0);
+            const std::vector<Node>& below = levels_[l - 1].nodes;
+            for (std::size_t i = 0; i < below.size(); ++i)
+                x_[l][below[i].parent] += below[i].weight * x_[l - 1][i];
+        }
+        for (std::size_t l = levels_.size(); l-- > 0;) pull(l, h);
+        double quotient = 0;
+        for (std::size_t i = 0; i < x_[0].size(); ++i) {
+            quotient += x_[0][i] * forces_[0][i];
+            x_[0][i] = levels_[0].nodes[i].inverseMass * forces_[0][i];
+        }
+        return quotient;
+    }
+
+private:
+    void normalise() {
+        double sum = 0;
+        for (std::size_t i = 0; i < x_[0].size(); ++i) {
+            const double w = levels_[0].nodes[i].inverseMass;
+            if (w > 0)
+                sum += x_[0][i] * x_[0][i] / w;
+            else
+                x_[0][i] = 0;
+        }
+        for (double& x : x_[0]) x /= std::sqrt(std::max(sum, 1e-300));
+    }
+
+    // The forces on the nodes of a level, with those of the level above.
+    void pull(std::size_t l, double h) {
+        std::vector<double>& forces = forces_[l];
+        std::ranges::fill(forces, 0);
+        for (const Link& link : levels_[l].links) {
+            const double pull = std::min(link.stiffness * h * h, link.most) * (x_[l][link.a] - x_[l][link.b]);
+            forces[link.a] += pull;
+            forces[link.b] -= pull;
+        }
+        if (l + 1 == levels_.size()) return;
+        for (std::size_t i = 0; i < forces.size(); ++i) {
+            const Node& node = levels_[l].nodes[i];
+            forces[i] += node.weight * forces_[l + 1][node.parent];
+        }
+    }
+
+    const std::vector<Level>& levels_;
+    std::vector<std::vector<double>> x_, forces_; // by level
+};
+
+// Takes from the links of coarse levels what stability does not allow.
+void limit(std::vector<Level>& levels, const Settings& settings, double h) {
+    constexpr int turns = 40;
+    constexpr double found = 0.97; // of the eigenvalue, after so many turns, or more
+    const double most = mostEigenvalue * ranges::omegaBound(double{settings.theta}),
+                 omega = double{settings.omega}, eigenvalue = largestEigenvalue(levels, h, turns) / found;
+    if (eigenvalue <= most) return;
+    const double share = std::max((most - omega) / (eigenvalue - omega), 0.0);
+    for (std::size_t l = 1; l < levels.size(); ++l)
+        for (Link& link : levels[l].links) {
+            link.most *= share;
+            link.stiffness *= share;
+        }
+}
+
+} // namespace
+
+double largestEigenvalue(const std::vector<Level>& levels, double h, int turns) {
+    Modes modes(levels);
+    double value = 0;
+    for (int turn = 0; turn < turns; ++turn) value = modes.turn(h);
+    return value;
+}
+
+std::vector<Level> levelsOf(const Scene& scene, const Settings& settings, std::uint32_t grid,
+                            std::span<const float> inverseMass, std::span<const float> ofLinks,
+                            std::span<const float> times) {
+    const double h = double{scene.dt} / settings.substeps;
+    std::vector<Level> levels{particlesOf(scene, scene.grids[grid], inverseMass, ofLinks, times)};
+    if (std::ranges::none_of(levels[0].links, [&](const Link& link) { return missingOf(link, h) > 0; }))
+        return levels;
+    while (levels.size() <= settings.levels) {
+        Level next = above(levels.back(), h);
+        if (next.links.empty()) break;
+        clamp(next, levelOmega * double{settings.omega}, h);
+        levels.push_back(std::move(next));
+    }
+    limit(levels, settings, h);
+    return levels;
+}
+
+} // namespace sinew::sim::levels
