@@ -89,7 +89,9 @@ std::string percent(double error) {
 
 /// Text of the tuning besides substeps and iterations.
 std::string tuningText(const sim::Settings& s) {
-    if (s.solver == sim::Solver::split) return fmt::format("theta {:g}", s.theta);
+    if (s.solver == sim::Solver::split)
+        return fmt::format("theta {:g}", s.theta) +
+               (s.levels > 0 ? fmt::format(", levels {}", s.levels) : "");
     if (s.solver == sim::Solver::gaussSeidel)
         return s.warmStart > 0 ? fmt::format("warm {:g}", s.warmStart) : "cold";
     return s.weight > 0 ? fmt::format("weight {:g}", s.weight) : fmt::format("omega {:g}", s.overRelaxation);

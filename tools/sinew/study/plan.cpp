@@ -49,7 +49,11 @@ const Tuning& tuningOf(const std::string& solver) {
           [](sim::Settings& s) { s.overRelaxation = 1.6f; }, [](sim::Settings& s) { s.weight = 0.5f; },
           [](sim::Settings& s) { s.weight = 1; }},
          false},
-        {"split", {1}, {[](sim::Settings&) {}, [](sim::Settings& s) { s.theta = 0; }}, true},
+        {"split",
+         {1},
+         {[](sim::Settings&) {}, [](sim::Settings& s) { s.theta = 0; },
+          [](sim::Settings& s) { s.levels = 1; }, [](sim::Settings& s) { s.levels = 3; }},
+         true},
         {"gauss_seidel",
          {1, 2, 4, wholeFrame},
          {[](sim::Settings&) {}, [](sim::Settings& s) { s.warmStart = 0; }},
@@ -80,6 +84,7 @@ std::vector<SweepCount> sweepCounts(std::uint32_t points, std::uint32_t fewest, 
 }
 
 constexpr const char* weighted = "jacobi_weighted";
+constexpr const char* withLevels = "split_levels";
 
 std::string withName(const std::string& names, const std::string& name) {
     return names + (names.empty() ? "\"" : ", \"") + name + "\"";
@@ -110,13 +115,15 @@ StudyScene forEverySolver(StudyScene study) {
 } // namespace
 
 std::string curveOf(const sim::Settings& settings) {
-    return settings.solver == sim::Solver::jacobi && settings.weight > 0 ? weighted
-                                                                         : sim::solverName(settings.solver);
+    if (settings.solver == sim::Solver::jacobi && settings.weight > 0) return weighted;
+    if (settings.solver == sim::Solver::split && settings.levels > 0) return withLevels;
+    return sim::solverName(settings.solver);
 }
 
 std::vector<std::string> curveNames() {
     std::vector<std::string> names = sim::solverNames();
     names.emplace_back(weighted);
+    names.emplace_back(withLevels);
     return names;
 }
 

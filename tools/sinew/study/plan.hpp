@@ -39,7 +39,8 @@ std::vector<std::string> studySceneNames();
 std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std::uint32_t> frames);
 
 /// The curve of some settings: a solver's name. `jacobi` as published averages a particle's corrections; with
-/// a weight instead it is another method, stable in fewer scenes, with a curve of its own.
+/// a weight instead it is another method, stable in fewer scenes, with a curve of its own, as `split` with
+/// coarse levels has.
 std::string curveOf(const sim::Settings& settings);
 std::vector<std::string> curveNames();
 

@@ -77,6 +77,7 @@ Json pointJson(const Curve& curve, std::size_t index) {
             {"clamped", orNull(trial.clamped)},
             {"omega", settings.omega},
             {"theta", settings.theta},
+            {"levels", settings.levels},
             {"weight", settings.weight},
             {"over_relaxation", settings.overRelaxation},
             {"warm_start", settings.warmStart},
@@ -143,18 +144,19 @@ std::string toJson(const StudyRecord& record) {
 }
 
 std::string toCsv(const StudyRecord& record) {
-    std::string text = "scene,solver,substeps,iterations,omega,theta,weight,over_relaxation,warm_start,"
-                       "sweeps,barriers,clamped,"
-                       "ms_per_frame,error_rms,error_max,frames_compared,frames_timed\n";
+    std::string text =
+        "scene,solver,substeps,iterations,omega,theta,levels,weight,over_relaxation,warm_start,"
+        "sweeps,barriers,clamped,"
+        "ms_per_frame,error_rms,error_max,frames_compared,frames_timed\n";
     for (const SceneResult& scene : record.scenes)
         for (const Curve& curve : curvesOf(scene))
             for (const CurvePoint& point : curve.points) {
                 const Trial& trial = *point.trial;
                 const sim::Settings& s = trial.settings;
                 text += fmt::format(
-                    "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, curve.solver,
-                    s.substeps, s.iterations, s.omega, s.theta, s.weight, s.overRelaxation, s.warmStart,
-                    trial.sweeps, trial.barriers, trial.clamped ? csvOf(*trial.clamped) : "",
+                    "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, curve.solver,
+                    s.substeps, s.iterations, s.omega, s.theta, s.levels, s.weight, s.overRelaxation,
+                    s.warmStart, trial.sweeps, trial.barriers, trial.clamped ? csvOf(*trial.clamped) : "",
                     csvOf(trial.medianMs()), point.error ? csvOf(point.error->rms) : "",
                     point.error ? csvOf(point.error->max) : "",
                     point.error ? std::to_string(point.error->frames) : "", trial.frameMs.size());

@@ -99,6 +99,7 @@ Json toJson(const sim::Settings& settings) {
             {"iterations", settings.iterations},
             {"omega", settings.omega},
             {"theta", settings.theta},
+            {"levels", settings.levels},
             {"weight", settings.weight},
             {"over_relaxation", settings.overRelaxation},
             {"warm_start", settings.warmStart}};
