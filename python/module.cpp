@@ -123,6 +123,7 @@ void addSettings(py::module_& module) {
     add("frames_in_flight", &SinewSettings::framesInFlight);
     add("omega", &SinewSettings::omega);
     add("theta", &SinewSettings::theta);
+    add("levels", &SinewSettings::levels);
     add("weight", &SinewSettings::weight);
     add("over_relaxation", &SinewSettings::overRelaxation);
     add("warm_start", &SinewSettings::warmStart);

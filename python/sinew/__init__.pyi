@@ -36,6 +36,7 @@ class Settings:
     frames_in_flight: int
     omega: float
     theta: float
+    levels: int  # coarse levels of bodies on grids, at most 6
     weight: float
     over_relaxation: float
     warm_start: float

@@ -101,6 +101,7 @@ sim::Settings toSettings(const SinewSettings* settings) {
             .iterations = given.iterations,
             .omega = given.omega,
             .theta = given.theta,
+            .levels = given.levels,
             .weight = given.weight,
             .overRelaxation = given.overRelaxation,
             .warmStart = given.warmStart,
@@ -136,7 +137,8 @@ SinewSettings fromSettings(const sim::Settings& settings) {
             .weight = settings.weight,
             .overRelaxation = settings.overRelaxation,
             .warmStart = settings.warmStart,
-            .isReversed = settings.isReversed ? 1u : 0u};
+            .isReversed = settings.isReversed ? 1u : 0u,
+            .levels = settings.levels};
 }
 
 } // namespace sinew::capi
