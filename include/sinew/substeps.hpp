@@ -68,9 +68,10 @@ inline constexpr double dragTolerance = 0.05;
 SINEW_API std::uint32_t dragSubsteps(const Scene& scene);
 
 /// The number of substeps if settings.substeps is 0: the smallest one with which, at scene.dt,
-/// - every elastic link has k_eff >= (1 - tolerance) k; if the share s_m = 1 - (1 - s)^iterations of `jacobi`
-///   alone is below 1 - tolerance, which no substep changes, then k_eff >= (1 - tolerance) s_m k, and
-///   toText() reports it,
+/// - every elastic link has k_eff >= (1 - tolerance) k, of links on grids a quarter with one of
+///   Settings::levels and a ninth with more, as levels carry the rest; if the share s_m = 1 - (1 -
+///   s)^iterations of `jacobi` alone is below 1 - tolerance, which no substep changes, then k_eff >= (1 -
+///   tolerance) s_m k, and toText() reports it,
 /// - every rigid link stretches by at most tolerance x its length under the weight that hangs on it: from
 ///   static particles, from attachments, or above colliders (stiffness/tensions.hpp; bodies that hang on
 ///   nothing need nothing),

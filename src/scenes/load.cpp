@@ -209,12 +209,8 @@ void warnAboutStiffness(LoadedScene& loaded) {
                                  ? giveSubsteps(loaded, stiffness.neededSubsteps) +
                                        " would keep all links of the scene within " + percent
                                  : "no number of substeps reaches " + percent + ", use weight or iterations";
-    const std::string carried = settings.solver == sim::Solver::split && settings.levels > 0
-                                    ? ", and coarse levels carry what they lack in smooth deformations"
-                                    : "";
     for (std::size_t b = 0; b < bodies.size() && b < mostNamed; ++b)
-        loaded.warnings.push_back(softnessText(bodies[b], loaded.scene.bodies.size() > 1) + carried + ": " +
-                                  cure);
+        loaded.warnings.push_back(softnessText(bodies[b], loaded.scene.bodies.size() > 1) + ": " + cure);
     if (bodies.size() > mostNamed)
         loaded.warnings.push_back("so are most elastic links of " +
                                   sim::counted(bodies.size() - mostNamed, "other body", "other bodies"));

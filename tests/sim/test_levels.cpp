@@ -403,6 +403,28 @@ TEST(Levels, FollowAChangeOfStiffness) {
     EXPECT_EQ(changed.stateHash(), fresh.stateHash());
 }
 
+// "auto" lets levels carry a part, and the motion stays near the true one.
+TEST(Levels, TakeHalfOrAThirdOfTheSubsteps) {
+    const Scene scene = heldBeam();
+    const reference::Trajectory truth = reference::trueTrajectory(scene, {.frames = 30, .tolerance = 1e-4});
+    const auto substeps = [&](std::uint32_t levels) {
+        return chooseSubsteps(scene, {.levels = levels}).substeps;
+    };
+    const std::uint32_t all = substeps(0);
+    EXPECT_NEAR(substeps(1), all / 2.0, 1);
+    EXPECT_NEAR(substeps(2), all / 3.0, 1);
+    EXPECT_EQ(substeps(3), substeps(2));
+    EXPECT_LT(errorOf(scene, {}, truth), 0.001);
+    EXPECT_LT(errorOf(scene, {.levels = 1}, truth), 0.07);
+    EXPECT_LT(errorOf(scene, {.levels = 2}, truth), 0.1);
+    EXPECT_GT(errorOf(scene, {.substeps = substeps(1)}, truth), 0.5);
+    const Settings settings{.levels = 1};
+    EXPECT_EQ(toText(chooseSubsteps(scene, settings), settings),
+              std::to_string(substeps(1)) +
+                  " substeps: no link is more than 5 % softer than asked, one level carrying three quarters");
+    EXPECT_EQ(inspectStiffness(scene, settings).soft, 0u);
+}
+
 TEST(Levels, AreRefusedWithASentence) {
     const auto complaintOf = [](const Scene& scene, const Settings& settings) {
         const std::vector<std::string> all = validate(scene, settings);

@@ -45,7 +45,7 @@ double reachedBySplit(const Term& term, double h) {
     return std::min(1.0, term.clamp / (term.stiffness * h * h));
 }
 double longestOfSplit(const Term& term, double tolerance) {
-    const double wanted = (term.isRigid ? 1 : 1 - tolerance) * term.stiffness;
+    const double wanted = (term.isRigid ? 1 : (1 - tolerance) * term.own) * term.stiffness;
     return std::sqrt(term.clamp / wanted);
 }
 // Each sweep adds the same share of the force that is still missing, if others pull the link back to its old
@@ -334,7 +334,7 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
     terms.forEach([&](const Term& term) {
         if (term.isRigid) return;
         const double reached = model.reached(term, h);
-        const bool isSoft = reached < 1 - double{settings.tolerance} - rounding;
+        const bool isSoft = reached < (1 - double{settings.tolerance}) * term.own - rounding;
         ++report.elastic;
         report.clamped += terms.isSplit() && reached < 1 - rounding;
         report.soft += isSoft;
@@ -374,6 +374,14 @@ SubstepCure cureOf(const SubstepChoice& choice, const Settings& settings) {
     }
 }
 
+// How much of its stiffness a link must have itself.
+std::string byLevels(const Settings& settings) {
+    const double own = stiffness::ownShare(settings);
+    return own == 1      ? ""
+           : own == 0.25 ? ", one level carrying three quarters"
+                         : ", levels carrying eight ninths";
+}
+
 std::string toText(const SubstepChoice& choice, const Settings& settings) {
     const std::string percent = percentOf(settings);
     if (!choice.isReachable)
@@ -388,7 +396,7 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         why = "as asked";
         break;
     case SubstepReason::stiffness:
-        why = "no link is more than " + percent + " softer than asked" + body;
+        why = "no link is more than " + percent + " softer than asked" + byLevels(settings) + body;
         break;
     case SubstepReason::weight:
         why = "no rigid link stretches by more than " + percent + " under its load" + body;

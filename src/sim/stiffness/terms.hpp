@@ -29,7 +29,15 @@ struct Term {
     double share() const { return shareAfter(sweepShare, sweeps); } // after all sweeps
     bool isRigid = false;
     std::uint32_t particle = 0; // one of its ends
+    double own = 1;             // share of the stiffness that it must have itself; levels carry the rest
 };
+
+// The share of stiffness that a link of a grid must have itself: one level carries three quarters at twice
+// the longest substep, two and more carry eight ninths at three times it.
+inline double ownShare(const Settings& settings) {
+    if (settings.solver != Solver::split || settings.levels == 0) return 1;
+    return settings.levels == 1 ? 1 / 4.0 : 1 / 9.0;
+}
 
 // Properties of a scene that do not depend on the number of substeps; by particle.
 struct Load {
@@ -78,15 +86,23 @@ struct Terms {
     std::uint32_t sweeps() const { return isSplit() ? 1 : settings.iterations; }
 
     template <typename Visit> void forEachLink(const Visit& visit) const {
+        const double own = ownShare(settings);
+        std::size_t g = 0; // the first grid that ends after the link
         for (std::size_t i = 0; i < scene.distances.size(); ++i) {
             const DistanceConstraint& c = scene.distances[i];
+            const auto endOf = [](const Grid& grid) {
+                return std::size_t{grid.firstDistance} + grid.distanceCount;
+            };
+            while (g < scene.grids.size() && endOf(scene.grids[g]) <= i) ++g;
+            const bool isOfGrid = g < scene.grids.size() && scene.grids[g].firstDistance <= i;
             if (!canMove(load, {c.a, c.b})) continue;
             Term term{.clamp = isSplit() ? clampOfLink(shares, scene, i) : 0,
                       .inverseMass = double{load.inverseMass[c.a]} + double{load.inverseMass[c.b]},
                       .sweepShare = shareAmong({c.a, c.b}),
                       .sweeps = sweeps(),
                       .isRigid = c.compliance == 0,
-                      .particle = c.a};
+                      .particle = c.a,
+                      .own = isOfGrid ? own : 1};
             if (!term.isRigid)
                 term.stiffness = 1 / double{c.compliance};
             else if (c.restLength > 0)
