@@ -332,8 +332,14 @@ private:
     friend class World;
     /// Makes, on any thread, what carries the state of this simulation to one of another scene.
     SINEW_LOCAL std::unique_ptr<Carrying> makeCarrying(const Simulation& to, const Origins& origins) const;
+    /// Writes the initial state of all buffers that the host sees, in place of a recordReset(). On any
+    /// thread. Returns whether these are all.
+    SINEW_LOCAL bool fill() noexcept;
+    /// Records the copies of the next bytes that fill() could not write, for at most `most` [B]. Returns
+    /// whether none is left.
+    SINEW_LOCAL bool recordFilling(VkCommandBuffer commands, VkDeviceSize most) noexcept;
     /// recordTakeOver() from a simulation of another scene, with settings that may differ in substeps and
-    /// room. With `wakes` nothing stays asleep.
+    /// room, after fill() and recordFilling(). With `wakes` nothing stays asleep.
     SINEW_LOCAL void recordCarried(VkCommandBuffer commands, const Simulation& from, const Carrying& carrying,
                                    const Origins& origins, bool wakes) noexcept;
     /// Whether no step is in flight or waits to be recorded again.

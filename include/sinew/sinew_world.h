@@ -71,10 +71,10 @@ SINEW_C_API SinewResult sinewGetWorldCounts(SinewWorld world, SinewSceneCounts* 
 // --- Recording into command buffers of a host
 
 // Called before each step, with the command buffer that the step will be recorded into. Begins to make a
-// simulation if there are changes and none is being made. If one is ready, and no step is in flight or has
-// to be repeated, records the take-over and sets *isTakenOver to 1: the commands must be submitted, and
-// indices, views and the handle of the simulation are new. Else records nothing and sets it to 0. Does not
-// wait. The host resets the first simulation by sinewRecordReset(); a take-over needs no reset. Errors: those
+// simulation if there are changes and none is being made. While one is made, may record copies into its
+// buffers and sets *isTakenOver to 0; the commands must be submitted. If it is ready, and no step is in
+// flight or has to be repeated, records the take-over and sets *isTakenOver to 1: indices, views and the
+// handle of the simulation are then new. Does not wait. The host resets the first simulation by sinewRecordReset(); a take-over needs no reset. Errors: those
 // of sinewCreateSimulation() if the making failed: parts that were to arrive are then removed, and the world
 // goes on without them.
 SINEW_C_API SinewResult sinewRecordChanges(SinewWorld world, VkCommandBuffer commands, uint32_t* isTakenOver);

@@ -6,6 +6,7 @@
 #include "sinew/export.hpp"
 #include "sinew/rooms.hpp"
 #include "sinew/simulation.hpp"
+#include "sinew/vk/kernel_store.hpp"
 
 #include <cstdint>
 #include <future>
@@ -73,11 +74,11 @@ public:
     bool observe(const StepStatus& status);
 
     /// Call before each step, with the command buffer that the step will be recorded into. Begins to make a
-    /// simulation if there are changes and none is being made. If one is ready, and no step is in flight or
-    /// has to be recorded again (Step::repeats), records the take-over and returns true: simulation(),
-    /// scene() and all indices and views are then new, and the commands must be submitted. Else records
-    /// nothing. Throws what the making threw, after which the world goes on without the parts that were to
-    /// arrive. `commands` as in Simulation::recordReset().
+    /// simulation if there are changes and none is being made. While one is made, may record copies into its
+    /// buffers; the commands must be submitted. If it is ready, and no step is in flight or has to be
+    /// recorded again (Step::repeats), records the take-over and returns true: simulation(), scene() and all
+    /// indices and views are then new. Throws what the making threw, after which the world goes on without
+    /// the parts that were to arrive. `commands` as in Simulation::recordReset().
     bool recordChanges(VkCommandBuffer commands);
     /// Whether recordChanges() would take over if no step were in flight: let these finish.
     bool isReady() const;
@@ -108,13 +109,15 @@ private:
     };
     SINEW_LOCAL const Slot* slotOf(PartId part) const noexcept;
     SINEW_LOCAL void begin();
+    SINEW_LOCAL bool isMade() const;
     SINEW_LOCAL std::uint32_t contactRoomFor(std::size_t particles, std::size_t faces) const;
     SINEW_LOCAL void forget(Slot& slot) noexcept;
     SINEW_LOCAL void giveUp(const Making& making) noexcept;
 
     const vk::Device& device_;
-    Settings asked_;    ///< by the host, with the rooms of the next simulation
-    Settings settings_; ///< of simulation_
+    vk::KeptKernels kernels_; ///< those of the take-over, and of parts that return
+    Settings asked_;          ///< by the host, with the rooms of the next simulation
+    Settings settings_;       ///< of simulation_
     bool choosesSubsteps_;
     std::shared_ptr<const Scene> base_;
     std::vector<Slot> slots_;

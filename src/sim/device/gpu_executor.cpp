@@ -5,6 +5,7 @@
 #include "sinew/vk/check.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace sinew::sim {
 
@@ -193,11 +194,46 @@ std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>&
 void GpuExecutor::upload(vk::Commands& commands) noexcept {
     commands.beginStep();
     for (const auto& [index, initial] : staging_) commands.copy(initial.view(), buffers_[index].view());
-    for (std::uint32_t b = 0; b < buffers_.size(); ++b) {
-        const auto isOfThis = [b](const auto& staged) { return staged.first == b; };
-        if (std::ranges::none_of(staging_, isOfThis)) commands.fill(buffers_[b].view(), 0);
-    }
+    for (std::uint32_t b = 0; b < buffers_.size(); ++b)
+        if (stagingOf({b}) == nullptr) commands.fill(buffers_[b].view(), 0);
     commands.endStep();
+}
+
+// Memory that is not coherent is left out: its atoms may hold parts of other buffers, which the device
+// writes.
+bool GpuExecutor::fill() noexcept {
+    for (std::uint32_t b = 0; b < buffers_.size(); ++b) {
+        const vk::Buffer& buffer = buffers_[b];
+        const vk::BufferView whole = buffer.view();
+        if (buffer.mapped() == nullptr || !buffer.isCoherent())
+            unfilled_.emplace_back(b, whole);
+        else if (const vk::Buffer* initial = stagingOf({b}))
+            std::memcpy(buffer.mapped(), initial->mapped(), whole.size);
+        else
+            std::memset(buffer.mapped(), 0, whole.size);
+    }
+    return unfilled_.empty();
+}
+
+bool GpuExecutor::uploadRest(vk::Commands& commands, VkDeviceSize most) noexcept {
+    while (!unfilled_.empty() && most > 0) {
+        auto& [buffer, rest] = unfilled_.back();
+        vk::BufferView part = rest;
+        part.size = std::min(rest.size, most);
+        if (const vk::Buffer* initial = stagingOf({buffer})) {
+            vk::BufferView from = initial->view();
+            from.offset += part.offset;
+            from.size = part.size;
+            commands.copy(from, part);
+        } else {
+            commands.fill(part, 0);
+        }
+        rest.offset += part.size;
+        rest.size -= part.size;
+        most -= part.size;
+        if (rest.size == 0) unfilled_.pop_back();
+    }
+    return unfilled_.empty();
 }
 
 void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,

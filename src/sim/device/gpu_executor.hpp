@@ -24,6 +24,13 @@ public:
 
     /// Records the copies that put every buffer into its initial state (also a reset). Ends with a barrier.
     void upload(vk::Commands& commands) noexcept;
+    /// Writes the initial state from the host into all buffers whose memory it sees; uploadRest() records the
+    /// copies for the others. Returns whether there are none. On any thread, before anything else is
+    /// recorded.
+    bool fill() noexcept;
+    /// Records copies for the next `most` bytes of the buffers that fill() left, without a barrier. Returns
+    /// whether none is left. `most`: a multiple of 4 [B].
+    bool uploadRest(vk::Commands& commands, VkDeviceSize most) noexcept;
     /// Host data of update passes, by HostData (<= 64 KiB each).
     using HostBytes = std::array<std::span<const std::byte>, hostDataCount>;
     /// Records the passes of a step with the planned barriers. `timestamps` receives one span per phase.
@@ -66,6 +73,8 @@ private:
     const vk::Buffer* stagingOf(BufferId buffer) const noexcept;
 
     std::vector<vk::Buffer> buffers_;
+    std::vector<std::pair<std::uint32_t, vk::BufferView>>
+        unfilled_;                                              // buffer index, what uploadRest() records
     std::optional<vk::Buffer> empty_;                           // for bindings that a dispatch leaves empty
     std::vector<std::pair<std::uint32_t, vk::Buffer>> staging_; // buffer index, its initial contents
     std::map<std::uint32_t, std::uint32_t> initialOf_;          // BufferSpec::initialOf, by buffer

@@ -91,6 +91,17 @@ Origin identity(std::size_t count) {
     return origins;
 }
 
+// By slot: whether a particle is in it.
+std::vector<bool> takenSlots(const StepProgram& program) {
+    std::vector<bool> taken(program.slotCount, false);
+    for (const std::uint32_t slot : program.slots) taken[slot] = true;
+    return taken;
+}
+
+// A buffer whose elements move in at most this many runs is carried by copies, else by a kernel: on software
+// devices a kernel takes 5 ns a word.
+constexpr std::size_t mostRuns = 64;
+
 std::uint32_t groupsOf(const vk::Kernel& kernel, std::uint32_t items) {
     return (items - 1) / kernel.interface().groupSize[0] + 1;
 }
@@ -117,6 +128,7 @@ public:
         const StepProgram &first = before.program, &second = now.program;
         add(Elements::particles, origins.particles, first.particleCount);
         add(Elements::slots, slotOrigins(first, second, origins.particles), first.slotCount);
+        tables_[Elements::slots].runs = joined(tables_[Elements::slots].runs);
         add(Elements::attachments, origins.attachments, 0);
         add(Elements::movers, origins.movers, 0);
         add(Elements::prisms,
@@ -152,11 +164,45 @@ private:
     static Table tableOf(Origin origins, std::size_t before) {
         Table table{.origins = std::move(origins),
                     .targets = std::vector<std::uint32_t>(before, NO_ELEMENT),
+                    .runs = {},
                     .originsView = {},
                     .targetsView = {}};
-        for (std::uint32_t i = 0; i < table.origins.size(); ++i)
-            if (table.origins[i] < before) table.targets[table.origins[i]] = i;
+        for (std::uint32_t i = 0; i < table.origins.size(); ++i) {
+            const std::uint32_t origin = table.origins[i];
+            if (origin < before) table.targets[origin] = i;
+            if (origin == NO_ELEMENT) continue;
+            const bool continues = !table.runs.empty() &&
+                                   i == table.runs.back().to + table.runs.back().count &&
+                                   origin == table.runs.back().from + table.runs.back().count;
+            if (continues)
+                ++table.runs.back().count;
+            else
+                table.runs.push_back({origin, i, 1});
+        }
         return table;
+    }
+
+    // Runs of slots with those between them that hold no particle on either side: these never change.
+    std::vector<Run> joined(const std::vector<Run>& runs) const {
+        const std::vector<bool> before = takenSlots(before_.program), now = takenSlots(now_.program);
+        const auto isFree = [](const std::vector<bool>& taken, std::uint32_t first, std::uint32_t count) {
+            const auto from = taken.begin() + first;
+            return std::none_of(from, from + count, [](bool isTaken) { return isTaken; });
+        };
+        std::vector<Run> result;
+        for (const Run& run : runs) {
+            if (!result.empty()) {
+                Run& last = result.back();
+                const std::uint32_t end = last.to + last.count, gap = run.to - end;
+                if (run.from == last.from + last.count + gap && isFree(now, end, gap) &&
+                    isFree(before, last.from + last.count, gap)) {
+                    last.count += gap + run.count;
+                    continue;
+                }
+            }
+            result.push_back(run);
+        }
+        return result;
     }
 
     const std::string& labelOf(const StepProgram& program, BufferId buffer) const {
@@ -269,6 +315,13 @@ private:
         const std::uint64_t needed = table.before();
         if (carry.of != Elements::one && source.size < needed * stride) return;
         const bool areIndices = carry.values != Elements::none;
+        if (!areIndices && table.runs.size() <= mostRuns) {
+            for (const Run& run : table.runs) {
+                const std::uint32_t count = run.to < elements ? std::min(run.count, elements - run.to) : 0;
+                if (count > 0) addCopy(source, target, {run.from, run.to, count}, stride);
+            }
+            return;
+        }
         Table& values = areIndices ? tables_[carry.values] : table;
         const layout::CarryPush push{.count = elements * words,
                                      .words = words,
@@ -276,6 +329,13 @@ private:
                                          areIndices ? static_cast<std::uint32_t>(values.targets.size()) : 0};
         const vk::BufferView targets = areIndices ? targetsOf(values) : originsOf(table);
         add(*made_.ofElements_, push.count, {originsOf(table), targets, source, target}, push);
+    }
+
+    void addCopy(const vk::BufferView& source, const vk::BufferView& target, const Run& run,
+                 std::uint32_t stride) {
+        Copy copy{from(source, run.from, stride), from(target, run.to, stride)};
+        copy.from.size = copy.to.size = std::uint64_t{run.count} * stride;
+        made_.copies_.push_back(copy);
     }
 
     void addContacts(const ContactMemory& now) {

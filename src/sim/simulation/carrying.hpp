@@ -46,9 +46,14 @@ public:
     void recordCounts(vk::Commands& commands) const noexcept;
 
 private:
+    // Elements that follow each other on both sides.
+    struct Run {
+        std::uint32_t from = 0, to = 0, count = 0;
+    };
     // Indices of one kind of element, in both directions.
     struct Table {
         Origin origins, targets;
+        std::vector<Run> runs;                   // of all that are carried
         vk::BufferView originsView, targetsView; // made at first use
         /// A number that all indices before are below.
         std::uint32_t before() const {

@@ -102,15 +102,19 @@ void Simulation::State::goBack() noexcept {
 void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
     vk::Commands commands(state_->device, buffer);
     state_->executor.upload(commands);
-    state_->previousH = 0;
-    state_->settledEnd = {};
-    state_->forgetUnsettled();
-    state_->hasState = true;
-    state_->anchors.reset();
-    state_->grabs.reset();
-    state_->fields.reset();
-    state_->colliders.moveTo(0);
-    state_->isUncut = true;
+    state_->reset();
+}
+
+void Simulation::State::reset() noexcept {
+    previousH = 0;
+    settledEnd = {};
+    forgetUnsettled();
+    hasState = true;
+    anchors.reset();
+    grabs.reset();
+    fields.reset();
+    colliders.moveTo(0);
+    isUncut = true;
 }
 
 void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps* timestamps) noexcept {

@@ -283,6 +283,9 @@ struct Simulation::State {
         executor.record(commands, List::refresh);
     }
 
+    // The host's part of a reset.
+    void reset() noexcept;
+
     // Continues the host's part of `other`, whose scene has other bodies.
     void carry(const State& other, const Origins& origins) noexcept;
 

@@ -120,7 +120,7 @@ void Simulation::recordCarried(VkCommandBuffer buffer, const Simulation& from, c
     from.state_->goBack();
     State& own = *state_;
     const State& other = *from.state_;
-    recordReset(buffer);
+    own.reset();
     vk::Commands commands(own.device, buffer);
     commands.beginStep();
     carrying.record(commands);
@@ -140,6 +140,15 @@ void Simulation::recordCarried(VkCommandBuffer buffer, const Simulation& from, c
     }
     own.recordSettling(commands);
     commands.endStep();
+}
+
+bool Simulation::fill() noexcept {
+    return state_->executor.fill();
+}
+
+bool Simulation::recordFilling(VkCommandBuffer buffer, VkDeviceSize most) noexcept {
+    vk::Commands commands(state_->device, buffer);
+    return state_->executor.uploadRest(commands, most);
 }
 
 bool Simulation::mayBeCarried() const noexcept {

@@ -19,6 +19,10 @@ namespace sinew::sim {
 
 namespace {
 
+// Bytes of first contents that one call of recordChanges() copies, where the host does not see the memory of
+// the device: a millisecond at 16 GB/s.
+constexpr VkDeviceSize fillingOfFrame = 16u << 20;
+
 // The part with all that holds for the whole scene of the base, and among its surroundings.
 Scene inSurroundings(const Scene& base, const Scene& part) {
     Scene scene = part;
@@ -110,40 +114,36 @@ struct World::Making {
         std::uint32_t arrival = 0;
         std::shared_ptr<const Scene> scene;
     };
-    struct Made {
-        Scene scene;
-        std::vector<Placed> placed;
-        std::unique_ptr<Simulation> simulation;
-        Origins origins;
-        std::unique_ptr<Carrying> carrying;
-    };
     std::vector<Placed> arriving; // parts that the simulation that runs does not have
     Settings settings;
     bool hasLost = false; // parts that the simulation that runs has
     bool wakes = false;   // all that sleeps
-    std::future<Made> made;
-    std::unique_ptr<Simulation> replaced;
+    // Of the new simulation; after the take-over, of the one that it replaced.
+    Scene scene;
+    std::vector<Placed> placed;
+    std::unique_ptr<Simulation> simulation;
+    Origins origins;
     std::unique_ptr<Carrying> carrying; // its tables are used by the take-over
+    bool isFilled = false;              // all first contents are written, or recorded
+    std::future<void> made;             // the thread that runs make()
 
-    static Made make(const vk::Device& device, const std::shared_ptr<const Scene>& base,
-                     const std::vector<Part>& parts, const Settings& settings, const Simulation& running,
-                     const Scene& sceneBefore, const std::vector<Placed>& placedBefore) {
-        Made made{.scene = *base, .placed = {}, .simulation = nullptr, .origins = {}, .carrying = nullptr};
-        made.placed.push_back({.part = {}, .range = {.first = {}, .count = countsOf(*base)}});
+    void make(const vk::Device& device, const Scene& base, const std::vector<Part>& parts,
+              const Simulation& running, const Scene& sceneBefore, const std::vector<Placed>& placedBefore) {
+        scene = base;
+        placed.push_back({.part = {}, .range = {.first = {}, .count = countsOf(base)}});
         for (const Part& part : parts) {
-            const SceneCounts first = place(made.scene, *part.scene, part.arrival);
-            made.placed.push_back(
-                {.part = part.id, .range = {.first = first, .count = countsOf(*part.scene)}});
+            const SceneCounts first = place(scene, *part.scene, part.arrival);
+            placed.push_back({.part = part.id, .range = {.first = first, .count = countsOf(*part.scene)}});
         }
-        made.simulation = std::make_unique<Simulation>(device, made.scene, settings);
-        made.origins = originsOf(sceneBefore, placedBefore, made.scene, made.placed, settings.hostColliders);
-        made.carrying = running.makeCarrying(*made.simulation, made.origins);
-        return made;
+        simulation = std::make_unique<Simulation>(device, scene, settings);
+        isFilled = simulation->fill();
+        origins = originsOf(sceneBefore, placedBefore, scene, placed, settings.hostColliders);
+        carrying = running.makeCarrying(*simulation, origins);
     }
 };
 
 World::World(const vk::Device& device, Scene base, const Settings& settings)
-    : device_(device.anchored()), asked_(withSubsteps(base, settings)), settings_(asked_),
+    : device_(device.anchored()), kernels_(device_), asked_(withSubsteps(base, settings)), settings_(asked_),
       choosesSubsteps_(settings.substeps == 0), base_(std::make_shared<const Scene>(std::move(base))),
       arrivals_(lastArrival(*base_)), rooms_(settings_),
       scene_(*base_), placed_{{.part = {}, .range = {.first = {}, .count = countsOf(*base_)}}},
@@ -208,7 +208,7 @@ StepStatus World::status(std::uint64_t frame) const noexcept {
     const StepStatus status = simulation_->status(frame);
     if (status.isFinished) return status;
     for (std::size_t k = replaced_.size(); k-- > 0;) {
-        const StepStatus before = replaced_[k]->replaced->status(frame);
+        const StepStatus before = replaced_[k]->simulation->status(frame);
         if (before.isFinished) return before;
     }
     return status;
@@ -234,8 +234,13 @@ bool World::isChanging() const noexcept {
     return hasChanged_ || making_ != nullptr;
 }
 
+bool World::isMade() const {
+    return making_ && (!making_->made.valid() ||
+                       making_->made.wait_for(std::chrono::seconds(0)) == std::future_status::ready);
+}
+
 bool World::isReady() const {
-    return making_ && making_->made.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    return isMade() && (making_->isFilled || making_->simulation == nullptr);
 }
 
 // Parts stay in the order of their arrival, so that sums over contacts keep their order.
@@ -265,11 +270,11 @@ void World::begin() {
         making->hasLost = making->hasLost || (placed.part != PartId{} && slotOf(placed.part) == nullptr);
     making->wakes = making->wakes || making->hasLost;
     making->settings.contactRoom = contactRoomFor(particles, faces);
-    making->made = std::async(std::launch::async, [&device = device_, base = base_, parts = std::move(parts),
-                                                   settings = making->settings, &running = *simulation_,
-                                                   &scene = scene_, &placed = placed_] {
-        return Making::make(device, base, parts, settings, running, scene, placed);
-    });
+    making->made = std::async(std::launch::async,
+                              [&making = *making, &device = device_, base = base_, parts = std::move(parts),
+                               &running = *simulation_, &scene = scene_, &placed = placed_] {
+                                  making.make(device, *base, parts, running, scene, placed);
+                              });
     making_ = std::move(making);
     hasChanged_ = false;
 }
@@ -315,23 +320,24 @@ void World::release() {
 
 bool World::recordChanges(VkCommandBuffer commands) {
     if (!making_ && hasChanged_) begin();
-    if (!isReady() || !simulation_->mayBeCarried()) return false;
-    replaced_.reserve(replaced_.size() + 1);
-    std::unique_ptr<Making> making = std::move(making_);
-    Making::Made made;
+    if (!isMade()) return false;
     try {
-        made = making->made.get();
+        if (making_->made.valid()) making_->made.get();
     } catch (...) {
-        giveUp(*making);
+        giveUp(*std::exchange(making_, nullptr));
         throw;
     }
-    made.simulation->recordCarried(commands, *simulation_, *made.carrying, made.origins, making->wakes);
-    scene_ = std::move(made.scene);
-    placed_ = std::move(made.placed);
+    if (!making_->isFilled) making_->isFilled = making_->simulation->recordFilling(commands, fillingOfFrame);
+    if (!making_->isFilled || !simulation_->mayBeCarried()) return false;
+    replaced_.reserve(replaced_.size() + 1);
+    std::unique_ptr<Making> making = std::move(making_);
+    making->simulation->recordCarried(commands, *simulation_, *making->carrying, making->origins,
+                                      making->wakes);
+    std::swap(scene_, making->scene);
+    std::swap(placed_, making->placed);
+    std::swap(simulation_, making->simulation);
     settings_ = making->settings;
     rooms_.adopt(settings_);
-    making->replaced = std::exchange(simulation_, std::move(made.simulation));
-    making->carrying = std::move(made.carrying);
     replaced_.push_back(std::move(making));
     return true;
 }
