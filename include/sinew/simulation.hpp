@@ -342,7 +342,8 @@ private:
     /// room, after fill() and recordFilling(). With `wakes` nothing stays asleep.
     SINEW_LOCAL void recordCarried(VkCommandBuffer commands, const Simulation& from, const Carrying& carrying,
                                    const Origins& origins, bool wakes) noexcept;
-    /// Whether no step is in flight or waits to be recorded again.
+    /// Whether no step waits to be recorded again, and the host's part of the state is known: it is the same
+    /// whichever of the steps in flight will be undone.
     SINEW_LOCAL bool mayBeCarried() const noexcept;
     struct SINEW_LOCAL State;
     std::unique_ptr<State> state_;

@@ -72,9 +72,11 @@ SINEW_C_API SinewResult sinewGetWorldCounts(SinewWorld world, SinewSceneCounts* 
 
 // Called before each step, with the command buffer that the step will be recorded into. Begins to make a
 // simulation if there are changes and none is being made. While one is made, may record copies into its
-// buffers and sets *isTakenOver to 0; the commands must be submitted. If it is ready, and no step is in
-// flight or has to be repeated, records the take-over and sets *isTakenOver to 1: indices, views and the
-// handle of the simulation are then new. Does not wait. The host resets the first simulation by sinewRecordReset(); a take-over needs no reset. Errors: those
+// buffers and sets *isTakenOver to 0; the commands must be submitted. If it is ready, records the take-over
+// and sets *isTakenOver to 1: indices, views and the handle of the simulation are then new. Steps may be in
+// flight, except those that may have to be repeated, those of another length than the last that was finished,
+// those of a scene with colliders that move or with host colliders, and all after sinewObserveStatus() has
+// asked for more room for contacts. No step may wait to be repeated. Does not wait. The host resets the first simulation by sinewRecordReset(); a take-over needs no reset. Errors: those
 // of sinewCreateSimulation() if the making failed: parts that were to arrive are then removed, and the world
 // goes on without them.
 SINEW_C_API SinewResult sinewRecordChanges(SinewWorld world, VkCommandBuffer commands, uint32_t* isTakenOver);

@@ -75,10 +75,12 @@ public:
 
     /// Call before each step, with the command buffer that the step will be recorded into. Begins to make a
     /// simulation if there are changes and none is being made. While one is made, may record copies into its
-    /// buffers; the commands must be submitted. If it is ready, and no step is in flight or has to be
-    /// recorded again (Step::repeats), records the take-over and returns true: simulation(), scene() and all
-    /// indices and views are then new. Throws what the making threw, after which the world goes on without
-    /// the parts that were to arrive. `commands` as in Simulation::recordReset().
+    /// buffers; the commands must be submitted. If it is ready, records the take-over and returns true:
+    /// simulation(), scene() and all indices and views are then new. Steps may be in flight, except those
+    /// with Step::repeats, those of another length than the last that was finished, those of a scene with
+    /// colliders that move or with Settings::hostColliders, and all after observe() has asked for more room
+    /// for contacts. No step may wait to be recorded again. Throws what the making threw, after which the
+    /// world goes on without the parts that were to arrive. `commands` as in Simulation::recordReset().
     bool recordChanges(VkCommandBuffer commands);
     /// Whether recordChanges() would take over if no step were in flight: let these finish.
     bool isReady() const;
@@ -110,6 +112,7 @@ private:
     SINEW_LOCAL const Slot* slotOf(PartId part) const noexcept;
     SINEW_LOCAL void begin();
     SINEW_LOCAL bool isMade() const;
+    SINEW_LOCAL bool mayTakeOver() const noexcept;
     SINEW_LOCAL std::uint32_t contactRoomFor(std::size_t particles, std::size_t faces) const;
     SINEW_LOCAL void forget(Slot& slot) noexcept;
     SINEW_LOCAL void giveUp(const Making& making) noexcept;

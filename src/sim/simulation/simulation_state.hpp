@@ -285,6 +285,9 @@ struct Simulation::State {
 
     // The host's part of a reset.
     void reset() noexcept;
+    // Whether lastSettled() is the same whichever of the steps in flight will be undone, and none of them may
+    // have to be recorded again.
+    bool isEndKnown() const noexcept;
 
     // Continues the host's part of `other`, whose scene has other bodies.
     void carry(const State& other, const Origins& origins) noexcept;

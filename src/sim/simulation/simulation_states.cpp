@@ -151,9 +151,21 @@ bool Simulation::recordFilling(VkCommandBuffer buffer, VkDeviceSize most) noexce
     return state_->executor.uploadRest(commands, most);
 }
 
+// The state on the device follows the steps in flight, undone or not, by the order of the queue.
+bool Simulation::State::isEndKnown() const noexcept {
+    const Settled known = lastSettled();
+    for (std::uint64_t i = 0; i < ring.slots(); ++i) {
+        const RecordedStep& step = ring.step(nextFrame + i);
+        if (!step.isRecorded || ring.isFinished(step.frame)) continue;
+        if (step.repeats || !colliders.ways().empty() || unsettled[ring.slotOf(step.frame)].end.h != known.h)
+            return false;
+    }
+    return true;
+}
+
 bool Simulation::mayBeCarried() const noexcept {
     state_->readSteps();
-    return !state_->ring.oldestUnfinished() && !state_->lackedLists;
+    return !state_->lackedLists && state_->isEndKnown();
 }
 
 std::uint64_t Simulation::handOverSize() const noexcept {

@@ -318,6 +318,13 @@ void World::release() {
     });
 }
 
+// Steps that lacked room are recorded anew once a simulation with more room has taken over: none may be in
+// flight then.
+bool World::mayTakeOver() const noexcept {
+    const bool grows = asked_.contactRoom > settings_.contactRoom;
+    return simulation_->mayBeCarried() && !(grows && simulation_->oldestInFlight());
+}
+
 bool World::recordChanges(VkCommandBuffer commands) {
     if (!making_ && hasChanged_) begin();
     if (!isMade()) return false;
@@ -328,7 +335,7 @@ bool World::recordChanges(VkCommandBuffer commands) {
         throw;
     }
     if (!making_->isFilled) making_->isFilled = making_->simulation->recordFilling(commands, fillingOfFrame);
-    if (!making_->isFilled || !simulation_->mayBeCarried()) return false;
+    if (!making_->isFilled || !mayTakeOver()) return false;
     replaced_.reserve(replaced_.size() + 1);
     std::unique_ptr<Making> making = std::move(making_);
     making->simulation->recordCarried(commands, *simulation_, *making->carrying, making->origins,
