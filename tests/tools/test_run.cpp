@@ -61,19 +61,23 @@ TEST_F(Run, TracesEnergyOverlapAndSleepOverTime) {
     std::vector<std::string> lines;
     for (std::string line; std::getline(stream, line);) lines.push_back(line);
     ASSERT_EQ(lines.size(), 4u) << "after 4, 8 and 10 steps";
-    EXPECT_EQ(lines[0], "step,time,kinetic_energy,penetration_max,penetration_rms,asleep");
+    EXPECT_EQ(lines[0], "step,time,kinetic_energy,penetration_max,penetration_rms,asleep,potential_energy,"
+                        "resident_mib,device_mib");
     const auto fields = [&](std::size_t line) {
         std::istringstream text(lines[line]);
         std::vector<double> values;
         for (std::string value; std::getline(text, value, ',');) values.push_back(std::stod(value));
         return values;
     };
-    ASSERT_EQ(fields(1).size(), 6u);
+    ASSERT_EQ(fields(1).size(), 9u);
     EXPECT_EQ(fields(1)[0], 4);
     EXPECT_EQ(fields(3)[0], 10);
     EXPECT_NEAR(fields(3)[1], 10 / 60.0, 1e-5);
     EXPECT_GT(fields(1)[2], 0) << "they fall";
     EXPECT_EQ(fields(3)[5], 0);
+    EXPECT_LT(fields(3)[6], fields(1)[6]) << "they fall";
+    EXPECT_GT(fields(3)[7], fields(3)[8]) << "a software device has its buffers in this process";
+    EXPECT_GT(fields(3)[8], 0);
     // The trace agrees with the report at the end and does not change the motion.
     const json traced =
         report({"balls.toml", "--frames", "10", "--trace", "trace.csv", "--trace-every", "3"});

@@ -154,6 +154,14 @@ double kineticEnergy(const State& state) {
     return energy;
 }
 
+double potentialEnergy(const sim::Scene& scene, const State& state) {
+    double energy = 0;
+    for (std::size_t i = 0; i < state.positions.size(); ++i)
+        if (const auto& x = state.positions[i]; x[3] > 0 && state.has(i))
+            energy -= dot(pointOf(scene.gravity), pointOf(x)) / double{x[3]};
+    return energy;
+}
+
 std::uint64_t stateHash(const State& state) {
     const auto bytes = [](const auto& list) { return std::as_bytes(std::span(list)); };
     return sim::fnv1a(bytes(state.velocities), sim::fnv1a(bytes(state.positions)));

@@ -49,6 +49,9 @@ double rigidStretch(const sim::Scene& scene, const State& state);
 /// Kinetic energy of all movable particles [J], from the device's velocities.
 double kineticEnergy(const State& state);
 
+/// Energy of all movable particles in the scene's gravity [J]; 0 with all of them at the origin.
+double potentialEnergy(const sim::Scene& scene, const State& state);
+
 /// FNV-1a (64 bits) of the bytes of positions, then velocities.
 std::uint64_t stateHash(const State& state);
 

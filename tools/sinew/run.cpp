@@ -231,7 +231,8 @@ void addRun(CLI::App& app, Chosen& chosen) {
             return app::isRunFile(file) ? std::string() : file + ": the name of a state must end in .state";
         });
     command.add_option("--trace", options->trace,
-                       "file for energy, overlap and sleep over time as CSV, or - for the standard output");
+                       "file for energy, overlap, sleep and memory over time as CSV, or - for the standard "
+                       "output");
     command.add_option("--trace-every", options->traceEvery, "steps between two of its lines")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
         ->capture_default_str();

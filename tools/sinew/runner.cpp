@@ -9,6 +9,7 @@
 #include "sinew/cut_mesh.hpp"
 #include "sinew/skin_mesh.hpp"
 #include "sinew/vk/check.hpp"
+#include "vk/allocator.hpp"
 
 #include <chrono>
 #include <numeric>
@@ -212,6 +213,10 @@ std::vector<double> Runner::phaseMs() const {
 
 double Runner::recordMs() const {
     return recorded_ == 0 ? 0 : recordSum_ / static_cast<double>(recorded_);
+}
+
+std::uint64_t Runner::deviceBytes() const {
+    return session_.device.allocator().statistics().used;
 }
 
 State Runner::readState() {

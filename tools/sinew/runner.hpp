@@ -72,6 +72,7 @@ public:
     const ListFigures& lists() const { return lists_; }
     const sim::ContactRoom& contactRoom() const { return rooms_.contacts(); }
     const sim::SurfaceRoom& surfaceRoom() const { return rooms_.surface(); }
+    std::uint64_t deviceBytes() const;                               ///< in buffers of the session's device
     std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing of these
     /// Figures of the newest step with a finite state.
     const CutFigures& cuts() const { return cuts_; }

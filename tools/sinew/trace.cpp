@@ -6,17 +6,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+
+#include <unistd.h>
 
 namespace sinew::tools {
 
-Sample sampleOf(const sim::Scene& scene, const State& state, std::uint64_t step) {
+namespace {
+
+// Resident memory of this process [MiB], from the second word of Linux's statm.
+double residentMib() {
+    std::ifstream stream("/proc/self/statm");
+    double all = 0, resident = 0; // pages
+    stream >> all >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024 * 1024);
+}
+
+} // namespace
+
+Sample sampleOf(const sim::Scene& scene, Runner& runner) {
+    const State state = runner.readState();
+    const std::uint64_t step = runner.steps();
     const Errors errors = measurePenetration(scene, state, step);
     return {.step = step,
             .time = double{scene.dt} * static_cast<double>(step),
             .kineticEnergy = kineticEnergy(state),
             .penetrationMax = errors.penetrationMax,
             .penetrationRms = errors.penetrationRms,
-            .asleep = static_cast<std::size_t>(std::ranges::count(state.isAsleep, true))};
+            .asleep = static_cast<std::size_t>(std::ranges::count(state.isAsleep, true)),
+            .potentialEnergy = potentialEnergy(scene, state),
+            .residentMib = residentMib(),
+            .deviceMib = static_cast<double>(runner.deviceBytes()) / (1024 * 1024)};
 }
 
 std::vector<Sample> trace(Runner& runner, const sim::Scene& scene, std::uint64_t count, std::uint64_t every,
@@ -25,7 +45,7 @@ std::vector<Sample> trace(Runner& runner, const sim::Scene& scene, std::uint64_t
     while (runner.steps() < count && !runner.divergence() && !app::isInterrupted()) {
         const std::uint64_t before = runner.steps();
         runner.advance(std::min(every, count - before), sim::Simulation::framesInFlight, onStep);
-        if (runner.steps() > before) samples.push_back(sampleOf(scene, runner.readState(), runner.steps()));
+        if (runner.steps() > before) samples.push_back(sampleOf(scene, runner));
     }
     return samples;
 }
@@ -34,10 +54,12 @@ std::string toCsv(std::span<const Sample> samples) {
     const auto text = [](const std::optional<double>& value) {
         return value ? fmt::format("{:.6g}", *value) : std::string();
     };
-    std::string csv = "step,time,kinetic_energy,penetration_max,penetration_rms,asleep\n";
+    std::string csv = "step,time,kinetic_energy,penetration_max,penetration_rms,asleep,potential_energy,"
+                      "resident_mib,device_mib\n";
     for (const Sample& s : samples)
-        csv += fmt::format("{},{:.6g},{:.6g},{},{},{}\n", s.step, s.time, s.kineticEnergy,
-                           text(s.penetrationMax), text(s.penetrationRms), s.asleep);
+        csv += fmt::format("{},{:.6g},{:.6g},{},{},{},{:.9g},{:.2f},{:.2f}\n", s.step, s.time,
+                           s.kineticEnergy, text(s.penetrationMax), text(s.penetrationRms), s.asleep,
+                           s.potentialEnergy, s.residentMib, s.deviceMib);
     return csv;
 }
 
