@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <map>
+
 using namespace sinew;
 using namespace sinew::sim;
 using Eigen::Vector3d;
@@ -98,6 +100,32 @@ TEST(SkinOnParticles, SitsOnThem) {
     ASSERT_EQ(vertices.size(), skin.particles.size());
     for (std::size_t v = 0; v < vertices.size(); ++v)
         EXPECT_EQ(xyz(vertices[v].position), x[skin.particles[v]]);
+}
+
+// Bodies that touch keep two radii between their particles.
+TEST(SkinOnParticles, IsRaisedToTheSurfaceThatTouches) {
+    Lattice lattice{
+        .cells = {3, 2, 4}, .spacing = 0.1f, .youngModulus = 1e5f, .density = 1000, .radius = 0.04f};
+    for (const bool isCuttable : {false, true}) {
+        lattice.isCuttable = isCuttable;
+        Scene scene{.gravity = {}};
+        addLatticeSkin(scene, lattice, addLattice(scene, lattice), {1, 1, 1});
+        test::Runner runner(scene);
+        const auto x = runner.positions();
+        const std::vector<Vertex> vertices = skinOf(runner);
+        const Skin& skin = scene.skins[0];
+        std::map<std::uint32_t, Vector3d> sums;
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            const auto sum = sums.try_emplace(skin.particles[v], Vector3d::Zero()).first;
+            sum->second += xyz(vertices[v].normal);
+        }
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            const Vector3d along =
+                isCuttable ? Vector3d(Vector3d::Zero()) : sums[skin.particles[v]].normalized();
+            const Vector3d expected = x[skin.particles[v]] + 0.04 * along;
+            EXPECT_LE((xyz(vertices[v].position) - expected).norm(), 1e-6) << v << ", " << isCuttable;
+        }
+    }
 }
 
 TEST(SkinNormals, AreOfUnitLengthAndPointOutOfABall) {

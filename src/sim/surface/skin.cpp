@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 
 namespace sinew::sim::surface {
@@ -97,6 +98,63 @@ std::vector<std::uint32_t> join(const std::vector<Skin>& skins, const Triangles&
     return indices;
 }
 
+// Skins that are raised to the contact surface of their body, by vertex of all skins.
+struct Raised {
+    std::vector<layout::VertexTriangles> meeting; // entries of `copies`: vertices at the same particle
+    std::vector<std::uint32_t> copies;
+    std::vector<float> heights; // [m]; 0 = the vertex stays
+};
+
+// The distance from particles to the surface where a body of faces of cells touches others [m]. A body that
+// may be cut is drawn through its particles, as the surface of its cuts is.
+float raisedBy(const Scene& scene, const Skin& skin) {
+    if (skin.particles.empty()) return 0;
+    const std::uint32_t first = skin.particles.front();
+    const auto holds = [&](const Body& body) { return first - body.firstParticle < body.particleCount; };
+    const auto body = std::ranges::find_if(scene.bodies, holds);
+    if (body == scene.bodies.end() || body->restVolume == 0) return 0;
+    const auto isCut = [&](const Grid& grid) {
+        return grid.isCuttable && first - grid.firstParticle < grid.node.size();
+    };
+    return std::ranges::any_of(scene.grids, isCut) ? 0 : scene.particles[first].radius;
+}
+
+void raise(Raised& raised, const Skin& skin, float height) {
+    const auto firstVertex = static_cast<std::uint32_t>(raised.heights.size());
+    raised.heights.resize(firstVertex + skin.vertexCount(), height);
+    raised.meeting.resize(raised.heights.size());
+    if (height == 0) return;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> at; // by particle
+    for (std::uint32_t v = 0; v < skin.particles.size(); ++v)
+        at[skin.particles[v]].push_back(firstVertex + v);
+    for (const auto& [particle, vertices] : at) {
+        const auto first = static_cast<std::uint32_t>(raised.copies.size());
+        for (const std::uint32_t vertex : vertices)
+            raised.meeting[vertex] = {first, static_cast<std::uint32_t>(vertices.size())};
+        raised.copies.insert(raised.copies.end(), vertices.begin(), vertices.end());
+    }
+}
+
+Raised readRaised(const Scene& scene) {
+    Raised raised;
+    for (const Skin& skin : scene.skins) raise(raised, skin, raisedBy(scene, skin));
+    return raised;
+}
+
+// Appends the pass that raises vertices, to each list that computes them; none if no skin is raised.
+void addRaised(ProgramBuilder& program, const Scene& scene) {
+    const Raised raised = readRaised(scene);
+    if (raised.copies.empty()) return;
+    const std::vector<BufferId> buffers{
+        program.program().skinVertices, program.upload("skin.meeting", raised.meeting),
+        program.upload("skin.copies", raised.copies), program.upload("skin.heights", raised.heights)};
+    const auto count = static_cast<std::uint32_t>(raised.heights.size());
+    for (const List list : {List::skin, List::wholeSkin})
+        if (!program.program()[list].empty())
+            program.into(
+                list, [&] { program.dispatch(k::raiseVertices, count, buffers, layout::CountPush{count}); });
+}
+
 // Appends the skins as drawn while nothing is cut.
 void addWholeSkins(ProgramBuilder& program, const Skins& skins) {
     const auto isSplit = [](const Skin& skin) { return !skin.wholeTriangles.empty(); };
@@ -163,6 +221,7 @@ void addSkins(Build& build) {
         build.add(&Feature::skinEnd);
     });
     addWholeSkins(program, all);
+    addRaised(program, build.model.scene);
 }
 
 } // namespace sinew::sim::surface
