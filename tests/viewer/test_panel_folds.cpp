@@ -90,12 +90,14 @@ TEST_F(PanelFoldsTest, ShowTheWarningOfSoftBodiesInTheHeadingOfAFoldedSection) {
     EXPECT_GT(vertices(), before);
 }
 
-TEST_F(PanelFoldsTest, OpenTheSectionOfThePathThatIsAskedFor) {
+TEST_F(PanelFoldsTest, ShowTheListOfFilesWhateverIsFolded) {
     panels.fold(Folds().set());
     settle();
-    panels.askForFile();
-    EXPECT_FALSE(panels.folds()[indexOf(Fold::scene)]);
-    EXPECT_TRUE(panels.folds()[indexOf(Fold::view)]);
+    panels.toggleFiles();
+    settle();
+    settle();
+    EXPECT_NE(shownWindow("files"), nullptr);
+    EXPECT_EQ(panels.folds(), Folds().set());
 }
 
 } // namespace

@@ -125,7 +125,7 @@ TEST_F(PanelsTest, TakeAPathThatIsTypedOrPastedAndNoneAfterEsc) {
         return wishes.file ? wishes.file : after.file;
     };
     const auto ask = [&] {
-        panels.askForFile();
+        panels.toggleFiles();
         settle();
         settle();
         EXPECT_TRUE(panels.takesKeys());
@@ -167,7 +167,7 @@ PanelInput typing(const std::string& text) {
 
 TEST_F(PanelsTest, TakeAPathThatIsTypedBeforeTheLineForItIsThere) {
     settle();
-    panels.askForFile();
+    panels.toggleFiles();
     EXPECT_TRUE(panels.takesKeys()) << "or what is typed would be commands";
     PanelInput all = typing("/tmp/a.obj");
     all.keys = {{GLFW_KEY_ENTER, true}, {GLFW_KEY_ENTER, false}};
@@ -176,7 +176,7 @@ TEST_F(PanelsTest, TakeAPathThatIsTypedBeforeTheLineForItIsThere) {
     EXPECT_EQ(file, "/tmp/a.obj");
     settle();
     EXPECT_FALSE(panels.takesKeys());
-    panels.askForFile();
+    panels.toggleFiles();
     panels.toggle(); // hides the line
     EXPECT_FALSE(panels.takesKeys());
 }
@@ -184,7 +184,7 @@ TEST_F(PanelsTest, TakeAPathThatIsTypedBeforeTheLineForItIsThere) {
 TEST_F(PanelsTest, KeepTheLineForAPathWhateverAppears) {
     panels.toggleHelp();
     settle();
-    panels.askForFile();
+    panels.toggleFiles();
     EXPECT_FALSE(panels.isHelpShown());
     settle();
     settle();
@@ -203,7 +203,7 @@ TEST_F(PanelsTest, CopyWhatIsInALine) {
     std::string copied;
     panels.setCopy([&](const std::string& text) { copied = text; });
     settle();
-    panels.askForFile();
+    panels.toggleFiles();
     settle();
     settle();
     picture(typing("/tmp/a.obj"));

@@ -108,7 +108,7 @@ constexpr std::array afterLayers{
     Binding{{key, GLFW_KEY_O, GLFW_MOD_CONTROL},
             open,
             "Ctrl + O",
-            "open a scene, a mesh or a saved state by its path",
+            "open a file: a scene, a mesh or a saved state",
             "Open"},
     Binding{{key, GLFW_KEY_F9},
             record,

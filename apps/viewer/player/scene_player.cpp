@@ -164,6 +164,7 @@ void ScenePlayer::grant(const Wishes& wishes, Input& input) {
 
 void ScenePlayer::handle(Input& input) {
     observer_.takePress(input);
+    if (std::ranges::any_of(input.presses, &Input::Press::isDown)) session_.panels().closeAll();
     if (!input.files.empty()) adjustments_.openFile(input.files.front());
     for (const Action action : input.actions) {
         if (action == Action::drop) observer_.forgetLook();
@@ -206,7 +207,7 @@ void ScenePlayer::act(Action action) {
     case Action::nextScene:
         return adjustments_.openNext(1);
     case Action::open:
-        session_.panels().askForFile();
+        session_.panels().toggleFiles();
         panelsDue_ = picturesOfAFocus;
         return;
     default:

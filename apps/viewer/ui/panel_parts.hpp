@@ -9,6 +9,7 @@
 
 namespace sinew::viewer {
 struct HelpSearch;
+struct FileField;
 struct GalleryState;
 struct SceneFields;
 } // namespace sinew::viewer
@@ -68,6 +69,8 @@ void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void scenes(const SceneFacts& scene, const Facts& facts, SceneFields& fields, Wishes& wishes);
 /// Cards of all scenes over the picture, while it is open.
 void gallery(const Facts& facts, GalleryState& state, Wishes& wishes);
+/// The list of files, while it is shown.
+void open(FileField& files, Wishes& wishes);
 void play(const Facts& facts, Wishes& wishes);
 void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void look(const Facts& facts, Wishes& wishes);

@@ -23,6 +23,17 @@ constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200, r
 constexpr int mostPicturesUnfocused = 20;             // that a text field may wait for keys
 constexpr float roomBeside = 2.6f; // in panels: least width of a picture that shows panels at first
 
+// The folder of the file that was opened last.
+std::filesystem::path startFolder(const Facts& facts) {
+    std::error_code error;
+    if (!facts.recent.empty())
+        if (const auto folder = std::filesystem::path(facts.recent.front()).parent_path();
+            std::filesystem::is_directory(folder, error))
+            return folder;
+    const std::filesystem::path here = std::filesystem::current_path(error);
+    return error ? std::filesystem::path("/") : here;
+}
+
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
@@ -198,18 +209,21 @@ float Panels::freeWidth(VkExtent2D extent) const {
 
 // A hidden text field gets no keys.
 bool Panels::isAsking() const {
-    return fields_.path.isShown && isShown(lastExtent_);
+    return fields_.files.isShown && isShown(lastExtent_);
 }
 
 const ImDrawData& Panels::drawn() const {
     return *ImGui::GetDrawData();
 }
 
-void Panels::askForFile() {
+void Panels::toggleFiles() {
+    const bool opens = !isAsking();
     closeHelp(); // the help covers everything
     if (!isShown(lastExtent_)) toggle();
-    folds_.reset(indexOf(Fold::scene));
-    fields_.path = {.isShown = true, .wantsKeys = true};
+    fields_.gallery.closes = fields_.gallery.isOpen;
+    fields_.files.isShown = fields_.files.wantsKeys = fields_.files.wantsFolder = opens;
+    fields_.files.pictures = 0;
+    fields_.files.text = {};
     early_ = {};
 }
 
@@ -221,6 +235,12 @@ void Panels::toggleGallery() {
     closeHelp();
     if (!isShown(lastExtent_)) toggle();
     folds_.reset(indexOf(Fold::scene));
+}
+
+void Panels::closeAll() {
+    closeHelp();
+    fields_.files.isShown = fields_.gallery.wants = false;
+    closesAll_ = true;
 }
 
 bool Panels::closeTop() {
@@ -262,9 +282,10 @@ void Panels::feedTyped(const PanelInput& input) {
     early_.keys.insert(early_.keys.end(), input.keys.begin(), input.keys.end());
     early_.characters.insert(early_.characters.end(), input.characters.begin(), input.characters.end());
     if (isEarly) {
-        if (++fields_.path.pictures > mostPicturesUnfocused) fields_.path = {};
+        if (++fields_.files.pictures > mostPicturesUnfocused) fields_.files.isShown = false;
         return;
     }
+    fields_.files.pictures = 0;
     const PanelInput typed = std::exchange(early_, {});
     feedKeys(typed);
     for (const unsigned character : typed.characters) ImGui::GetIO().AddInputCharacter(character);
@@ -293,11 +314,16 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     Wishes wishes;
     wishes.previews.emplace();
     ImGui::NewFrame();
+    if (std::exchange(closesAll_, false)) {
+        ImGui::ClearActiveID();
+        if (!context_->OpenPopupStack.empty()) ImGui::ClosePopupToLevel(0, false);
+    }
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
     if (toolbarWidth(extent) > 0) buildToolbar(facts, extent, wishes);
     buildHint(facts, extent, buildScaleBar(facts, extent));
     if (isShown(extent) && isLegendApart(extent) && parts::hasLegend(facts))
         buildLegend(scene, facts, extent);
+    if (isAsking()) buildFiles(facts, extent, wishes);
     buildNotice(facts, extent);
     if (facts.recorded) buildRecording(facts, extent);
     parts::probe(facts, scale_, freeWidth(extent));
@@ -523,6 +549,23 @@ void Panels::buildNotice(const Facts& facts, VkExtent2D extent) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(facts.notice.c_str());
     ImGui::PopTextWrapPos();
+    ImGui::End();
+}
+
+// Left of the panel, so that nothing in the panel moves.
+void Panels::buildFiles(const Facts& facts, VkExtent2D extent, Wishes& wishes) {
+    constexpr float widest = 460, highest = 520, narrowest = 240; // at a scale of 1 [pixels]
+    FileField& files = fields_.files;
+    if (files.browser.folder().empty() || files.wantsFolder)
+        files.browser.open(startFolder(facts), facts.recent);
+    files.wantsFolder = false;
+    const float edge = gap * scale_, all = static_cast<float>(extent.width) - edge;
+    const float beside = freeWidth(extent) - edge, right = beside >= narrowest * scale_ ? beside : all;
+    const float high = static_cast<float>(extent.height) - 2 * edge;
+    ImGui::SetNextWindowPos({right, edge}, ImGuiCond_Always, {1, 0});
+    ImGui::SetNextWindowSize({std::min(widest * scale_, right - edge), std::min(highest * scale_, high)});
+    ImGui::Begin("files", nullptr, fixed);
+    parts::open(files, wishes);
     ImGui::End();
 }
 

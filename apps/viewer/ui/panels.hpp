@@ -4,6 +4,7 @@
 
 #include "viewer/input/panel_input.hpp"
 #include "viewer/ui/facts.hpp"
+#include "viewer/ui/file_browser.hpp"
 #include "viewer/ui/folds.hpp"
 #include "viewer/ui/panel_painter.hpp"
 
@@ -17,11 +18,13 @@ struct ImGuiContext;
 
 namespace sinew::viewer {
 
-/// The text field for a path.
-struct PathField {
+/// The list of files to open, and the text field over it.
+struct FileField {
     bool isShown = false, wantsKeys = false;
-    int pictures = 0; ///< pictures since it began to wait for keys
+    bool wantsFolder = false; ///< its folder is read anew
+    int pictures = 0;         ///< pictures since it began to wait for keys
     std::array<char, 1024> text{};
+    FileBrowser browser{};
 };
 
 /// The gallery opens in the picture after it is wanted.
@@ -31,7 +34,7 @@ struct GalleryState {
 
 /// Parts of the section of the scene that stay between pictures.
 struct SceneFields {
-    PathField path;
+    FileField files;
     GalleryState gallery;
 };
 
@@ -65,13 +68,14 @@ public:
 
     /// Whether a place (pixels) belongs to a panel of the last build(), which then gets presses there.
     bool covers(const Vector2& pixels) const;
-    /// Whether a panel takes keys, or will: from askForFile() on.
+    /// Whether a panel takes keys, or will: from toggleFiles() on.
     bool takesKeys() const;
     /// Whether keys that type a letter belong to the search of the help; all others act as always.
     bool takesLetters() const { return isHelpShown_ && !takesKeys(); }
 
-    /// Opens a text field for a path (Wishes::file), unless it is open. `paste` provides the text to paste.
-    void askForFile();
+    /// Opens a list of files (Wishes::file) with a text field for a path, or closes it. `paste` provides the
+    /// text to paste.
+    void toggleFiles();
     void setPaste(std::function<std::string()> paste) { paste_ = std::move(paste); }
     /// `copy` receives text that is copied or cut from a field.
     void setCopy(std::function<void(const std::string&)> copy) { copy_ = std::move(copy); }
@@ -97,6 +101,9 @@ public:
     void closeHelp() { isHelpShown_ = false; }
     /// Closes the help, or else the gallery; false if neither is open.
     bool closeTop();
+    /// Closes all that was open for a moment, as a press beside it asks: help, gallery, list of files, open
+    /// boxes, fields.
+    void closeAll();
     bool isHelpShown() const { return isHelpShown_; }
     /// Without a choice, panels are shown if the window is large enough.
     bool isShown(VkExtent2D extent) const;
@@ -121,6 +128,7 @@ private:
     bool isLegendApart(VkExtent2D extent) const;
     void buildLegend(const SceneFacts& scene, const Facts& facts, VkExtent2D extent);
     void buildNotice(const Facts& facts, VkExtent2D extent);
+    void buildFiles(const Facts& facts, VkExtent2D extent, Wishes& wishes);
     void buildRecording(const Facts& facts, VkExtent2D extent);
     float freeWidth(VkExtent2D extent) const;
     void remember();
@@ -141,7 +149,8 @@ private:
     std::string pasted_;
     std::function<void(const std::string&)> copy_;
     std::vector<int> released_; // keys to release in the next picture
-    PanelInput early_;          // characters typed before the field of path_ opens
+    PanelInput early_;          // characters typed before the field of files opens
+    bool closesAll_ = false;    // in the next picture
     std::array<int, 3> owed_{}; // presses not yet passed to a picture
     VkExtent2D lastExtent_{};
     std::vector<Rectangle> covered_;
