@@ -4,6 +4,7 @@
 #include "sinew/overlap.hpp"
 #include "sinew/skin_mesh.hpp"
 #include "sinew/statistics.hpp"
+#include "sinew/step_times.hpp"
 
 #include "sinew/bodies.hpp"
 
@@ -335,4 +336,41 @@ TEST(Statistics, TakePercentilesByNearestRank) {
     EXPECT_EQ(one.p99, 7);
     EXPECT_EQ(one.stddev, 0);
     EXPECT_FALSE(tools::summarise({}).has_value());
+}
+
+TEST(StepTimes, AreThoseBetweenEndsThatTheHostSeesOneByOne) {
+    tools::StepTimes times;
+    times.start(0, 100);
+    for (const auto& [step, now] : {std::pair{0u, 110.0}, {1u, 113.0}}) {
+        ASSERT_TRUE(times.awaits(step));
+        times.see(step, step + 1, now);
+        EXPECT_EQ(times.take(), step == 0 ? 10 : 3);
+    }
+}
+
+TEST(StepTimes, ShareTheTimeOfStepsThatTheHostSeesTogether) {
+    tools::StepTimes times;
+    times.start(0, 0);
+    times.see(0, 4, 2684); // four short runs have one median, and it is not 0
+    for (std::uint64_t step = 0; step < 4; ++step) {
+        EXPECT_FALSE(times.awaits(step)) << step;
+        EXPECT_EQ(times.take(), 671);
+    }
+    EXPECT_TRUE(times.awaits(4));
+    times.see(4, 5, 2690);
+    EXPECT_EQ(times.take(), 6);
+    times.start(5, 9000); // a pause belongs to no step
+    times.see(5, 6, 9002);
+    EXPECT_EQ(times.take(), 2);
+}
+
+TEST(StepTimes, GiveAStepThatIsRepeatedTheTimeOfBoth) {
+    tools::StepTimes times;
+    times.start(0, 0);
+    times.see(0, 3, 30);
+    EXPECT_EQ(times.take(), 10);
+    times.undo(1); // steps 1 and 2 come again
+    ASSERT_TRUE(times.awaits(1));
+    times.see(1, 2, 50);
+    EXPECT_EQ(times.take(), 40) << "20 of the undone steps, 20 more";
 }

@@ -100,16 +100,20 @@ bool Runner::finishStep(std::uint64_t frame) {
     const std::size_t slot = frame % submitted_.size();
     session_.queue.wait(submitted_[slot]);
     if (divergence_) return true; // was already in flight
-    const double end = nowMs();
+    if (stepTimes_.awaits(frame)) stepTimes_.see(frame, firstUnfinished(frame), nowMs());
     const sim::Status status = simulation().status(frame);
     if (status.frame != static_cast<std::uint32_t>(frame))
         throw std::logic_error("the status of step " + std::to_string(frame) + " is that of another");
-    if (status.contactRoom > 0 && makeRoom(status.contactRoom)) return false;
-    if (status.lacksLists) {
-        session_.queue.waitIdle(); // for later steps
+    if (status.contactRoom > 0 && makeRoom(status.contactRoom)) {
+        stepTimes_.undo(frame);
         return false;
     }
-    countTime(slot, end);
+    if (status.lacksLists) {
+        session_.queue.waitIdle(); // for later steps
+        stepTimes_.undo(frame);
+        return false;
+    }
+    countTime(slot);
     if (status.contactRoom > 0)
         divergence_ = {.step = frame + 1, .isCrowded = true};
     else if (status.nonFinite > 0)
@@ -130,14 +134,25 @@ bool Runner::finishStep(std::uint64_t frame) {
     return true;
 }
 
-void Runner::countTime(std::size_t slot, double end) {
+/// The first step after `frame`, which has finished, that is in flight or not submitted.
+std::uint64_t Runner::firstUnfinished(std::uint64_t frame) const {
+    std::uint64_t finished = 0;
+    const vk::Device& device = session_.device;
+    vk::check(
+        device.functions().vkGetSemaphoreCounterValue(device.handle(), session_.queue.timeline(), &finished),
+        "vkGetSemaphoreCounterValue", "the runner");
+    std::uint64_t next = frame + 1;
+    while (next < next_ && submitted_[next % submitted_.size()] <= finished) ++next;
+    return next;
+}
+
+void Runner::countTime(std::size_t slot) {
     const std::vector<double> phases = timestamps_[slot].milliseconds();
     if (frameMs_.size() < mostFrameTimes) {
         frameMs_.emplace_back();
         if (!phases.empty()) deviceMs_.emplace_back();
     }
-    frameMs_[done_ % mostFrameTimes] = end - lastEnd_;
-    lastEnd_ = end;
+    frameMs_[done_ % mostFrameTimes] = stepTimes_.take();
     if (!phases.empty())
         deviceMs_[done_ % mostFrameTimes] = std::accumulate(phases.begin(), phases.end(), 0.0);
     for (std::size_t i = 0; i < phases.size(); ++i) phaseSums_[i] += phases[i];
@@ -178,18 +193,19 @@ void Runner::makeSurfaceRoom() {
 void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
                      const std::function<void(std::uint64_t)>& onStep) {
     const std::uint64_t end = done_ + count;
-    std::uint64_t next = done_, waiting = done_;
-    lastEnd_ = nowMs();
+    std::uint64_t waiting = done_;
+    next_ = done_;
+    stepTimes_.start(done_, nowMs());
     while (waiting < end) {
-        if (waiting == next && !divergence_) makeSurfaceRoom();
+        if (waiting == next_ && !divergence_) makeSurfaceRoom();
         const bool mayGoOn =
-            next < end && !rooms_.lackSurface(surfaceMissing_) && !divergence_ && !app::isInterrupted();
-        if (mayGoOn && next - waiting < inFlight) {
-            submitStep(next++);
-        } else if (waiting < next && !finishStep(waiting)) {
-            lists_.repeated += next - waiting;
-            next = waiting;
-        } else if (waiting < next) {
+            next_ < end && !rooms_.lackSurface(surfaceMissing_) && !divergence_ && !app::isInterrupted();
+        if (mayGoOn && next_ - waiting < inFlight) {
+            submitStep(next_++);
+        } else if (waiting < next_ && !finishStep(waiting)) {
+            lists_.repeated += next_ - waiting;
+            next_ = waiting;
+        } else if (waiting < next_) {
             ++waiting;
             if (onStep) onStep(done_);
         } else {

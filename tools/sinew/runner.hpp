@@ -8,6 +8,7 @@
 #include "sinew/measure.hpp"
 #include "sinew/rooms.hpp"
 #include "sinew/session.hpp"
+#include "sinew/step_times.hpp"
 #include "sinew/successor.hpp"
 
 #include <functional>
@@ -83,8 +84,9 @@ public:
     /// lacked capacity for contacts, which the divergence reports.
     std::vector<std::string> complaints();
 
-    /// Wall-clock times [ms] between the ends of consecutive steps, including one that diverged; only the
-    /// newest 65,536, so that an endless run does not grow. Unordered.
+    /// Wall-clock times [ms] between the ends of consecutive steps, including one that diverged; steps whose
+    /// ends the host sees together share the time in equal parts (StepTimes). Only the newest 65,536, so that
+    /// an endless run does not grow. Unordered.
     const std::vector<double>& frameMs() const { return frameMs_; }
     /// Device times of the same steps [ms], phases summed; empty without timestamps.
     const std::vector<double>& deviceMs() const { return deviceMs_; }
@@ -103,7 +105,8 @@ private:
     bool makeRoom(std::uint32_t needed);
     void makeSurfaceRoom();
     void continueWith(const sim::Settings& settings);
-    void countTime(std::size_t slot, double end);
+    std::uint64_t firstUnfinished(std::uint64_t frame) const;
+    void countTime(std::size_t slot);
 
     Session& session_;
     const sim::Scene& scene_;
@@ -118,7 +121,9 @@ private:
     std::uint64_t played_ = 0; // steps before the first one, in the loaded state
     std::optional<Divergence> divergence_;
     std::vector<double> frameMs_, deviceMs_, phaseSums_;
-    double recordSum_ = 0, lastEnd_ = 0; // [ms]
+    double recordSum_ = 0; // [ms]
+    StepTimes stepTimes_;
+    std::uint64_t next_ = 0; // the next step to submit, during advance()
     std::uint64_t recorded_ = 0, timed_ = 0;
     CutFigures cuts_;
     ListFigures lists_;
