@@ -1,7 +1,9 @@
 // Tests of the conclusions that a study draws from its points, and of its plots.
 #include "sinew/study/analysis.hpp"
+#include "sinew/study/page.hpp"
 #include "sinew/study/plan.hpp"
 #include "sinew/study/plot_axes.hpp"
+#include "sinew/study/plot_labels.hpp"
 #include "sinew/study/rest_report.hpp"
 
 #include "sim/compile/compile.hpp"
@@ -33,13 +35,14 @@ Trial trialOf(sim::Solver solver, double ms, std::optional<double> error) {
     trial.isDiverged = !error;
     trial.frameRms.assign(2, error.value_or(0));
     trial.frameMax.assign(2, error.value_or(0));
-    trial.frameMs = {ms};
+    trial.add({ms});
     return trial;
 }
 
 SceneResult resultOf(std::vector<Trial> trials) {
     SceneResult result{.name = "scene", .frames = 2, .dt = 1.0 / 60};
     result.truth.growth = {0, 0};
+    result.truth.motion = {0.1, 0.1}; // a body that does not move is off by a tenth of its size
     result.trials = std::move(trials);
     return result;
 }
@@ -306,6 +309,74 @@ TEST(Headline, IsABoundWhereJacobiNeverGetsThere) {
     EXPECT_NEAR(advantage->ratio, 80.0 / 4, 1e-9);
     EXPECT_TRUE(advantage->isBound);
     EXPECT_FALSE(advantageOf(curves[0], curves).has_value());
+}
+
+TEST(Error, OfTheMotionIsThatOfABodyThatStandsStill) {
+    Truth truth;
+    truth.growth = {0, 0, 0};
+    truth.motion = {3, 4, 100};
+    EXPECT_NEAR(truth.standingStill(2), std::sqrt(12.5), 1e-12);
+    EXPECT_NEAR(truth.standingStill(), std::sqrt((9 + 16 + 10000) / 3.0), 1e-12);
+    Trial trial = trialOf(sim::Solver::split, 1, 0.5);
+    EXPECT_NEAR(errorOf(trial, truth)->ofMotion.value(), 0.5 / std::sqrt(12.5), 1e-12) << "over two frames";
+    truth.motion = {0, 0, 0};
+    EXPECT_FALSE(errorOf(trial, truth)->ofMotion.has_value()) << "nothing moves";
+    trial.isDiverged = true;
+    EXPECT_FALSE(errorOf(trial, truth).has_value());
+}
+
+TEST(Headline, HasATimeToAShareOfTheMotionToo) {
+    using enum sim::Solver;
+    const SceneResult result = resultOf({trialOf(split, 1, 0.01), trialOf(split, 4, 1e-4)});
+    const Curve curve = curvesOf(result).at(0);
+    EXPECT_NEAR(*curve.costOf(0.01, prices[0]), 1, 1e-9);
+    EXPECT_NEAR(*curve.costOf(0.01, prices[0], Scale::motion), 2, 1e-9) << "a tenth of the error is asked";
+    EXPECT_NE(toHtml({.device = {}, .scenes = {result}}).find("to 1 % of the motion"), std::string::npos);
+}
+
+TEST(Repeats, HaveAMedianEachAndASpread) {
+    Trial trial;
+    trial.add({1, 9, 2});
+    trial.add({4});
+    ASSERT_EQ(trial.repeats.size(), 2u);
+    EXPECT_GE(trial.repeats[0].load, 0);
+    EXPECT_EQ(trial.repeatMs(), (std::vector<double>{2, 4}));
+    EXPECT_EQ(trial.medianMs(), 2) << "of all frames";
+}
+
+TEST(Plot, DrawsWhiskersAndTheLineOfABodyThatStandsStill) {
+    Plot plot{.title = "t",
+              .xLabel = "ms",
+              .standing = 0.13,
+              .curves = {{.label = "split",
+                          .slot = 1,
+                          .points = {{1, 0.1, true, 0.5, 3}, {4, 1e-4, true}, {8, 0.2, false, 1, 9}},
+                          .xAtTarget = {}}}};
+    const std::string svg = draw(plot, Style::own);
+    EXPECT_EQ(count(svg, "class=\"whisker\""), 1u) << "only of the front";
+    EXPECT_EQ(count(svg, "class=\"standing\""), 1u);
+    EXPECT_EQ(count(svg, ">standing still</text>"), 1u);
+    EXPECT_LE(axesFor(plot).xLow, 0.5) << "the whisker is inside";
+    plot.standing = 40; // of body sizes
+    EXPECT_GE(axesFor(plot).yHigh, 40) << "the line is inside";
+    plot.standing = 0;
+    EXPECT_EQ(count(draw(plot, Style::own), "class=\"standing\""), 0u);
+}
+
+TEST(Labels, CoverNoMarkerOfTheirOwnCurveOrAnother) {
+    const Box box{0, 0, 400, 300};
+    LabelPlacer placer(box);
+    // A straight front whose faint points lie around its end on all sides but far below.
+    const std::vector<Spot> front{{200, 100}};
+    placer.avoid(front, 0);
+    for (const double x : {120.0, 160.0, 200.0, 240.0, 280.0})
+        for (const double y : {70.0, 90.0, 110.0, 130.0}) placer.avoidMark({x, y}, 2.3);
+    const Label label = placer.place("jacobi", front, 0);
+    for (const double x : {120.0, 160.0, 200.0, 240.0, 280.0})
+        for (const double y : {70.0, 90.0, 110.0, 130.0})
+            EXPECT_FALSE(x > label.x && x < label.x + 50 && y > label.y - 11 && y < label.y + 3)
+                << label.x << ' ' << label.y;
+    EXPECT_NEAR(label.y, 100, 70) << "near its curve";
 }
 
 TEST(Plot, LeavesNoPointOutAndDrawsDivergedOnesAtTheTopEdge) {

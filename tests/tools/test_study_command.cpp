@@ -66,6 +66,7 @@ TEST_F(Study, WritesWhatItsDocumentationSays) {
         const std::string solver = curve["solver"];
         EXPECT_TRUE(tiny["ms_to_1_percent"].contains(solver));
         EXPECT_TRUE(tiny["speedup_over_jacobi"].contains(solver));
+        EXPECT_TRUE(tiny["ms_to_1_percent_of_motion"].contains(solver));
         for (const Json& point : curve["points"]) {
             for (const char* field :
                  {"substeps", "iterations", "sweeps", "barriers", "ms_per_frame", "error_rms", "error_max"})
@@ -74,6 +75,11 @@ TEST_F(Study, WritesWhatItsDocumentationSays) {
             EXPECT_GT(point["ms_per_frame"], 0);
             EXPECT_LE(point["error_rms"], point["error_max"]);
             EXPECT_GE(point["frames_timed"], 4);
+            EXPECT_LE(point["ms_of_repeats"]["least"], point["ms_of_repeats"]["greatest"]);
+            EXPECT_GE(point["load"]["least"], 0);
+            EXPECT_NEAR(point["error_of_motion"].get<double>() *
+                            tiny["truth"]["standing_still"].get<double>(),
+                        point["error_rms"].get<double>(), 1e-9);
         }
     }
     // A soft chain of four needs at most eight substeps.

@@ -59,9 +59,11 @@ std::string cell(const Curve& curve, const std::vector<Curve>& curves) {
         return *ms <= other.costOf(targetError, prices[0]).value_or(*ms);
     });
     std::string below;
+    if (const auto ofMotion = curve.costOf(targetError, prices[0], Scale::motion))
+        below = fmt::format("<small>{:.3g} ms to 1 % of the motion</small>", *ofMotion);
     if (const auto advantage = advantageOf(curve, curves); advantage && curve.solver != "jacobi")
-        below = fmt::format("<small>{}{:.3g} × jacobi's speed</small>",
-                            advantage->isBound ? "more than " : "", advantage->ratio);
+        below += fmt::format("<small>{}{:.3g} × jacobi's speed</small>",
+                             advantage->isBound ? "more than " : "", advantage->ratio);
     return fmt::format("<td data-solver=\"{}\"{}><span><b>{:.3g}</b> ms</span>{}</td>", escaped(curve.solver),
                        isBest ? " class=\"won\"" : "", *ms, below);
 }
@@ -97,15 +99,25 @@ std::string tuningText(const sim::Settings& s) {
     return s.weight > 0 ? fmt::format("weight {:g}", s.weight) : fmt::format("omega {:g}", s.overRelaxation);
 }
 
+/// The spread of the times of whole motions, and the load during them.
+std::string spreadText(const Trial& trial) {
+    const std::vector<double> ms = trial.repeatMs();
+    if (ms.size() < 2) return "once";
+    const auto [least, most] = std::ranges::minmax_element(ms);
+    const double load = std::ranges::max_element(trial.repeats, {}, &Repeat::load)->load;
+    return fmt::format("{:.3g} to {:.3g} in {}, load {:.1f}", *least, *most, ms.size(), load);
+}
+
 std::string pointRow(const Curve& curve, const CurvePoint& point) {
     const Trial& trial = *point.trial;
     const sim::Settings& s = trial.settings;
     return fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.3g}</td>"
-        "<td>{}</td><td>{}</td></tr>\n",
+        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         escaped(curve.solver), s.substeps, s.iterations, tuningText(s), trial.sweeps, trial.barriers,
-        trial.clamped ? percent(*trial.clamped) : "–", trial.medianMs(),
-        point.error ? percent(point.error->rms) : "diverged", point.error ? percent(point.error->max) : "–");
+        trial.clamped ? percent(*trial.clamped) : "–", trial.medianMs(), spreadText(trial),
+        point.error ? percent(point.error->rms) : "diverged", point.error ? percent(point.error->max) : "–",
+        point.error && point.error->ofMotion ? percent(*point.error->ofMotion) : "–");
 }
 
 std::string details(const std::vector<Curve>& curves) {
@@ -115,7 +127,8 @@ std::string details(const std::vector<Curve>& curves) {
     return "<details><summary>every run</summary><div class=\"wide\"><table>\n<thead><tr><th>solver</th>"
            "<th>substeps</th><th>iterations</th><th>tuning</th><th>sweeps</th><th>barriers</th><th>clamped</"
            "th>"
-           "<th>ms a frame</th><th>RMS error</th><th>largest</th></tr></thead>\n<tbody>\n" +
+           "<th>ms a frame</th><th>of repeats</th><th>RMS error</th><th>largest</th><th>of the "
+           "motion</th></tr></thead>\n<tbody>\n" +
            rows + "</tbody></table></div></details>\n";
 }
 
@@ -142,6 +155,10 @@ std::string section(const SceneResult& scene) {
     std::string html = fmt::format("<section id=\"{0}\">\n<h2>{0}</h2>\n", escaped(scene.name));
     html += fmt::format("<p class=\"quiet\">{} particles, {} springs, {} frames of {:.4g} ms; {}</p>\n",
                         scene.particles, scene.constraints, scene.frames, 1000 * scene.dt, truthText(scene));
+    html +=
+        fmt::format("<p class=\"quiet\">A body that stays where it started is {} off: that is 100 % of the "
+                    "motion.</p>\n",
+                    percent(scene.truth.standingStill()));
     for (const std::string& note : scene.notes) html += "<p class=\"quiet\">" + escaped(note) + "</p>\n";
     html += "<div class=\"plots\">\n";
     for (const Price& price : prices)
@@ -154,8 +171,10 @@ std::string section(const SceneResult& scene) {
 } // namespace
 
 Plot plotOf(const SceneResult& scene, const Price& price) {
-    Plot plot{
-        .title = scene.name + ": error over " + price.name, .xLabel = price.label, .target = targetError};
+    Plot plot{.title = scene.name + ": error over " + price.name,
+              .xLabel = price.label,
+              .target = targetError,
+              .standing = scene.truth.standingStill()};
     for (const Curve& curve : curvesOf(scene)) {
         PlotCurve drawn{
             .label = curve.solver, .slot = curve.slot, .xAtTarget = curve.costOf(targetError, price)};
@@ -164,7 +183,14 @@ Plot plotOf(const SceneResult& scene, const Price& price) {
         for (std::size_t i = 0; i < offers.size(); ++i)
             if (std::ranges::find(front, i) == front.end())
                 drawn.points.push_back({offers[i].cost, offers[i].error, false});
-        for (const std::size_t i : front) drawn.points.push_back({offers[i].cost, offers[i].error, true});
+        for (const std::size_t i : front) {
+            PlotPoint& point = drawn.points.emplace_back(offers[i].cost, offers[i].error, true);
+            const std::vector<double> ms = curve.points[i].trial->repeatMs();
+            if (&price != prices.data() || ms.size() < 2) continue;
+            const auto [least, most] = std::ranges::minmax_element(ms);
+            point.least = *least;
+            point.most = *most;
+        }
         plot.curves.push_back(std::move(drawn));
     }
     return plot;
@@ -186,7 +212,10 @@ std::string toHtml(const StudyRecord& record) {
         "true motion (velocity Verlet in double precision, with a step halved until the result converges), "
         "divided by the diagonal of the body. A solid mark is a choice of substeps and iterations that no "
         "other choice of its solver undercuts; a faint one is undercut; a wedge at the top edge has "
-        "diverged. The grey band joins the best of all solvers; rings mark where a curve meets 1 %. "
+        "diverged. A whisker spans the times of whole motions, least to greatest: equal work at different "
+        "loads. The dotted line is the error of a body that stays where it started; an error of the motion "
+        "is divided by that. The grey band joins the best of all solvers; rings mark where a curve meets 1 "
+        "%. "
         "Comparison stops where a disturbance of the truth by 1e-7 grows to a tenth of an error; growth "
         "below 1e-6 is ignored, so an error below 1e-5 (0.001 %) may be due to chaos as much as to the "
         "solver. With contacts, the truth is the limit of split for short substeps, and comparison also "

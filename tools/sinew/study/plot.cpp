@@ -13,7 +13,8 @@ namespace sinew::tools::study {
 
 namespace {
 
-constexpr std::size_t nobody = 1000; // no solver's slot
+constexpr std::size_t nobody = 1000;                 // no solver's slot
+constexpr double frontRadius = 4, faintRadius = 2.3; // of markers
 
 std::string marker(std::size_t slot, double x, double y, double r, const char* kind) {
     switch (slot % 4) {
@@ -74,10 +75,13 @@ std::string draw(const PlotCurve& curve, const Axes& axes) {
                 fmt::format("<path class=\"hollow\" d=\"M{:.1f} {:.1f}l5 9h-10z\"/>", x, axes.box.top - 4);
         else if (axes.kind == PlotKind::overTime)
             continue; // drawn as a line
-        else if (point.isOnFront)
-            marks += marker(curve.slot, x, axes.y(*point.y), 4, "dot");
-        else
-            faint += marker(curve.slot, x, axes.y(*point.y), 2.3, "faint");
+        else if (point.isOnFront) {
+            if (point.most > point.least)
+                marks += fmt::format("<path class=\"whisker\" d=\"M{0:.1f} {1:.1f}v6m0 -3H{2:.1f}m0 -3v6\"/>",
+                                     axes.x(point.least), axes.y(*point.y) - 3, axes.x(point.most));
+            marks += marker(curve.slot, x, axes.y(*point.y), frontRadius, "dot");
+        } else
+            faint += marker(curve.slot, x, axes.y(*point.y), faintRadius, "faint");
     }
     std::string target;
     if (curve.xAtTarget && axes.holdsX(*curve.xAtTarget)) {
@@ -92,6 +96,17 @@ std::string draw(const PlotCurve& curve, const Axes& axes) {
     return fmt::format("<g class=\"s{}\">{}{}{}{}</g>\n", curve.slot % 6, faint, target, line, marks);
 }
 
+/// Labels cover neither markers, their own ones included, nor whiskers.
+void avoidMarks(LabelPlacer& placer, const PlotCurve& curve, const Axes& axes) {
+    if (axes.kind == PlotKind::overTime) return;
+    for (const PlotPoint& point : curve.points) {
+        const double y = point.y ? axes.y(*point.y) : axes.box.top;
+        placer.avoidMark({axes.x(point.x), y}, point.isOnFront || !point.y ? frontRadius : faintRadius);
+        if (!point.isOnFront || !(point.most > point.least)) continue;
+        placer.avoid({{axes.x(point.least), y}, {axes.x(point.most), y}}, nobody);
+    }
+}
+
 } // namespace
 
 std::string plotStyle() {
@@ -101,6 +116,8 @@ std::string plotStyle() {
 .plot .halo{stroke:#fff;stroke-width:4px;stroke-linejoin:round;fill:none}
 .plot .grid{stroke:#e4e7eb;fill:none}.plot .frame{stroke:#9aa1ab;fill:none}
 .plot .target{stroke:#16191d;stroke-width:1.3;stroke-dasharray:6 4;fill:none}
+.plot .standing{stroke:#565d66;stroke-width:1.3;stroke-dasharray:2 4;fill:none}
+.plot .whisker{stroke:currentColor;stroke-width:1.2;fill:none}
 .plot .best{stroke:#dfe4ea;stroke-width:13;stroke-linejoin:round;stroke-linecap:round;fill:none}
 .plot .line{stroke:currentColor;stroke-width:2.2;stroke-linejoin:round;fill:none}
 .plot .dot{fill:currentColor}.plot .faint{fill:currentColor;opacity:.32}
@@ -109,7 +126,7 @@ std::string plotStyle() {
 .plot .s0{color:#6b727c}.plot .s1{color:#0067a8}.plot .s2{color:#c2500a}
 .plot .s3{color:#007a5a}.plot .s4{color:#a03d86}.plot .s5{color:#7d6200}
 @media (prefers-color-scheme:dark){.plot .paper{fill:#14171b}.plot .ink{fill:#eceff3}.plot .muted{fill:#a9b1bb}
-.plot .halo{stroke:#14171b}.plot .grid{stroke:#282d34}.plot .frame{stroke:#5a626d}.plot .target{stroke:#eceff3}
+.plot .halo{stroke:#14171b}.plot .grid{stroke:#282d34}.plot .frame{stroke:#5a626d}.plot .target{stroke:#eceff3}.plot .standing{stroke:#a9b1bb}
 .plot .best{stroke:#2b323b}.plot .s0{color:#a3abb6}.plot .s1{color:#5ab4ee}.plot .s2{color:#f39a5b}
 .plot .s3{color:#3fcf9f}.plot .s4{color:#e58fc8}.plot .s5{color:#e3c23c}}
 )";
@@ -153,9 +170,15 @@ std::string draw(const Plot& plot, Style style) {
     const double target = axes.y(axes.target);
     if (plot.kind == PlotKind::precision)
         placer.avoid({{axes.box.left, target}, {axes.box.right, target}}, nobody);
+    if (plot.standing > 0) {
+        const double y = axes.y(plot.standing);
+        placer.avoid({{axes.box.left, y}, {axes.box.right, y}}, nobody);
+        placer.avoidText(standingText, {axes.box.left + 6, y - 5});
+    }
     for (const PlotCurve& curve : plot.curves) {
         svg += draw(curve, axes);
         placer.avoid(frontOf(curve, axes), curve.slot);
+        avoidMarks(placer, curve, axes);
     }
     for (const PlotCurve& curve : plot.curves) {
         const std::vector<Spot> front = frontOf(curve, axes);

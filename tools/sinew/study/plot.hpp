@@ -1,5 +1,6 @@
 // A work-precision diagram as SVG: error over a price, both logarithmic, one colour and marker per solver,
-// labels at the curves instead of a legend. Readable on a phone; light or dark as the reader prefers.
+// labels at the curves instead of a legend, whiskers for the spread of a time. Readable on a phone; light or
+// dark as the reader prefers.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +11,10 @@
 namespace sinew::tools::study {
 
 struct PlotPoint {
-    double x = 0;            ///< > 0
-    std::optional<double> y; ///< > 0; empty = diverged: drawn at the top edge
-    bool isOnFront = false;  ///< on its curve's front
+    double x = 0;               ///< > 0
+    std::optional<double> y;    ///< > 0; empty = diverged: drawn at the top edge
+    bool isOnFront = false;     ///< on its curve's front
+    double least = 0, most = 0; ///< ends of a whisker along x, around x; both 0: none
 };
 
 struct PlotCurve {
@@ -31,7 +33,8 @@ struct Plot {
     std::string title, xLabel;
     double target = 0.01;
     PlotKind kind = PlotKind::precision;
-    std::string name{}; ///< part of file names that need more than scene and price
+    double standing = 0; ///< the error of a body that stays where it started: a line; 0: none
+    std::string name{};  ///< part of file names that need more than scene and price
     std::vector<PlotCurve> curves;
 };
 

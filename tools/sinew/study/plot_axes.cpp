@@ -12,6 +12,10 @@ namespace {
 constexpr Box box{.left = 66, .top = 40, .right = plotWidth - 16, .bottom = plotHeight - 54};
 constexpr double lowestError = 1e-9; // below the resolution of float32
 
+bool hasWhisker(const PlotPoint& point) {
+    return point.least > 0 && point.most > point.least;
+}
+
 double share(double value, double low, double high) {
     return std::log(value / low) / std::log(high / low);
 }
@@ -63,11 +67,16 @@ Axes axesFor(const Plot& plot) {
               .xHigh = 0,
               .yLow = plot.target / 10,
               .yHigh = 1,
-              .target = plot.target};
+              .target = plot.target,
+              .standing = plot.standing};
+    if (plot.standing > 0) {
+        axes.yLow = std::min(axes.yLow, plot.standing);
+        axes.yHigh = std::max(axes.yHigh, plot.standing);
+    }
     for (const PlotCurve& curve : plot.curves)
         for (const PlotPoint& point : curve.points) {
-            axes.xLow = std::min(axes.xLow, point.x);
-            axes.xHigh = std::max(axes.xHigh, point.x);
+            axes.xLow = std::min(axes.xLow, hasWhisker(point) ? point.least : point.x);
+            axes.xHigh = std::max({axes.xHigh, point.x, hasWhisker(point) ? point.most : 0});
             if (!point.y) continue;
             axes.yLow = std::min(axes.yLow, std::max(*point.y, lowestError));
             axes.yHigh = std::max(axes.yHigh, *point.y);
@@ -138,10 +147,16 @@ std::string drawAxes(const Axes& axes, const std::string& xLabel) {
                             axes.box.left - 7, y + 4.4, isOverTime ? powerText(value) : percentText(value));
     }
     const Box& b = axes.box;
-    const std::string target = isOverTime
-                                   ? std::string()
-                                   : fmt::format("<path class=\"target\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n",
-                                                 b.left, axes.y(axes.target), b.right);
+    const auto level = [&](const char* kind, double error) {
+        return fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n", kind, b.left, axes.y(error),
+                           b.right);
+    };
+    std::string target;
+    if (!isOverTime) target += level("target", axes.target);
+    if (axes.standing > 0)
+        target += level("standing", axes.standing) +
+                  fmt::format("<text class=\"muted\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", b.left + 6,
+                              axes.y(axes.standing) - 5, standingText);
     return fmt::format(
         "<path class=\"grid\" d=\"{}\"/>\n<path class=\"frame\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>\n"
         "{}{}"

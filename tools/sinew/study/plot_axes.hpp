@@ -7,6 +7,9 @@ namespace sinew::tools::study {
 
 inline constexpr double plotWidth = 440, plotHeight = 420;
 
+/// The words beside the line of a body that does not move.
+inline constexpr const char* standingText = "standing still";
+
 struct Spot {
     double x = 0, y = 0; ///< in the drawing, y down
 };
@@ -19,7 +22,7 @@ struct Box {
 struct Axes {
     Box box;
     PlotKind kind = PlotKind::precision;
-    double xLow = 1, xHigh = 10, yLow = 1e-3, yHigh = 1, target = 0.01;
+    double xLow = 1, xHigh = 10, yLow = 1e-3, yHigh = 1, target = 0.01, standing = 0;
 
     double x(double value) const;
     double y(double value) const; ///< clamped to the box

@@ -1,4 +1,4 @@
-// Tries four places around every point of a front and takes the one with the most room.
+// Tries places around every point of a front, near ones first, and takes the one with the most room.
 #include "sinew/study/plot_labels.hpp"
 
 #include <algorithm>
@@ -40,10 +40,18 @@ double LabelPlacer::roomAround(const Box& text, std::size_t slot) const {
         // A label may be near its own line, but must stay 3 units off.
         if (obstacle.slot == slot && distance > 3) continue;
         room = std::min(room, obstacle.slot == slot ? distance - 20 : distance);
+        if (distance == 0) room -= 5; // the more of a line is covered, the worse
     }
+    for (const Mark& mark : marks_)
+        if (const double distance = distanceTo(text, mark.spot) - mark.radius; distance < 2) room -= 20;
     for (const Box& label : labels_)
         if (overlap(text, label)) room -= 100;
     return room;
+}
+
+void LabelPlacer::avoidText(const std::string& text, Label label) {
+    const double width = letterWidth * static_cast<double>(text.size());
+    labels_.push_back({label.x, label.y - letterHeight + 2, label.x + width, label.y + 3});
 }
 
 Label LabelPlacer::place(const std::string& text, const std::vector<Spot>& front, std::size_t slot) {
@@ -51,13 +59,14 @@ Label LabelPlacer::place(const std::string& text, const std::vector<Spot>& front
     Box best;
     double bestScore = -INFINITY;
     for (std::size_t i = 0; i < front.size(); ++i)
-        for (const double dx : {gap, -gap - width})
-            for (const double dy : {-gap / 2, gap + letterHeight / 2}) {
+        for (const double dx : {gap, -gap - width, -width / 2})
+            for (const double dy : {-gap / 2, gap + letterHeight / 2, -2.5 * gap, 2 * gap + letterHeight,
+                                    -4.5 * gap, 4 * gap + letterHeight, -7 * gap, 6.5 * gap + letterHeight}) {
                 const double left = std::clamp(front[i].x + dx, box_.left + 4, box_.right - width - 2);
                 const double base = std::clamp(front[i].y + dy, box_.top + letterHeight, box_.bottom - 5);
                 const Box candidate{left, base - letterHeight + 2, left + width, base + 3};
                 // Prefers the end of a curve, where readers look first.
-                const double score = roomAround(candidate, slot) +
+                const double score = roomAround(candidate, slot) - std::abs(dy) / 4 +
                                      6 * static_cast<double>(i + 1) / static_cast<double>(front.size());
                 if (score > bestScore) bestScore = score, best = candidate;
             }

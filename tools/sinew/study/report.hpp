@@ -16,6 +16,12 @@ struct Price {
 };
 extern const std::array<Price, 3> prices; ///< time, sweeps, barriers
 
+/// What an error is divided by.
+enum class Scale {
+    body,   ///< the body's size
+    motion, ///< the error of a body that stays where it started
+};
+
 struct CurvePoint {
     const Trial* trial = nullptr;
     std::optional<TrialError> error; ///< empty = diverged
@@ -26,10 +32,10 @@ struct Curve {
     std::size_t slot = 0; ///< index in curveNames(), which chooses the colour
     std::vector<CurvePoint> points;
 
-    std::vector<Offer> offers(const Price& price) const;
+    std::vector<Offer> offers(const Price& price, Scale scale = Scale::body) const;
     /// Points that no other point of this solver undercuts, by rising price.
     std::vector<std::size_t> front(const Price& price) const;
-    std::optional<double> costOf(double error, const Price& price) const;
+    std::optional<double> costOf(double error, const Price& price, Scale scale = Scale::body) const;
 };
 
 /// One for each of curveNames() that ran. Points into `result`.

@@ -115,9 +115,7 @@ struct Turn {
 void takeTurn(Turn& turn, std::uint32_t frames) {
     turn.runner->restart();
     turn.runner->advance(frames, 1);
-    const std::vector<double>& ms =
-        turn.trial->hasDeviceClock ? turn.runner->deviceMs() : turn.runner->frameMs();
-    turn.trial->frameMs.insert(turn.trial->frameMs.end(), ms.begin(), ms.end());
+    turn.trial->add(turn.trial->hasDeviceClock ? turn.runner->deviceMs() : turn.runner->frameMs());
 }
 
 /// The fastest forms of a solver: they depend on scene and device, hardly on other settings.
@@ -198,10 +196,12 @@ SceneResult study(Session& session, const StudyScene& scene, std::uint32_t point
 std::optional<TrialError> errorOf(const Trial& trial, const Truth& truth) {
     if (trial.isDiverged) return {};
     const std::size_t frames = comparableFrames(trial.frameRms, truth);
-    return TrialError{rmsOver(trial.frameRms, frames),
-                      *std::max_element(trial.frameMax.begin(),
-                                        trial.frameMax.begin() + static_cast<std::ptrdiff_t>(frames)),
-                      frames};
+    TrialError error{.rms = rmsOver(trial.frameRms, frames),
+                     .max = *std::max_element(trial.frameMax.begin(),
+                                              trial.frameMax.begin() + static_cast<std::ptrdiff_t>(frames)),
+                     .frames = frames};
+    if (const double still = truth.standingStill(frames); still > 0) error.ofMotion = error.rms / still;
+    return error;
 }
 
 } // namespace sinew::tools::study

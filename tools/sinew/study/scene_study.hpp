@@ -25,6 +25,8 @@ SceneResult study(Session& session, const StudyScene& scene, std::uint32_t point
 /// The error of a trial over the frames before chaos; empty = diverged.
 struct TrialError {
     double rms = 0, max = 0; ///< by body size
+    std::optional<double>
+        ofMotion; ///< rms by that of a body that stays where it started; empty if none moves
     std::size_t frames = 0;
 };
 std::optional<TrialError> errorOf(const Trial& trial, const Truth& truth);

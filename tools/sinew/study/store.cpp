@@ -178,20 +178,28 @@ bool Store::load(Trial& trial) const {
         trial.frameRms = json.at("frame_rms").get<std::vector<double>>();
         trial.frameMax = json.at("frame_max").get<std::vector<double>>();
         trial.frameMs = json.at("frame_ms").get<std::vector<double>>();
+        trial.repeats.clear();
+        for (const Json& r : json.at("repeats"))
+            trial.repeats.push_back({r.at(0).get<std::size_t>(), r.at(1).get<double>()});
     } catch (const Json::exception&) {
         return false;
     }
-    trial.isRun = !trial.frameMs.empty();
+    std::size_t timed = 0;
+    for (const Repeat& r : trial.repeats) timed += r.frames;
+    trial.isRun = !trial.frameMs.empty() && timed == trial.frameMs.size();
     return trial.isRun;
 }
 
 void Store::keep(const Trial& trial) const {
+    Json repeats = Json::array();
+    for (const Repeat& r : trial.repeats) repeats.push_back(Json::array({r.frames, r.load}));
     write(fileOf(trial.identity), {{"identity", trial.identity},
                                    {"diverged", trial.isDiverged},
                                    {"device_clock", trial.hasDeviceClock},
                                    {"frame_rms", trial.frameRms},
                                    {"frame_max", trial.frameMax},
-                                   {"frame_ms", trial.frameMs}});
+                                   {"frame_ms", trial.frameMs},
+                                   {"repeats", std::move(repeats)}});
 }
 
 bool Store::load(RestRun& run) const {
@@ -230,6 +238,7 @@ std::optional<Truth> Store::loadTruth(const std::string& identity) const {
                      .selfDifference = json.at("self_difference").get<double>(),
                      .growth = json.at("growth").get<std::vector<double>>(),
                      .halving = json.at("halving").get<std::vector<double>>(),
+                     .motion = json.at("motion").get<std::vector<double>>(),
                      .frames = {}};
     } catch (const Json::exception&) {
         return {};
@@ -242,7 +251,8 @@ void Store::keepTruth(const std::string& identity, const Truth& truth) const {
                              {"h", truth.h},
                              {"self_difference", truth.selfDifference},
                              {"growth", truth.growth},
-                             {"halving", truth.halving}});
+                             {"halving", truth.halving},
+                             {"motion", truth.motion}});
 }
 
 } // namespace sinew::tools::study

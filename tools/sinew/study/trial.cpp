@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 namespace sinew::tools::study {
@@ -19,6 +20,24 @@ constexpr double hopeless = 10; // body sizes: diverged beyond this
 
 double Trial::medianMs() const {
     return summarise(frameMs).value_or(Statistics{}).p50;
+}
+
+std::vector<double> Trial::repeatMs() const {
+    std::vector<double> medians;
+    auto first = frameMs.begin();
+    for (const Repeat& repeat : repeats) {
+        const auto end = first + static_cast<std::ptrdiff_t>(repeat.frames);
+        if (const auto repeated = summarise({first, end})) medians.push_back(repeated->p50);
+        first = end;
+    }
+    return medians;
+}
+
+void Trial::add(const std::vector<double>& ms) {
+    double load = 0;
+    if (getloadavg(&load, 1) != 1) load = 0;
+    frameMs.insert(frameMs.end(), ms.begin(), ms.end());
+    repeats.push_back({ms.size(), load});
 }
 
 void compareWithTruth(Session& session, const StudyScene& scene, const Truth& truth, Trial& trial) {
@@ -36,7 +55,9 @@ void compareWithTruth(Session& session, const StudyScene& scene, const Truth& tr
     if (!runner.divergence() && trial.frameRms.size() < scene.frames) return;
     trial.isDiverged = runner.divergence() || rmsOver(trial.frameRms, trial.frameRms.size()) > hopeless;
     trial.hasDeviceClock = !runner.deviceMs().empty();
-    trial.frameMs = trial.hasDeviceClock ? runner.deviceMs() : runner.frameMs();
+    trial.frameMs.clear();
+    trial.repeats.clear();
+    trial.add(trial.hasDeviceClock ? runner.deviceMs() : runner.frameMs());
     trial.isRun = true;
 }
 

@@ -7,6 +7,12 @@
 
 namespace sinew::tools::study {
 
+/// One motion that was timed.
+struct Repeat {
+    std::size_t frames = 0; ///< its entries of Trial::frameMs
+    double load = 0;        ///< the machine's load average over the last minute, all programs
+};
+
 struct Trial {
     sim::Settings settings;
     std::string identity; ///< of all inputs of the result; see store.hpp
@@ -14,10 +20,15 @@ struct Trial {
     std::optional<double> clamped; ///< share of elastic links softer than asked; empty if not known
     bool isRun = false, isDiverged = false;
     std::vector<double> frameRms, frameMax; ///< error of each frame with a finite state, by body size
-    std::vector<double> frameMs;            ///< times of steps [ms], of all rounds
-    bool hasDeviceClock = false;            ///< frameMs are device timestamps, else wall-clock times
+    std::vector<double> frameMs;            ///< times of steps [ms], of all repeats, one after another
+    std::vector<Repeat> repeats;
+    bool hasDeviceClock = false; ///< frameMs are device timestamps, else wall-clock times
 
     double medianMs() const;
+    /// The median time of a step in each repeat [ms]: equal work, so that its spread is that of the machine.
+    std::vector<double> repeatMs() const;
+    /// Adds a repeat with these times and the present load.
+    void add(const std::vector<double>& ms);
 };
 
 /// A run to rest.

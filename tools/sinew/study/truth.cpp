@@ -55,23 +55,8 @@ Truth elasticTruth(const StudyScene& scene) {
             .selfDifference = truth.selfDifference,
             .growth = differences(truth.frames, disturbed.frames, size),
             .halving = {},
+            .motion = {},
             .frames = std::move(truth.frames)};
-}
-
-/// The scene with every coordinate of movable particles displaced by up to `most` [m].
-sim::Scene disturbed(sim::Scene scene, double most) {
-    std::uint32_t state = 0x9e3779b9u;
-    const auto offset = [&] {
-        state ^= state << 13, state ^= state >> 17, state ^= state << 5;
-        return static_cast<float>(most * (2.0 * state / 4294967295.0 - 1));
-    };
-    for (sim::Particle& particle : scene.particles) {
-        const sim::Vec3 off{offset(), offset(), offset()};
-        if (particle.inverseMass == 0) continue;
-        particle.position = {particle.position.x + off.x, particle.position.y + off.y,
-                             particle.position.z + off.z};
-    }
-    return scene;
 }
 
 std::vector<Positions> smallSteps(Session& session, const StudyScene& study, const sim::Scene& scene,
@@ -105,12 +90,35 @@ Truth contactTruth(Session& session, const StudyScene& study) {
                  .h = double{scene.dt} / truthSubsteps,
                  .growth = differences(truth, other, size),
                  .halving = differences(truth, coarse, size),
+                 .motion = {},
                  .frames = std::move(truth)};
     result.selfDifference = rmsOver(result.halving, result.halving.size());
     return result;
 }
 
+/// RMS distance of each frame from `start`, divided by `size`.
+std::vector<double> motionFrom(const Positions& start, const std::vector<Positions>& frames, double size) {
+    std::vector<double> result;
+    for (const Positions& frame : frames) result.push_back(distanceOf(frame, start).rms / size);
+    return result;
+}
+
 } // namespace
+
+sim::Scene disturbed(sim::Scene scene, double most) {
+    std::uint32_t state = 0x9e3779b9u;
+    const auto offset = [&] {
+        state ^= state << 13, state ^= state >> 17, state ^= state << 5;
+        return static_cast<float>(most * (2.0 * state / 4294967295.0 - 1));
+    };
+    for (sim::Particle& particle : scene.particles) {
+        const sim::Vec3 off{offset(), offset(), offset()};
+        if (particle.inverseMass == 0) continue;
+        particle.position = {particle.position.x + off.x, particle.position.y + off.y,
+                             particle.position.z + off.z};
+    }
+    return scene;
+}
 
 Positions positionsOf(const State& state) {
     Positions positions;
@@ -129,6 +137,18 @@ Distance distanceOf(const Positions& a, const Positions& b) {
     result.rms = std::sqrt(result.rms / static_cast<double>(a.size()));
     result.max = std::sqrt(result.max);
     return result;
+}
+
+Positions startOf(const sim::Scene& scene) {
+    Positions positions;
+    positions.reserve(scene.particles.size());
+    for (const sim::Particle& p : scene.particles)
+        positions.emplace_back(double{p.position.x}, double{p.position.y}, double{p.position.z});
+    return positions;
+}
+
+double Truth::standingStill(std::size_t count) const {
+    return rmsOver(motion, std::min(count, motion.size()));
 }
 
 std::vector<double> Truth::doubt() const {
@@ -176,7 +196,9 @@ double largestBody(const sim::Scene& scene) {
 
 Truth truthOf(Session& session, const StudyScene& scene) {
     if (!scene.loaded.blades.empty()) refuse(scene, "it has a [[blade]], and cutting is not studied");
-    return isOfContacts(scene.loaded.scene) ? contactTruth(session, scene) : elasticTruth(scene);
+    Truth truth = isOfContacts(scene.loaded.scene) ? contactTruth(session, scene) : elasticTruth(scene);
+    truth.motion = motionFrom(startOf(scene.loaded.scene), truth.frames, truth.bodySize);
+    return truth;
 }
 
 } // namespace sinew::tools::study

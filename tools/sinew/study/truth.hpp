@@ -26,16 +26,28 @@ struct Distance {
 };
 Distance distanceOf(const Positions& a, const Positions& b);
 
+/// The scene with every coordinate of movable particles displaced by up to `most` [m], by a hash of the
+/// index.
+sim::Scene disturbed(sim::Scene scene, double most);
+
+/// The positions of a scene at the start [m].
+Positions startOf(const sim::Scene& scene);
+
 struct Truth {
     double bodySize = 0;         ///< [m]
     double h = 0;                ///< step of the truth [s]
     double selfDifference = 0;   ///< change when h is halved, by body size; for contacts: RMS over all frames
     std::vector<double> growth;  ///< growth of the perturbation: RMS of each frame, by body size
     std::vector<double> halving; ///< for contacts, RMS of each frame, by body size; else empty
+    std::vector<double> motion;  ///< distance from the start: RMS of each frame, by body size
     std::vector<Positions> frames; ///< empty if loaded without frames
 
     /// The larger of growth and halving, frame by frame: smaller errors are not significant.
     std::vector<double> doubt() const;
+    /// The error of a body that stays where it started, over the first `count` frames, by body size: what an
+    /// error relative to the motion is divided by. At most as many frames as there are.
+    double standingStill(std::size_t count) const;
+    double standingStill() const { return standingStill(motion.size()); }
 };
 
 /// Number of frames of a run that can be compared. For contacts, chaos begins with the first one; all runs
