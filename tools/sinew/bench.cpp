@@ -11,7 +11,7 @@
 #include "sinew/gpu_tune.hpp"
 #include "sinew/json.hpp"
 #include "sinew/outputs.hpp"
-#include "sinew/peers.hpp"
+#include "sinew/peers/compare.hpp"
 #include "sinew/report.hpp"
 #include "sinew/runner.hpp"
 #include "sinew/sequential.hpp"
@@ -34,6 +34,7 @@ using Clock = std::chrono::steady_clock;
 struct BenchOptions {
     std::string scene = "all";
     double seconds = 10; // of measuring per scene
+    bool isOfMotion = false;
     bool hasPeers = false, hasKernels = false, hasContacts = false, isByForm = false;
     std::string only; // only rows of contacts whose name contains this
     FormOptions forms;
@@ -217,6 +218,9 @@ int bench(const BenchOptions& options) {
     std::optional<TextOutput> json;
     if (options.json) json.emplace(*options.json);
     if (options.hasPeers) requirePeers();
+    if (!options.hasPeers && (options.scene == "beam" || options.scene == "chain"))
+        throw app::Failure(app::wrongUsage,
+                           "wrong usage: --scene " + options.scene + " has rows only with --peers");
     Session session(options.device);
     const auto finish = [&](const Json& report, const std::string& text) {
         const app::Writing writing;
@@ -245,7 +249,13 @@ int bench(const BenchOptions& options) {
     Json clutter = Json::array();
     if ((options.scene == "all" || options.scene == "clutter") && !app::isInterrupted())
         clutter = measureClutter(session, options.seconds, options.hasPeers);
-    if (options.hasPeers) report["peers"] = comparePeers(options.scene, session);
+    if (options.hasPeers)
+        report["peers"] =
+            comparePeers({.scene = options.scene,
+                          .seconds = options.seconds,
+                          .scale = options.isOfMotion ? study::Scale::motion : study::Scale::body,
+                          .device = options.device},
+                         session);
     std::string text = report["rows"].empty() ? std::string() : table(report["rows"]);
     if (!clutter.empty()) text += clutterTable(clutter);
     if (options.hasPeers && !report["peers"].empty()) text += peersTable(report["peers"]);
@@ -270,15 +280,19 @@ void addBench(CLI::App& app, Chosen& chosen) {
         "bench", "time the solvers on the shipped scenes: sequential on the CPU, the others on the device");
     const auto options = std::make_shared<BenchOptions>();
     command.add_option("--scene", options->scene)
-        ->check(CLI::IsMember({"cloth", "cube", "clutter", "all"}))
+        ->check(CLI::IsMember({"cloth", "cube", "clutter", "beam", "chain", "all"}))
         ->capture_default_str();
     command.add_option("--seconds", options->seconds, "seconds to measure, per scene")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
-    command.add_flag("--peers", options->hasPeers,
-                     "also compare with Bullet: its soft bodies at equal error on elastic scenes, its rigid "
-                     "spheres on the "
-                     "clutter (takes minutes)");
+    CLI::Option* peers = command.add_flag(
+        "--peers", options->hasPeers,
+        "also compare with Bullet and a native explicit integration: soft bodies at equal error on elastic "
+        "scenes, Bullet's rigid spheres on the clutter (takes minutes)");
+    command
+        .add_flag("--of-motion", options->isOfMotion,
+                  "errors of --peers are shares of the motion, not of the body's size")
+        ->needs(peers);
     CLI::Option* kernels = command
                                .add_flag("--kernels", options->hasKernels,
                                          "instead: time of a substep of split for bodies of many sizes")

@@ -7,7 +7,7 @@
 #include "sinew/clutter/jacobi.hpp"
 #include "sinew/clutter/sequential.hpp"
 #include "sinew/gpu_tune.hpp"
-#include "sinew/peers.hpp"
+#include "sinew/peers/compare.hpp"
 #include "sinew/report.hpp"
 #include "sinew/sequential.hpp"
 #include "sinew/simulation.hpp"

@@ -7,6 +7,8 @@
 #include "sinew/vk/loader.hpp"
 #include "sinew/vk/queue.hpp"
 
+#include <memory>
+
 namespace sinew::tools {
 
 struct Session {
@@ -22,5 +24,14 @@ struct Session {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 };
+
+/// The threads with which lavapipe computes in this process: LP_NUM_THREADS, or as many as processors; 1 if
+/// it computes on the thread that it submits from.
+std::uint32_t driverThreads();
+
+/// A second session whose lavapipe computes on one thread: it reads LP_NUM_THREADS when its instance is made,
+/// so that both stand in one process. Sets the variable to 0 meanwhile: call before other threads read the
+/// environment.
+std::unique_ptr<Session> oneThreadSession(const DeviceOptions& options);
 
 } // namespace sinew::tools

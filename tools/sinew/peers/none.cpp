@@ -1,5 +1,5 @@
 // Stubs for a build without peers.
-#include "sinew/peers.hpp"
+#include "sinew/peers/compare.hpp"
 
 #include "app/guard.hpp"
 
@@ -11,7 +11,7 @@ void requirePeers() {
                        "libbullet-dev, configure with -DSINEW_BENCH_PEERS=ON and build again");
 }
 
-Json comparePeers(const std::string&, Session&) {
+Json comparePeers(const PeerOptions&, Session&) {
     requirePeers();
     return {};
 }
