@@ -24,9 +24,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "state files are little endian");
 
-constexpr std::string_view title = "sinew state 3\n";
-constexpr std::string_view titleWithoutView = "sinew state 2\n";
-static_assert(title.size() == titleWithoutView.size());
+constexpr std::string_view title = "sinew state 4\n", titleWithoutLevels = "sinew state 3\n",
+                           titleWithoutView = "sinew state 2\n"; // of equal size
+static_assert(title.size() == titleWithoutView.size() && title.size() == titleWithoutLevels.size());
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
     throw Failure(badInput, "cannot read a state: " + file.string() + ": " + why);
@@ -191,6 +191,7 @@ void writeRun(const std::filesystem::path& file, const SavedRun& run) {
     visit(run, writer);
     writer(std::uint32_t{run.view.has_value()});
     if (run.view) visitView(*run.view, writer);
+    writer(run.settings.levels);
     const std::vector<std::byte> bytes = writer.take();
     const std::uint64_t hash = sim::fnv1a(bytes);
     mesh::writeWhole(file, [&](std::ostream& stream) {
@@ -207,7 +208,7 @@ SavedRun readRun(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::string head(title.size(), ' '); // other files, which may be large, are not read
     stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-    const bool mayHaveView = head == title;
+    const bool hasLevels = head == title, mayHaveView = hasLevels || head == titleWithoutLevels;
     if (!mayHaveView && head != titleWithoutView)
         refuse(file, "it does not begin like a state of this version");
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -222,6 +223,7 @@ SavedRun readRun(const std::filesystem::path& file) {
     Reader reader(bytes);
     visit(run, reader);
     if (mayHaveView) readView(run, reader);
+    if (hasLevels) reader(run.settings.levels);
     if (!reader.isWhole() || (run.view && !isView(*run.view)) ||
         run.settings.solver > sim::Solver::gaussSeidel)
         refuse(file, "its contents do not match its version");

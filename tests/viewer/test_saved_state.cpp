@@ -175,23 +175,26 @@ TEST_F(SavedState, KeepsWhereItWasSeenFrom) {
     EXPECT_NE(refusal().find("its contents do not match its version"), std::string::npos) << refusal();
 }
 
-// The former version had no data between the state and the hash.
-TEST_F(SavedState, OfTheVersionBeforeIsSeenAsItsScene) {
+// Version 3 ended with the view, version 2 before it.
+TEST_F(SavedState, OfTheVersionsBeforeIsSeenAsItsScene) {
     Played played(scene);
     played.take(3);
     save(played);
     std::ifstream stream(file, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(stream), {}};
-    const std::string title = "sinew state 3\n";
+    const std::string title = "sinew state 4\n";
     ASSERT_TRUE(text.starts_with(title));
-    text =
-        text.substr(title.size(), text.size() - title.size() - sizeof(std::uint32_t) - sizeof(std::uint64_t));
-    const std::uint64_t hash = sim::fnv1a(std::as_bytes(std::span(text)));
-    text.append(reinterpret_cast<const char*>(&hash), sizeof(hash));
-    std::ofstream(file, std::ios::binary) << "sinew state 2\n" << text;
-    Played again(file);
-    EXPECT_EQ(again.hash(), played.hash());
-    EXPECT_EQ(again.opening.camera, played.opening.camera);
+    text = text.substr(title.size(), text.size() - title.size() - sizeof(std::uint64_t));
+    for (const char* before : {"sinew state 3\n", "sinew state 2\n"}) {
+        text.resize(text.size() - sizeof(std::uint32_t));
+        const std::uint64_t hash = sim::fnv1a(std::as_bytes(std::span(text)));
+        std::string whole = before + text;
+        whole.append(reinterpret_cast<const char*>(&hash), sizeof(hash));
+        std::ofstream(file, std::ios::binary) << whole;
+        Played again(file);
+        EXPECT_EQ(again.hash(), played.hash());
+        EXPECT_EQ(again.opening.camera, played.opening.camera);
+    }
 }
 
 TEST_F(SavedState, IsRefusedWhereItIsOfAnotherSimulation) {

@@ -65,6 +65,8 @@ void addSceneOptions(CLI::App& app, Options& options) {
         ->check(CLI::IsMember(sim::solverNames()));
     app.add_option("--substeps", options.overrides.substeps, "substeps per step, instead of the scene's")
         ->check(within(sim::ranges::substeps));
+    app.add_option("--levels", options.overrides.levels, "coarse levels of split, instead of the scene's")
+        ->check(within(sim::ranges::levels));
     options.hasValidation = SINEW_VALIDATION_DEFAULT;
     app.add_flag(
         "--validation,!--no-validation", options.hasValidation,
