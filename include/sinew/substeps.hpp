@@ -53,6 +53,7 @@ struct SINEW_API SubstepChoice {
     std::uint32_t wanted = 1; ///< before the limits fewestChosen and mostChosen
     SubstepReason reason = SubstepReason::asked;
     SubstepReason rule = SubstepReason::asked; ///< the rule behind `wanted`, if the reason is `most`
+    double own = 1; ///< share of its stiffness that the deciding link must have itself; levels carry the rest
     double share = 1;        ///< smallest s_m of an elastic constraint; 1 if the settings give substeps
     bool isReachable = true; ///< false: s_m keeps a link from the tolerance with any number of substeps
     /// Name of the body whose link, bend or cell needs `wanted`; empty in a scene of one body, and if another

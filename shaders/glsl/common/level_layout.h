@@ -36,7 +36,8 @@ struct LevelPush {
     uint levels;
 };
 
+#define BROKEN_BLOCK 0x80000000u // bit beside those of a block's links
+
 struct LevelCutPush {
-    uint count;  // cuttable bodies x LEVEL_GROUP; they come first
     uint levels;
 };

@@ -14,7 +14,7 @@ layout(std430, binding = 3) readonly buffer WholeNodes { uint wholeNodes[]; }; /
 layout(std430, binding = 4) readonly buffer WholeBlocks { uint wholeBlocks[]; }; // by block
 layout(std430, binding = 5) readonly buffer Blocks { LevelBlock blocks[]; };
 layout(std430, binding = 6) readonly buffer WholeLinks { LevelLink wholeLinks[]; };
-layout(std430, binding = 7) coherent buffer Open { uint open[]; };   // by block: links that its own children allow
+layout(std430, binding = 7) coherent buffer Open { uint open[]; };   // by block: links that its own children allow, or BROKEN_BLOCK
 layout(std430, binding = 8) coherent buffer Masks { uint masks[]; }; // by block: live links
 layout(std430, binding = 9) writeonly buffer Links { LevelLink links[]; };
 layout(push_constant) uniform Push { LevelCutPush push; };
@@ -28,11 +28,13 @@ void findOpen(uint b, bool hasNodes) {
     for (int corner = 0; corner < LEVEL_CHILDREN; ++corner) {
         const uint child = octants[b * LEVEL_CHILDREN + corner];
         if (child == NO_BLOCK) continue;
+        if (!hasNodes && open[child] == BROKEN_BLOCK) alive = BROKEN_BLOCK;
         for (uint dead = deadLinks(child, hasNodes); dead != 0u; dead &= dead - 1u) {
             const int bit = findLSB(dead);
             const ivec3 to = cornerOf(corner) + directionOf(bit);
             const bool isInside = all(greaterThanEqual(to, ivec3(0))) && all(lessThanEqual(to, ivec3(1)));
-            alive &= isInside ? 0u : ~(1u << bit);
+            if (isInside) alive = BROKEN_BLOCK;
+            else if (alive != BROKEN_BLOCK) alive &= ~(1u << bit);
         }
     }
     open[b] = alive;

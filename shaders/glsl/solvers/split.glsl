@@ -93,7 +93,7 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
 #ifndef RESIDENT
         if (hasLevels) {
             const uvec2 block = blockOf(i);
-            v += uintBitsToFloat(block.y) * blockKickAt(block.x).xyz;
+            if (block.y != 0u) v += uintBitsToFloat(block.y) * blockKickAt(block.x).xyz; // else 0 times a NaN of another body
         }
 #endif
     }

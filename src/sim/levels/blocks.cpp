@@ -3,8 +3,8 @@
 #include "sim/levels/blocks.hpp"
 
 #include "sim/constraints/distance.hpp"
+#include "sim/lattice/cells.hpp"
 #include "sim/lattice/placement.hpp"
-#include "sim/stiffness/shares.hpp"
 #include "sinew/ranges.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using Place = std::array<std::int32_t, 3>;
 
 constexpr std::uint32_t none = 0xffffffffu;
 constexpr double levelOmega = 0.95;
-constexpr double surfaceWeight = 2; // of 1, 2, 3, 4 and 6 the best one (docs/performance.md, "Levels")
+constexpr double surfaceWeight = 2; // a compromise: docs/levels.md, "Speed against error"
 
 // A table over the places of a level.
 class Places {
@@ -122,30 +122,22 @@ public:
         sum = std::max(sum, 0.0) + energy;
     }
 
-    // The links of the blocks, which share what no pair of blocks stands for.
     std::vector<Link> links(const std::vector<Node>& blocks, const Places& places) const {
         std::vector<Link> links;
-        double kept = 0;
         for (std::uint32_t a = 0; a < blocks.size(); ++a)
             for (std::size_t d = 0; d < steps_.size(); ++d) {
                 if (sums_[d][a] == absent) continue;
                 const std::uint32_t b = places.at(plus(blocks[a].place, steps_[d]));
-                kept += sums_[d][a];
                 if (blocks[a].inverseMass + blocks[b].inverseMass == 0) continue;
                 const double length = distance(blocks[a], blocks[b]);
                 links.push_back({a, b, steps_[d], length, sums_[d][a] / (length * length), 0});
             }
-        if (kept > 0)
-            for (Link& link : links) link.stiffness *= (kept + lost_) / kept;
         return links;
     }
-
-    void lose(double energy) { lost_ += energy; }
 
 private:
     static constexpr double absent = -1;
     std::size_t blocks_, last_ = 0;
-    double lost_ = 0;
     std::vector<Place> steps_;
     std::vector<std::vector<double>> sums_; // by direction, then by the block that a link comes from
 };
@@ -178,6 +170,36 @@ double missingOf(const Link& link, double h) {
     return std::max(link.stiffness - link.most / (h * h), 0.0);
 }
 
+// The blocks between which a link of this step stands: ahead of a, and behind b; none where there is no
+// block.
+struct Between {
+    std::uint32_t ahead = none, behind = none;
+    bool isEmpty() const { return ahead == none && behind == none; }
+};
+
+Between betweenOf(const std::vector<Node>& blocks, const Places& places, const Link& link,
+                  const Place& step) {
+    Between between{places.at(plus(blocks[link.a].place, step)),
+                    places.at(minus(blocks[link.b].place, step))};
+    if (between.ahead == link.b && between.behind == link.a) between.behind = none; // the same pair
+    return between;
+}
+
+std::int32_t squareOf(const Place& step) {
+    return step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
+}
+
+// The step without the axes along which neither block has a neighbour.
+Place alongNeighbours(const std::vector<Node>& blocks, const Places& places, const Link& link) {
+    Place step{};
+    for (std::size_t d = 0; d < 3; ++d) {
+        Place axis{};
+        axis[d] = link.step[d];
+        if (axis[d] != 0 && !betweenOf(blocks, places, link, axis).isEmpty()) step[d] = axis[d];
+    }
+    return step;
+}
+
 // The level above, without limits of its links.
 Level above(Level& level, double h) {
     Level next;
@@ -185,28 +207,35 @@ Level above(Level& level, double h) {
     Places places(next.nodes);
     for (std::uint32_t b = 0; b < next.nodes.size(); ++b) places.first(next.nodes[b].place, b);
     Energies energies(next.nodes.size());
-    for (const Link& link : level.links) {
-        const double energy = missingOf(link, h) * link.length * link.length;
-        const std::uint32_t a = level.nodes[link.a].parent, b = level.nodes[link.b].parent;
-        const std::uint32_t ahead = places.at(plus(next.nodes[a].place, link.step)),
-                            behind = places.at(minus(next.nodes[b].place, link.step));
-        const bool isOne = ahead == b && behind == a;
-        const bool hasAhead = ahead != none, hasBehind = behind != none && !isOne;
-        const double part = hasAhead && hasBehind ? energy / 2 : energy;
-        if (hasAhead) energies.add(link.step, a, part);
-        if (hasBehind) energies.add(link.step, behind, part);
-        if (!hasAhead && !hasBehind) energies.lose(energy);
+    for (Link link : level.links) {
+        double energy = missingOf(link, h) * link.length * link.length;
+        link.a = level.nodes[link.a].parent;
+        link.b = level.nodes[link.b].parent;
+        Between between = betweenOf(next.nodes, places, link, link.step);
+        if (between.isEmpty()) { // the strain along the rest of the step has this share of the energy
+            const Place step = alongNeighbours(next.nodes, places, link);
+            const double share = squareOf(step) / static_cast<double>(squareOf(link.step));
+            energy *= share * share;
+            link.step = step;
+            if (share > 0) between = betweenOf(next.nodes, places, link, step);
+        }
+        if (between.ahead != none && between.behind != none) energy /= 2;
+        if (between.ahead != none) energies.add(link.step, link.a, energy);
+        if (between.behind != none) energies.add(link.step, between.behind, energy);
     }
     next.links = energies.links(next.nodes, places);
     return next;
 }
 
-bool isUnit(const Place& step) {
-    return std::ranges::all_of(step, [](std::int32_t s) { return std::abs(s) <= 1; });
+// A link from its lower end in the order of places.
+Link linkBetween(const std::vector<Node>& nodes, std::uint32_t a, std::uint32_t b) {
+    const Place step = minus(nodes[b].place, nodes[a].place);
+    const bool isUp = step[2] != 0 ? step[2] > 0 : step[1] != 0 ? step[1] > 0 : step[0] > 0;
+    return isUp ? Link{.a = a, .b = b, .step = step} : Link{.a = b, .b = a, .step = minus({}, step)};
 }
 
 Level particlesOf(const Scene& scene, const Grid& grid, std::span<const float> inverseMass,
-                  std::span<const float> ofLinks, std::span<const float> times) {
+                  const stiffness::Shares& shares) {
     Level level;
     for (std::uint32_t i = 0; i < grid.node.size(); ++i) {
         const std::array<std::uint32_t, 3> at = lattice::coordinates(grid, grid.node[i]);
@@ -217,22 +246,16 @@ Level particlesOf(const Scene& scene, const Grid& grid, std::span<const float> i
             node.rest[d] = double{grid.restLength[0]} * at[d]; // the scene may start deformed
         }
     }
-    const std::size_t count = grid.node.size();
-    const auto isOurs = [&](std::uint32_t p) { return p - grid.firstParticle < count; };
-    for (std::size_t c = 0; c < scene.distances.size(); ++c) {
-        const DistanceConstraint& constraint = scene.distances[c];
-        if (!isOurs(constraint.a) || !isOurs(constraint.b)) continue;
-        if (!constraints::distance::canMove(constraint, inverseMass)) continue;
-        const std::uint32_t a = constraint.a - grid.firstParticle, b = constraint.b - grid.firstParticle;
-        const Place step = minus(level.nodes[b].place, level.nodes[a].place);
-        if (grid.isCuttable && !isUnit(step)) continue; // a blade between its ends would not be known
-        const double most =
-            double{ofLinks[c]} * std::min(double{times[constraint.a]}, double{times[constraint.b]});
-        level.links.push_back({a, b, step, double{constraint.restLength},
-                               double{stiffness::stiffnessOf(constraint.compliance)}, most});
-    }
     std::vector<std::uint32_t> counts(level.nodes.size(), 0);
-    for (const Link& link : level.links) {
+    const std::size_t end = std::size_t{grid.firstDistance} + grid.distanceCount;
+    for (std::size_t c = grid.firstDistance; c < end; ++c) {
+        const DistanceConstraint& of = scene.distances[c];
+        if (!constraints::distance::canMove(of, inverseMass)) continue;
+        Link link = linkBetween(level.nodes, of.a - grid.firstParticle, of.b - grid.firstParticle);
+        link.length = double{of.restLength};
+        link.stiffness = double{stiffness::stiffnessOf(of.compliance)};
+        link.most = double{shares.ofLinks[c]} * double{std::min(shares.times[of.a], shares.times[of.b])};
+        level.links.push_back(link);
         ++counts[link.a];
         ++counts[link.b];
     }
@@ -241,10 +264,47 @@ Level particlesOf(const Scene& scene, const Grid& grid, std::span<const float> i
     return level;
 }
 
+// A bound of terms that are no links: most |sum of factor x|^2 [kg] for a bend, and most x sum of |x -
+// mean|^2 for a cell, whose gradients sum to 0.
+struct Term {
+    std::array<std::uint32_t, 8> nodes{};
+    double most = 0; // [kg]
+    bool isBend = false;
+};
+
+std::vector<Term> termsOf(const Scene& scene, const Settings& settings, std::uint32_t g,
+                          std::span<const float> inverseMass, const stiffness::Shares& shares) {
+    const Grid& grid = scene.grids[g];
+    std::vector<Term> terms;
+    if (hasCellVolumes(grid)) {
+        const double share = double{shares.ofCells[g].volume} + double{shares.ofCells[g].recovery};
+        lattice::forEachCell(grid, [&](const lattice::Cell& cell) {
+            float time = shares.times[cell.corners[0]];
+            for (const std::uint32_t corner : cell.corners) time = std::min(time, shares.times[corner]);
+            Term& term = terms.emplace_back(Term{cell.corners, 2 * cell.fill * share * double{time}});
+            for (std::uint32_t& corner : term.nodes) corner -= grid.firstParticle;
+        });
+    }
+    std::vector<std::uint32_t> counts(scene.bends.empty() ? 0 : scene.particles.size(), 0);
+    for (const BendConstraint& c : scene.bends)
+        for (const std::uint32_t end : {c.a, c.b, c.c}) ++counts[end];
+    const auto isOurs = [&](std::uint32_t i) { return i - grid.firstParticle < grid.node.size(); };
+    for (const BendConstraint& c : scene.bends) {
+        if (!isOurs(c.a) || !isOurs(c.b) || !isOurs(c.c)) continue;
+        const auto part = [&](std::uint32_t i) { return counts[i] * double{inverseMass[i]}; };
+        const double sum = part(c.a) + 4 * part(c.b) + part(c.c);
+        const std::uint32_t first = grid.firstParticle;
+        if (sum > 0)
+            terms.push_back(
+                {{c.a - first, c.b - first, c.c - first}, stiffness::omegaOfBends(settings) / sum, true});
+    }
+    return terms;
+}
+
 // Coordinates of the nodes of all levels, and the forces on them, for power iteration.
 class Modes {
 public:
-    explicit Modes(const std::vector<Level>& levels) : levels_(levels) {
+    Modes(const std::vector<Level>& levels, std::span<const Term> terms) : levels_(levels), terms_(terms) {
         for (const Level& level : levels) {
             x_.emplace_back(level.nodes.size(), 0);
             forces_.emplace_back(level.nodes.size(), 0);
@@ -257,7 +317,7 @@ public:
     }
 
     // Replaces x of the particles by h^2 M^-1 K x at length 1; returns the Rayleigh quotient of x before.
-    double turn(double h) {
+    double turn() {
         normalise();
         for (std::size_t l = 1; l < levels_.size(); ++l) {
             std::ranges::fill(x_[l], 0);
@@ -265,7 +325,7 @@ public:
             for (std::size_t i = 0; i < below.size(); ++i)
                 x_[l][below[i].parent] += below[i].weight * x_[l - 1][i];
         }
-        for (std::size_t l = levels_.size(); l-- > 0;) pull(l, h);
+        for (std::size_t l = levels_.size(); l-- > 0;) pull(l);
         double quotient = 0;
         for (std::size_t i = 0; i < x_[0].size(); ++i) {
             quotient += x_[0][i] * forces_[0][i];
@@ -288,14 +348,16 @@ private:
     }
 
     // The forces on the nodes of a level, with those of the level above.
-    void pull(std::size_t l, double h) {
+    void pull(std::size_t l) {
         std::vector<double>& forces = forces_[l];
         std::ranges::fill(forces, 0);
         for (const Link& link : levels_[l].links) {
-            const double pull = std::min(link.stiffness * h * h, link.most) * (x_[l][link.a] - x_[l][link.b]);
+            const double pull = link.most * (x_[l][link.a] - x_[l][link.b]);
             forces[link.a] += pull;
             forces[link.b] -= pull;
         }
+        if (l == 0)
+            for (const Term& term : terms_) pull(term);
         if (l + 1 == levels_.size()) return;
         for (std::size_t i = 0; i < forces.size(); ++i) {
             const Node& node = levels_[l].nodes[i];
@@ -303,18 +365,44 @@ private:
         }
     }
 
+    void pull(const Term& term) {
+        const auto [a, b, c, d, e, f, g, i] = term.nodes;
+        std::vector<double>&x = x_[0], &forces = forces_[0];
+        if (term.isBend) {
+            const double pull = term.most * (x[a] - 2 * x[b] + x[c]);
+            forces[a] += pull;
+            forces[b] -= 2 * pull;
+            forces[c] += pull;
+            return;
+        }
+        const double mean = (x[a] + x[b] + x[c] + x[d] + x[e] + x[f] + x[g] + x[i]) / 8;
+        for (const std::uint32_t corner : term.nodes) forces[corner] += term.most * (x[corner] - mean);
+    }
+
     const std::vector<Level>& levels_;
+    std::span<const Term> terms_;
     std::vector<std::vector<double>> x_, forces_; // by level
 };
 
-// Takes from the links of coarse levels what stability does not allow.
-void limit(std::vector<Level>& levels, const Settings& settings, double h) {
+double largestEigenvalue(const std::vector<Level>& levels, std::span<const Term> terms) {
     constexpr int turns = 40;
-    constexpr double found = 0.97; // of the eigenvalue, after so many turns, or more
-    const double most = mostEigenvalue * ranges::omegaBound(double{settings.theta}),
-                 omega = double{settings.omega}, eigenvalue = largestEigenvalue(levels, h, turns) / found;
+    constexpr double found = 0.97; // estimate: so much of the eigenvalue, after so many turns
+    Modes modes(levels, terms);
+    double value = 0;
+    for (int turn = 0; turn < turns; ++turn) value = modes.turn();
+    return value / found;
+}
+
+// Takes from the links of coarse levels what stability does not allow. Their limits then hold for a substep
+// of any length, as those of particles do.
+void limit(std::vector<Level>& levels, std::span<const Term> terms, const Settings& settings, double h) {
+    for (std::size_t l = 1; l < levels.size(); ++l)
+        for (Link& link : levels[l].links) link.most = std::min(link.most, link.stiffness * h * h);
+    const double most = mostEigenvalue * ranges::omegaBound(double{settings.theta});
+    const double eigenvalue = largestEigenvalue(levels, terms);
     if (eigenvalue <= most) return;
-    const double share = std::max((most - omega) / (eigenvalue - omega), 0.0);
+    const double own = largestEigenvalue({levels.begin(), levels.begin() + 1}, terms);
+    const double share = std::max((most - own) / (eigenvalue - own), 0.0);
     for (std::size_t l = 1; l < levels.size(); ++l)
         for (Link& link : levels[l].links) {
             link.most *= share;
@@ -324,27 +412,18 @@ void limit(std::vector<Level>& levels, const Settings& settings, double h) {
 
 } // namespace
 
-double largestEigenvalue(const std::vector<Level>& levels, double h, int turns) {
-    Modes modes(levels);
-    double value = 0;
-    for (int turn = 0; turn < turns; ++turn) value = modes.turn(h);
-    return value;
-}
-
 std::vector<Level> levelsOf(const Scene& scene, const Settings& settings, std::uint32_t grid,
-                            std::span<const float> inverseMass, std::span<const float> ofLinks,
-                            std::span<const float> times) {
+                            std::span<const float> inverseMass, const stiffness::Shares& shares) {
     const double h = double{scene.dt} / settings.substeps;
-    std::vector<Level> levels{particlesOf(scene, scene.grids[grid], inverseMass, ofLinks, times)};
-    if (std::ranges::none_of(levels[0].links, [&](const Link& link) { return missingOf(link, h) > 0; }))
-        return levels;
-    while (levels.size() <= settings.levels) {
+    std::vector<Level> levels{particlesOf(scene, scene.grids[grid], inverseMass, shares)};
+    const auto isSoft = [&](const Link& link) { return missingOf(link, h) > 0; };
+    while (levels.size() <= settings.levels && std::ranges::any_of(levels.back().links, isSoft)) {
         Level next = above(levels.back(), h);
         if (next.links.empty()) break;
         clamp(next, levelOmega * double{settings.omega}, h);
         levels.push_back(std::move(next));
     }
-    limit(levels, settings, h);
+    if (levels.size() > 1) limit(levels, termsOf(scene, settings, grid, inverseMass, shares), settings, h);
     return levels;
 }
 

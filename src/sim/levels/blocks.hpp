@@ -6,9 +6,9 @@
 // child never moves, the block is at the mean of those children and never moves either. Each level's links
 // have the stiffness that is missing below: a substep clamps a link of stiffness k to k'
 // (sim/stiffness/shares.hpp), and k - k' goes to the links of the same direction between the blocks of its
-// two ends, so that the energy of every uniform strain stays the same: k_c L_c^2 = sum of (k - k') L^2. A
-// link inside a block counts half for each of the two block links before and behind it. What no pair of
-// blocks stands for, at edges and corners, is shared by all links of the level.
+// two ends, so that a uniform strain has the same energy: k_c L_c^2 = sum of (k - k') L^2. A link inside a
+// block counts half for each of the two block links before and behind it. At edges, where no pair of blocks
+// lies in the direction s of a link, its part s' along block neighbours takes (|s'| / |s|)^4 of the energy.
 //
 // The energy of a level is a function of weighted means, so its forces act on a child by its weight, and
 // conserve momentum and angular momentum.
@@ -16,13 +16,14 @@
 // Stability: links of a level are clamped as those of particles are, with omega_l = 0.95 omega. Together they
 // must stay below 4 / (1 + 2 theta). Whatever the directions n of links are, x^T K x = sum k (n . (x_a -
 // x_b))^2 is at most the sum over the three coordinates of sum k (x_a - x_b)^2: the largest eigenvalue of the
-// graphs of all levels, where links have no direction, bounds every deformation. It is found by power
-// iteration. It is about 1.5 omega where few particles are fixed: modes that alternate from node to node
-// vanish in the means of the next level. If it is above 0.95 x 4 / (1 + 2 theta), all levels but the first
-// take a share of their stiffness; the eigenvalue is convex in that share, and at most omega without it.
+// graphs of all levels, where links have no direction, bounds every deformation, for substeps of any length.
+// Volumes and recovery of cells and bends enter with their limits. Power iteration estimates the eigenvalue;
+// it is about 1.5 omega where few particles are fixed, because modes that alternate from node to node vanish
+// in the means of the next level. If it is above 0.95 x 4 / (1 + 2 theta), all levels but the first take a
+// share of their stiffness, in which the eigenvalue is convex.
 #pragma once
 
-#include "sinew/scene.hpp"
+#include "sim/stiffness/shares.hpp"
 
 #include <array>
 #include <cstdint>
@@ -60,15 +61,9 @@ struct Level {
     std::vector<Link> links;
 };
 
-/// The largest eigenvalue of h^2 M^-1 K of all levels together if their links had no direction, found by
-/// `turns` of power iteration: slightly below the true one.
-double largestEigenvalue(const std::vector<Level>& levels, double h, int turns);
-
-/// The levels of one grid: that of its particles, in the order of the grid, then at most `settings.levels`
-/// coarse ones, each with a link; none of these if no link of the grid lacks stiffness. In cuttable bodies,
-/// links over more than one node have no part in them. `ofLinks` and `times` are those of the scene's Shares.
+/// The levels of one grid: that of its particles, in the order of the grid, then as many coarse ones as carry
+/// something, at most Settings::levels. Only links of the grid have a part in them.
 std::vector<Level> levelsOf(const Scene& scene, const Settings& settings, std::uint32_t grid,
-                            std::span<const float> inverseMass, std::span<const float> ofLinks,
-                            std::span<const float> times);
+                            std::span<const float> inverseMass, const stiffness::Shares& shares);
 
 } // namespace sinew::sim::levels

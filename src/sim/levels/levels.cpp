@@ -134,8 +134,7 @@ std::vector<Body> bodiesOf(const SceneModel& model, const stiffness::Shares& sha
     std::vector<Body> bodies;
     if (model.settings.levels == 0) return bodies;
     for (std::uint32_t g = 0; g < model.scene.grids.size(); ++g) {
-        std::vector<Level> levels =
-            levelsOf(model.scene, model.settings, g, model.inverseMass, shares.ofLinks, shares.times);
+        std::vector<Level> levels = levelsOf(model.scene, model.settings, g, model.inverseMass, shares);
         if (levels.size() > 1)
             bodies.push_back(
                 {.grid = g, .isCuttable = model.scene.grids[g].isCuttable, .levels = std::move(levels)});
@@ -157,9 +156,12 @@ void writeRanges(Tables& tables, const std::vector<Body>& bodies, std::size_t le
 
 // The pass that disables block links of cut bodies.
 struct Cuts {
+    std::uint32_t bodies = 0;
     layout::LevelCutPush push{};
     std::vector<BufferId> buffers;
-    void addPass(ProgramBuilder& program) const { program.dispatch(k::cutLevels, push.count, buffers, push); }
+    void addPass(ProgramBuilder& program) const {
+        program.dispatch(k::cutLevels, bodies * LEVEL_GROUP, buffers, push);
+    }
 };
 
 } // namespace
@@ -211,7 +213,8 @@ std::optional<Levels> add(Build& build, const stiffness::Shares& shares) {
     cutting.lists.push_back(levels.links_);
     program.addToState(levels.links_, levels.links_);
     const Cuts& cuts = build.keep(Cuts{
-        .push = {cuttable * LEVEL_GROUP, levels.levels_},
+        .bodies = cuttable,
+        .push = {levels.levels_},
         .buffers = {levels.ranges_, program.upload("levels.octants", tables.octants), cutting.links,
                     program.initialOf("levels.whole_nodes", cutting.links),
                     program.upload("levels.masks", tables.masks), levels.info_,

@@ -34,16 +34,14 @@ std::vector<Node> particlesOf(const Grid& grid, const Problem& problem) {
     return nodes;
 }
 
-// Bonds of the particles, and which of these particles are at the surface.
+// Bonds of the particles: the links of the grid. And which of these particles are at the surface.
 void addLinks(Level& level, const Grid& grid, const Problem& problem, const std::vector<ClampedLink>& links) {
     std::vector<int> counts(level.nodes.size(), 0);
-    const auto has = [&](std::uint32_t i) { return i - grid.firstParticle < level.nodes.size(); };
     for (std::size_t k = 0; k < links.size(); ++k) {
         const Link& link = problem.links[k];
-        if (!has(link.a) || !has(link.b)) continue;
+        if (link.constraint - grid.firstDistance >= grid.distanceCount) continue;
         const std::size_t a = link.a - grid.firstParticle, b = link.b - grid.firstParticle;
         const Place step = sum(level.nodes[b].place, level.nodes[a].place, -1);
-        if (grid.isCuttable && std::ranges::any_of(step, [](long s) { return std::abs(s) > 1; })) continue;
         level.bonds.push_back({a, b, step, link.restLength, links[k].stiffness, links[k].most});
         ++counts[a];
         ++counts[b];
@@ -107,33 +105,53 @@ void clamp(Level& level, double omega, double h) {
     }
 }
 
+using Pairs = std::vector<std::array<std::size_t, 2>>;
+
+// The pairs of blocks in this direction around a bond between the blocks a and b.
+Pairs pairsOf(const std::map<Place, std::size_t>& at, const std::vector<Node>& blocks, std::size_t a,
+              std::size_t b, const Place& step) {
+    Pairs pairs;
+    if (const auto ahead = at.find(sum(blocks[a].place, step, 1)); ahead != at.end())
+        pairs.push_back({a, ahead->second});
+    if (const auto behind = at.find(sum(blocks[b].place, step, -1)); behind != at.end())
+        if (pairs.empty() || pairs[0] != std::array{behind->second, b}) pairs.push_back({behind->second, b});
+    return pairs;
+}
+
+double squareOf(const Place& step) {
+    return static_cast<double>(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
+}
+
 Level above(Level& below, double omega, double h) {
     Level level;
     std::map<Place, std::size_t> at;
     level.nodes = blocksOf(below.nodes, at);
     std::map<std::array<std::size_t, 2>, Bond> bonds;
-    double lost = 0, kept = 0; // energies of a uniform strain
     for (const Bond& bond : below.bonds) {
         const std::size_t a = below.nodes[bond.a].parent, b = below.nodes[bond.b].parent;
-        std::vector<std::array<std::size_t, 2>> pairs;
-        if (const auto ahead = at.find(sum(level.nodes[a].place, bond.step, 1)); ahead != at.end())
-            pairs.push_back({a, ahead->second});
-        if (const auto behind = at.find(sum(level.nodes[b].place, bond.step, -1)); behind != at.end())
-            if (pairs.empty() || pairs[0] != std::array{behind->second, b})
-                pairs.push_back({behind->second, b});
-        const double energy = missingOf(bond, h) * bond.length * bond.length;
-        (pairs.empty() ? lost : kept) += energy;
+        double energy = missingOf(bond, h) * bond.length * bond.length; // of a uniform strain
+        Place step = bond.step;
+        Pairs pairs = pairsOf(at, level.nodes, a, b, step);
+        if (pairs.empty()) {
+            step = {0, 0, 0};
+            for (std::size_t d = 0; d < 3; ++d) {
+                Place axis{0, 0, 0};
+                axis[d] = bond.step[d];
+                if (axis[d] != 0 && !pairsOf(at, level.nodes, a, b, axis).empty()) step[d] = axis[d];
+            }
+            if (squareOf(step) == 0) continue;
+            energy *= std::pow(squareOf(step) / squareOf(bond.step), 2);
+            pairs = pairsOf(at, level.nodes, a, b, step);
+        }
         for (const auto& [from, to] : pairs) {
             const double length = (level.nodes[to].rest - level.nodes[from].rest).norm();
-            Bond& of = bonds.try_emplace({from, to}, Bond{from, to, bond.step, length, 0, 0}).first->second;
+            Bond& of = bonds.try_emplace({from, to}, Bond{from, to, step, length, 0, 0}).first->second;
             of.stiffness += energy / static_cast<double>(pairs.size()) / (length * length);
         }
     }
-    for (const auto& [pair, bond] : bonds) {
-        if (level.nodes[bond.a].inverseMass + level.nodes[bond.b].inverseMass == 0) continue;
-        level.bonds.push_back(bond);
-        if (kept > 0) level.bonds.back().stiffness *= 1 + lost / kept;
-    }
+    for (const auto& [pair, bond] : bonds)
+        if (level.nodes[bond.a].inverseMass + level.nodes[bond.b].inverseMass > 0)
+            level.bonds.push_back(bond);
     clamp(level, omega, h);
     return level;
 }
@@ -150,9 +168,9 @@ Positions toChildren(const std::vector<Node>& nodes, const Positions& forces) {
     return below;
 }
 
-// The largest eigenvalue of h^2 M^-1 K of all levels if bonds had no direction, as in 40 turns of power
-// iteration from the same start as on the device's side.
-double largestEigenvalue(const std::vector<Level>& levels, double h) {
+// An estimate of the largest eigenvalue of h^2 M^-1 K of all levels if bonds had no direction, by 40 turns of
+// power iteration from the start of sim/levels/blocks.cpp. Leaves out cells and bends, which count there.
+double largestEigenvalue(const std::vector<Level>& levels) {
     Positions x(levels[0].nodes.size(), Eigen::Vector3d::Zero());
     std::uint32_t number = 1;
     for (Eigen::Vector3d& v : x) {
@@ -176,8 +194,7 @@ double largestEigenvalue(const std::vector<Level>& levels, double h) {
             forces = l + 1 < levels.size() ? toChildren(levels[l].nodes, forces)
                                            : Positions(levels[l].nodes.size(), Eigen::Vector3d::Zero());
             for (const Bond& bond : levels[l].bonds) {
-                const Eigen::Vector3d pull =
-                    std::min(bond.stiffness * h * h, bond.most) * (places[l][bond.a] - places[l][bond.b]);
+                const Eigen::Vector3d pull = bond.most * (places[l][bond.a] - places[l][bond.b]);
                 forces[bond.a] += pull;
                 forces[bond.b] -= pull;
             }
@@ -188,14 +205,16 @@ double largestEigenvalue(const std::vector<Level>& levels, double h) {
             x[i] = levels[0].nodes[i].inverseMass * forces[i];
         }
     }
-    return value;
+    return value / 0.97;
 }
 
 void limit(std::vector<Level>& levels, const Settings& settings, double h) {
-    const double omega = double{settings.omega}, most = 0.95 * 4 / (1 + 2 * double{settings.theta}),
-                 eigenvalue = largestEigenvalue(levels, h) / 0.97;
+    for (std::size_t l = 1; l < levels.size(); ++l)
+        for (Bond& bond : levels[l].bonds) bond.most = std::min(bond.most, bond.stiffness * h * h);
+    const double most = 0.95 * 4 / (1 + 2 * double{settings.theta}), eigenvalue = largestEigenvalue(levels);
     if (eigenvalue <= most) return;
-    const double share = std::max((most - omega) / (eigenvalue - omega), 0.0);
+    const double own = largestEigenvalue({levels[0]}),
+                 share = std::max((most - own) / (eigenvalue - own), 0.0);
     for (std::size_t l = 1; l < levels.size(); ++l)
         for (Bond& bond : levels[l].bonds) {
             bond.stiffness *= share;
@@ -212,13 +231,13 @@ Levels::Levels(const Scene& scene, const Settings& settings, const Problem& prob
         std::vector<Level> levels(1);
         levels[0].nodes = particlesOf(grid, problem);
         addLinks(levels[0], grid, problem, links);
-        const auto& bonds = levels[0].bonds;
-        if (std::ranges::none_of(bonds, [&](const Bond& bond) { return missingOf(bond, h) > 0; })) continue;
-        while (levels.size() <= settings.levels) {
+        const auto isSoft = [&](const Bond& bond) { return missingOf(bond, h) > 0; };
+        while (levels.size() <= settings.levels && std::ranges::any_of(levels.back().bonds, isSoft)) {
             Level next = above(levels.back(), 0.95 * double{settings.omega}, h);
             if (next.bonds.empty()) break;
             levels.push_back(std::move(next));
         }
+        if (levels.size() == 1) continue;
         limit(levels, settings, h);
         bodies_.push_back({grid.firstParticle, std::move(levels)});
     }

@@ -88,8 +88,9 @@ constexpr std::uint32_t nobody = ~0u;
 struct Limit {
     double longest = infinite;
     std::uint32_t particle = nobody;
-    void lower(double to, std::uint32_t end) {
-        if (to < longest) *this = {to, end};
+    double own = 1; // Term::own
+    void lower(double to, const Term& term) {
+        if (to < longest) *this = {to, term.particle, term.own};
     }
 };
 
@@ -131,7 +132,7 @@ Limits limitsOf(const Terms& terms) {
             limits.isReachable = limits.isReachable && isReachable(term, tolerance);
         }
         Limit& limit = term.isRigid ? limits.rigid : limits.elastic;
-        if (term.stiffness > 0) limit.lower(model.longest(term, tolerance), term.particle);
+        if (term.stiffness > 0) limit.lower(model.longest(term, tolerance), term);
     });
     limits.damped = longestOfDamping(terms);
     return limits;
@@ -236,6 +237,7 @@ SubstepChoice choiceOf(const Limits& limits, const ContactLimits& contacts, cons
         *std::ranges::min_element(rules, {}, [](const auto& rule) { return rule.second.longest; });
     return {.wanted = countFor(double{scene.dt}, limit.longest),
             .reason = reason,
+            .own = limit.own,
             .share = limits.share,
             .isReachable = limits.isReachable,
             .body = bodyOf(scene, limit.particle)};
@@ -375,8 +377,7 @@ SubstepCure cureOf(const SubstepChoice& choice, const Settings& settings) {
 }
 
 // How much of its stiffness a link must have itself.
-std::string byLevels(const Settings& settings) {
-    const double own = stiffness::ownShare(settings);
+std::string byLevels(double own) {
     return own == 1      ? ""
            : own == 0.25 ? ", one level carrying three quarters"
                          : ", levels carrying eight ninths";
@@ -396,7 +397,7 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         why = "as asked";
         break;
     case SubstepReason::stiffness:
-        why = "no link is more than " + percent + " softer than asked" + byLevels(settings) + body;
+        why = "no link is more than " + percent + " softer than asked" + byLevels(choice.own) + body;
         break;
     case SubstepReason::weight:
         why = "no rigid link stretches by more than " + percent + " under its load" + body;

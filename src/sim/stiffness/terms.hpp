@@ -33,10 +33,13 @@ struct Term {
 };
 
 // The share of stiffness that a link of a grid must have itself: one level carries three quarters at twice
-// the longest substep, two and more carry eight ninths at three times it.
-inline double ownShare(const Settings& settings) {
-    if (settings.solver != Solver::split || settings.levels == 0) return 1;
-    return settings.levels == 1 ? 1 / 4.0 : 1 / 9.0;
+// the longest substep, two and more carry eight ninths at three times it. A grid has a level if that has two
+// blocks.
+inline double ownShare(const Settings& settings, const Grid& grid) {
+    if (settings.solver != Solver::split) return 1;
+    const std::uint32_t most = std::max({grid.nodes[0], grid.nodes[1], grid.nodes[2]});
+    const std::uint32_t levels = std::min(settings.levels, most > 4 ? 2u : most > 2 ? 1u : 0u);
+    return levels == 0 ? 1 : levels == 1 ? 1 / 4.0 : 1 / 9.0;
 }
 
 // Properties of a scene that do not depend on the number of substeps; by particle.
@@ -86,7 +89,6 @@ struct Terms {
     std::uint32_t sweeps() const { return isSplit() ? 1 : settings.iterations; }
 
     template <typename Visit> void forEachLink(const Visit& visit) const {
-        const double own = ownShare(settings);
         std::size_t g = 0; // the first grid that ends after the link
         for (std::size_t i = 0; i < scene.distances.size(); ++i) {
             const DistanceConstraint& c = scene.distances[i];
@@ -102,7 +104,7 @@ struct Terms {
                       .sweeps = sweeps(),
                       .isRigid = c.compliance == 0,
                       .particle = c.a,
-                      .own = isOfGrid ? own : 1};
+                      .own = isOfGrid ? ownShare(settings, scene.grids[g]) : 1};
             if (!term.isRigid)
                 term.stiffness = 1 / double{c.compliance};
             else if (c.restLength > 0)
