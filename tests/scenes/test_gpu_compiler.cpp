@@ -175,10 +175,12 @@ void makeKernelsOfAllScenes(Maker& maker) {
         }
 }
 
-// The kernels that no program has: they carry states between simulations.
+// The kernels that no program has: they carry states between simulations, or answer the host.
 void makeKernelsOfWorlds(Maker& maker) {
     for (const vk::ShaderCode* code :
-         {&sim::kernels::carryElements, &sim::kernels::carryContacts, &sim::kernels::startArrivals}) {
+         {&sim::kernels::carryElements, &sim::kernels::carryContacts, &sim::kernels::startArrivals,
+          &sim::kernels::castRay, &sim::kernels::castRayBalls, &sim::kernels::castRayCuts,
+          &sim::kernels::resolvePick, &sim::kernels::findWithin}) {
         EXPECT_NO_THROW(maker.device.kernels().get(maker.device, *code, {})) << code->name;
         maker.made.insert(code);
     }
