@@ -26,9 +26,11 @@ const char* nameOf(Kind kind) noexcept {
     case Kind::state:
         return "state";
     case Kind::world:
+        return "world";
+    case Kind::query:
         break;
     }
-    return "world";
+    return "query";
 }
 
 class Table {

@@ -17,7 +17,7 @@ struct Failed {
     std::string sentence;
 };
 
-enum class Kind { device, scene, simulation, state, world };
+enum class Kind { device, scene, simulation, state, world, query };
 const char* nameOf(Kind kind) noexcept;
 
 enum class Access {

@@ -66,6 +66,7 @@ struct SimulationObject final : Object {
     std::uint64_t nextFrame = 0, stepsDone = 0;
     std::vector<std::unique_ptr<sim::Simulation>> predecessors; ///< kept for addresses that were given out
     bool isMapped = false;                                      ///< addresses of `simulation` were given out
+    std::uint64_t replacements = 0; ///< of `simulation` by one with more room, behind the same handle
 };
 
 struct WorldObject final : Object {

@@ -18,6 +18,7 @@ void continueWith(SimulationObject& object, Submitting& queue, const sim::Settin
     queue.run(device, [&](VkCommandBuffer commands) { next->recordTakeOver(commands, *object.simulation); });
     std::swap(object.owned, next);
     object.simulation = object.owned.get();
+    ++object.replacements;
     if (object.isMapped) object.predecessors.push_back(std::move(next));
     object.isMapped = false;
     object.settings = settings;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """check_abi.py <folder of headers> <shared library> <golden file> <C compiler> <Vulkan headers> [--write]: fails if sizes and
-offsets of the structs of sinew.h and sinew_world.h, their constants or the symbols that the library exports are not those of the
+offsets of the structs of the headers in C, their constants or the symbols that the library exports are not those of the
 golden file. --write renews it, after a change that programs must be compiled anew for, or after an addition."""
 import difflib
 import pathlib
@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-HEADERS = ["sinew.h", "sinew_world.h"]
+HEADERS = ["sinew.h", "sinew_world.h", "sinew_query.h"]
 STRUCT = re.compile(r"^typedef struct (\w+) \{\n(.*?)^\} \1;", re.M | re.S)
 MEMBERS = re.compile(r"^[\w *]+?[\w*]\s+\**(\w+(?:\[\d+\])?(?:, ?\**\w+(?:\[\d+\])?)*)$")
 CONSTANT = re.compile(r"^\s+(SINEW_\w+) = -?\d+", re.M)
