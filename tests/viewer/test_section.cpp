@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace sinew::viewer {
@@ -36,9 +37,17 @@ sim::Scene sheet() {
     return scene;
 }
 
+// Blocks are drawn as rubber; `isTissue`: as tissue, whose inside has another color.
+SceneLight lightOf(const sim::Scene& scene, bool isTissue) {
+    SceneLight light = lightFor(scene, fromFront);
+    if (isTissue) std::ranges::fill(light.gloss, 1.0f);
+    return light;
+}
+
 struct Shot {
-    explicit Shot(const sim::Scene& scene, VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT)
-        : light(lightFor(scene, fromFront)), document(test::device(), scene, {}),
+    explicit Shot(const sim::Scene& scene, VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT,
+                  bool isTissue = true)
+        : light(lightOf(scene, isTissue)), document(test::device(), scene, {}),
           offscreen(test::device(), extent, light,
                     {.shadowSize = 256, .floorSize = 64, .shadowTaps = 8, .skyTaps = 8, .samples = samples}),
           inspection(test::device(), document, 1) {}
@@ -142,6 +151,13 @@ TEST(Section, LaysOpenTheInsideOfABodyAsASolid) {
     layers.section = Section{Vector3::UnitZ(), -0.3f};
     EXPECT_TRUE(isGrey(colorAt(shot.take(camera, layers), camera, middle)))
         << "all of it is before the plane";
+}
+
+TEST(Section, ShowsThatRubberIsInsideLikeItsSurface) {
+    Shot shot(blocks({0}), VK_SAMPLE_COUNT_4_BIT, false);
+    const Picture opened = shot.take(fromFront, {.section = Section{Vector3::UnitZ(), 0}});
+    for (const Vector3& at : {Vector3(0.03f, 0.05f, 0), Vector3(-0.15f, -0.15f, 0)})
+        EXPECT_TRUE(isGreen(colorAt(opened, fromFront, at))) << at.transpose();
 }
 
 TEST(Section, LooksTheSameWithOneSampleAPixel) {

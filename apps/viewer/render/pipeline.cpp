@@ -82,6 +82,12 @@ constexpr std::array cutValueBindings{cutBindings[0], cutBindings[1],
                                       valueBinding(2, VK_VERTEX_INPUT_RATE_VERTEX)};
 constexpr std::array cutValueAttributes{cutAttributes[0], cutAttributes[1], valueAttribute(2)};
 
+constexpr std::array sheetBindings{
+    skinBinding, VkVertexInputBindingDescription{1, sizeof(sim::layout::vec4), VK_VERTEX_INPUT_RATE_VERTEX}};
+constexpr std::array sheetAttributes{
+    skinAttributes[0], skinAttributes[1],
+    VkVertexInputAttributeDescription{4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0}};
+
 constexpr std::array panelBindings{
     VkVertexInputBindingDescription{0, sizeof(PanelVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
 constexpr std::array panelAttributes{
@@ -99,7 +105,8 @@ constexpr std::array vertexForms{VertexForm{},
                                  VertexForm{panelBindings, panelAttributes},
                                  VertexForm{skinValueBindings, skinValueAttributes},
                                  VertexForm{ballValueBindings, ballValueAttributes},
-                                 VertexForm{cutValueBindings, cutValueAttributes}};
+                                 VertexForm{cutValueBindings, cutValueAttributes},
+                                 VertexForm{sheetBindings, sheetAttributes}};
 
 VkPipelineVertexInputStateCreateInfo vertexInput(const PipelineRequest& request) {
     const VertexForm& form = request.input == PipelineRequest::Input::own

@@ -30,7 +30,8 @@ struct PipelineRequest {
     /// Vertex inputs. positions, positionsAndNormals: SkinVertex at binding 0. balls: corners at 0, and per
     /// instance position (1), piece (2, location 4) and radius (3); hand: as balls without radius. cuts:
     /// SkinVertex at 0, CutVertex at 1. panels: PanelVertex. skinValues, ballValues, cutValues: also a float
-    /// at location 3, from binding 1, 4 (per instance) and 2. own: `vertices`.
+    /// at location 3, from binding 1, 4 (per instance) and 2. sheets: positionsAndNormals, and a vec4 at
+    /// location 4 from binding 1. own: `vertices`.
     enum class Input {
         none,
         positions,
@@ -42,6 +43,7 @@ struct PipelineRequest {
         skinValues,
         ballValues,
         cutValues,
+        sheets,
         own
     } input = Input::none;
     VertexForm vertices{}; ///< must outlive the request

@@ -72,6 +72,9 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                         .stride = sizeof(sim::layout::vec4),
                         .kind = vk::MemoryKind::upload,
                         .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
+      sheets_(filledBuffer(device, "picture.sheets",
+                           light.sheets.empty() ? std::vector<layout::vec4>(1) : light.sheets,
+                           VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
       nothing_(filledBuffer(device, "picture.nothing", std::vector<sim::layout::vec4>(64),
                             VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
       look_(lookOf(target, quality)), heldLook_(heldLookOf(target, quality)),
@@ -83,6 +86,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     makeMaps(to);
     makeBodies(to);
     makeCuts(to);
+    if (!light_.sheets.empty()) makeSheets(to);
     if (!balls_.ranges().empty()) makeBalls(to);
     if (!marks_.ranges().empty()) makeHeld(to);
     if (!walls_.isEmpty()) makeWalls(to);
@@ -226,6 +230,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
         drawValues(commands, simulation, overlay);
     } else {
         drawBalls(commands, opened(ballPipeline, layers), simulation, overlay);
+        if (layers.skin() == SkinLook::solid) drawSheets(commands, layers, simulation);
         if (layers.skin() == SkinLook::solid)
             drawCuts(commands, opened(insidePipeline, layers), opened(clippedPipeline, layers), simulation);
     }

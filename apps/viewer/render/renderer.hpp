@@ -141,6 +141,7 @@ private:
     void makeBackdrop(Additions& to) const;
     void makeEnlarging(Additions& to) const;
     void makeCuts(Additions& to) const;
+    void makeSheets(Additions& to) const;
     void makeBalls(Additions& to) const;
     void makeHeld(Additions& to) const;
     void makeWalls(Additions& to) const;
@@ -189,7 +190,10 @@ private:
         OfSkins(std::size_t one) : any(one), solids(one) {}
         OfSkins(std::size_t ofAny, std::size_t ofSolids) : any(ofAny), solids(ofSolids) {}
         std::size_t any, solids;
+        bool leavesSheets = false;
     };
+    void drawSheets(VkCommandBuffer commands, const Layers& layers,
+                    const sim::Simulation& simulation) const noexcept;
     void drawSkins(VkCommandBuffer commands, OfSkins pipelines, const sim::Simulation& simulation,
                    const LayerBuffers& buffers = {}) const noexcept;
     void drawThings(VkCommandBuffer commands, const sim::Simulation& simulation, const Layers& layers,
@@ -235,6 +239,7 @@ private:
     Walls walls_;
     HandMesh hand_;
     vk::Buffer strokes_;                                        // vec4, pointsASlot each
+    vk::Buffer sheets_;                                         // vec4, one for each vertex of skins
     vk::Buffer nothing_;                                        // one degenerate corner
     std::array<vk::SpecialisationConstant, 3> look_, heldLook_; // for lit bodies; for marks of held particles
     enum PipelineIndex : std::size_t {
@@ -252,6 +257,8 @@ private:
         handPipeline,
         insidePipeline,
         clippedPipeline,
+        clothPipeline,
+        clothPiecesPipeline, // along cuts
         ballShadowPipeline,
         ballPlanPipeline,
         ballPipeline,

@@ -20,8 +20,10 @@ void Renderer::drawThings(VkCommandBuffer commands, const sim::Simulation& simul
                           std::size_t pipeline) const noexcept {
     drawColliders(commands, pipeline, simulation);
     drawHostColliders(commands, pipeline, simulation);
-    if (layers.map() == ColorMap::none && layers.skin() == SkinLook::solid)
-        drawSkins(commands, opened(pipeline, layers), simulation);
+    if (layers.map() != ColorMap::none || layers.skin() != SkinLook::solid) return;
+    OfSkins pipelines(opened(pipeline, layers));
+    pipelines.leavesSheets = true;
+    drawSkins(commands, pipelines, simulation);
 }
 
 void Renderer::bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept {
@@ -115,6 +117,7 @@ void Renderer::drawSkins(VkCommandBuffer commands, OfSkins pipelines, const sim:
     if (values.size > 0) functions.vkCmdBindVertexBuffers(commands, 1, 1, &values.buffer, &values.offset);
     const vk::BufferView pieces = simulation.pieceDraws();
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
+        if (pipelines.leavesSheets && light_.isSheet[i]) continue;
         if (pipeline == skinCountPipeline && !light_.isClosed[i]) continue; // not closed
         if (pipeline == skinBacksPipeline && leavesBacks_ && light_.isOutward[i]) continue;
         const std::size_t own = light_.isOutward[i] ? pipelines.solids : pipelines.any;
@@ -123,6 +126,30 @@ void Renderer::drawSkins(VkCommandBuffer commands, OfSkins pipelines, const sim:
         push(commands, values.size > 0 ? sim::Vec3{buffers.range} : skin.color, light_.gloss[i], {});
         functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
         if (pieces.size > 0) drawIndirect(commands, pieces, i);
+    }
+}
+
+// Draws both sides of cloth. Pieces along cuts have vertices of their own, which have no place in the sheet.
+void Renderer::drawSheets(VkCommandBuffer commands, const Layers& layers,
+                          const sim::Simulation& simulation) const noexcept {
+    if (light_.sheets.empty()) return;
+    const sim::Simulation::DrawnSkins drawn = simulation.drawnSkins();
+    const vk::BufferView places = sheets_.view(), pieces = simulation.pieceDraws();
+    for (const bool isPieces : {false, true}) {
+        if (isPieces && pieces.size == 0) return;
+        bind(commands, opened(isPieces ? clothPiecesPipeline : clothPipeline, layers));
+        bindMesh(commands, simulation.skinVertices(), drawn.indices);
+        if (!isPieces)
+            device_.functions().vkCmdBindVertexBuffers(commands, 1, 1, &places.buffer, &places.offset);
+        for (std::size_t i = 0; i < light_.isSheet.size(); ++i) {
+            if (!light_.isSheet[i]) continue;
+            const sim::SkinRange& skin = drawn.ranges[i];
+            push(commands, skin.color, light_.gloss[i], {});
+            if (isPieces)
+                drawIndirect(commands, pieces, i);
+            else
+                device_.functions().vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
+        }
     }
 }
 

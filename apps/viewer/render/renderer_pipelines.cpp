@@ -128,6 +128,21 @@ void Renderer::makeCuts(Additions& to) const {
     addLit(to, clippedPipeline, request);
 }
 
+void Renderer::makeSheets(Additions& to) const {
+    addLit(to, clothPipeline,
+           {.name = "cloth",
+            .vertex = &shaders::skinSheetVert,
+            .fragment = &shaders::clothWholeFrag,
+            .input = Input::sheets,
+            .depth = solid});
+    addLit(to, clothPiecesPipeline,
+           {.name = "cloth_pieces",
+            .vertex = &shaders::skinVert,
+            .fragment = &shaders::clothFrag,
+            .input = Input::positionsAndNormals,
+            .depth = solid});
+}
+
 void Renderer::makeBalls(Additions& to) const {
     addDepths(to, ballShadowPipeline, ballPlanPipeline,
               {.name = "ball", .vertex = &shaders::ballDepthVert, .input = Input::balls});

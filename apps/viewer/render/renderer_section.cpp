@@ -24,6 +24,8 @@ constexpr std::array forms{Form{&shaders::depthVert, &shaders::depthSectionVert}
                            Form{&shaders::skinFrag, &shaders::skinSectionFrag},
                            Form{&shaders::insideFrag, &shaders::insideSectionFrag},
                            Form{&shaders::clippedFrag, &shaders::clippedSectionFrag},
+                           Form{&shaders::clothFrag, &shaders::clothSectionFrag},
+                           Form{&shaders::clothWholeFrag, &shaders::clothWholeSectionFrag},
                            Form{&shaders::skinGlassFrag, &shaders::skinGlassSectionFrag},
                            Form{&shaders::insideGlassFrag, &shaders::insideGlassSectionFrag},
                            Form{&shaders::clippedGlassFrag, &shaders::clippedGlassSectionFrag},

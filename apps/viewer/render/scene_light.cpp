@@ -25,15 +25,36 @@ layout::mat4 packed(const Matrix4& matrix) {
     return result;
 }
 
-// Sheets enclose no volume; their threads scatter light that wet tissue reflects.
-float glossOf(const sim::Scene& scene, const sim::Skin& skin) {
-    constexpr float ofTissue = 1, ofCloth = 0.2f;
-    if (skin.particles.empty()) return ofTissue;
-    const auto holds = [&](const sim::Body& body) {
-        return skin.particles[0] - body.firstParticle < body.particleCount;
-    };
-    const auto body = std::ranges::find_if(scene.bodies, holds);
-    return body != scene.bodies.end() && body->restVolume == 0 ? ofCloth : ofTissue;
+// A mesh is drawn as tissue, wet inside; a body without a mesh of its own as rubber, the same inside.
+float glossOf(const sim::Skin& skin) {
+    constexpr float ofTissue = 1, ofRubber = 0.3f;
+    return skin.particles.empty() ? ofTissue : ofRubber;
+}
+
+// The grid of the sheet whose particles the skin shows; null = it is of no sheet.
+const sim::Grid* sheetOf(const sim::Scene& scene, const sim::Skin& skin) {
+    if (skin.particles.empty()) return nullptr;
+    const auto found = std::ranges::find_if(scene.grids, [&](const sim::Grid& grid) {
+        return grid.nodes[1] == 1 && skin.particles[0] - grid.firstParticle < grid.node.size();
+    });
+    return found == scene.grids.end() ? nullptr : &*found;
+}
+
+// Appends the places of a skin's vertices in its sheet, if it has one. Returns whether it has.
+bool addSheet(std::vector<layout::vec4>& places, const sim::Scene& scene, const sim::Skin& skin) {
+    const sim::Grid* grid = sheetOf(scene, skin);
+    const std::size_t first = places.size();
+    places.resize(first + skin.vertexCount());
+    if (grid == nullptr) return false;
+    const float spacing = grid->restLength[0];
+    const auto length = [&](std::uint32_t steps) { return spacing * static_cast<float>(steps); };
+    for (std::size_t v = 0; v < skin.particles.size(); ++v) {
+        const std::uint32_t i = skin.particles[v] - grid->firstParticle;
+        const std::uint32_t node = i < grid->node.size() ? grid->node[i] : 0;
+        places[first + v] = {length(node % grid->nodes[0]), length(node / grid->nodes[0]),
+                             length(grid->nodes[0] - 1), length(grid->nodes[2] - 1)};
+    }
+    return true;
 }
 
 // The square of floor that bodies in `bounds` can darken: below them, where their shadows fall, with a small
@@ -68,9 +89,11 @@ SceneLight lightFor(const sim::Scene& scene, const Camera& camera) {
     light.bounds.extend(Vector3(light.bounds.max() + Vector3(room, 0.5f * room, room)));
     const float azimuth = camera.azimuth + keyAzimuth, level = std::cos(keyElevation);
     for (const sim::Skin& skin : scene.skins) {
-        light.gloss.push_back(glossOf(scene, skin));
+        light.gloss.push_back(glossOf(skin));
+        light.isSheet.push_back(addSheet(light.sheets, scene, skin));
         light.skins.push_back(skin.color);
     }
+    if (std::ranges::count(light.isSheet, true) == 0) light.sheets.clear();
     light.isClosed = closedSkins(scene);
     light.isOutward = outwardSkins(scene);
     light.balls = ballsOf(scene);

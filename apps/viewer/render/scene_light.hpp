@@ -13,11 +13,14 @@ namespace sinew::viewer {
 constexpr float pinShare = 0.02f; ///< radius of the ball of a hand or pin / radius of the scene
 
 struct SceneLight {
-    Box bounds;                           ///< box in which bodies are expected [m]
-    std::optional<float> ground;          ///< height of the floor [m]; empty = no floor
-    Vector3 toLight = Vector3::UnitY();   ///< unit direction to the key light
-    std::vector<float> gloss;             ///< one per skin: 1 moist tissue, less for cloth
-    std::vector<sim::Vec3> skins;         ///< colour of each skin, linear RGB
+    Box bounds;                         ///< box in which bodies are expected [m]
+    std::optional<float> ground;        ///< height of the floor [m]; empty = no floor
+    Vector3 toLight = Vector3::UnitY(); ///< unit direction to the key light
+    std::vector<float> gloss;           ///< one per skin: 1 moist tissue, less for cloth
+    std::vector<sim::Vec3> skins;       ///< colour of each skin, linear RGB
+    std::vector<bool> isSheet;          ///< whether each skin is of a cloth
+    /// Place in its sheet and size of the sheet, by vertex of all skins [m]; empty if no skin is of a cloth.
+    std::vector<layout::vec4> sheets;
     std::vector<bool> isClosed;           ///< whether each skin is closed (closedSkins)
     std::vector<bool> isOutward;          ///< whether it is closed and its triangles face outwards
     BallList balls;                       ///< balls for bodies without a skin

@@ -1,6 +1,6 @@
 #version 460
-// Skin vertices on the contact surface of their body: each is raised by the radius of its particle along the mean normal
-// of all faces that meet there, so that edges stay closed.
+// Skin vertices on the contact surface of their body: each is raised by the radius of its particle along the mean
+// normal of all faces that meet there, so that edges stay closed.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 

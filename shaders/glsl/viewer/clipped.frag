@@ -12,7 +12,7 @@ layout(location = 0) out vec4 shown;
 void main() {
     keepBehindSection(worldPosition);
     const vec4 skin = frame.skins[min(uint(inBody.w + 0.5), SKIN_COLORS - 1u)];
-    shown = shade(worldPosition, worldNormal, skin.rgb, skin.w);
+    shown = shade(worldPosition, worldNormal, tissue(skin.rgb, skin.w));
 #ifdef GLASS
     shown.a = glassAlpha(worldPosition, worldNormal);
 #endif

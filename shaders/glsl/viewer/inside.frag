@@ -14,7 +14,7 @@ layout(location = 0) out vec4 shown;
 void main() {
     keepBehindSection(worldPosition);
     const vec4 skin = frame.skins[min(uint(inBody.w + 0.5), SKIN_COLORS - 1u)];
-    shown = shade(worldPosition, worldNormal, insideAlbedo(inBody.xyz, skin.rgb), insideMoist);
+    shown = shade(worldPosition, worldNormal, insideSurface(inBody.xyz, skin));
 #ifdef GLASS
     shown.a = glassAlpha(worldPosition, worldNormal);
 #endif

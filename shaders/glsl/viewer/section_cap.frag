@@ -25,6 +25,14 @@ vec4 countAt(int i) {
     return sum.a < 0.0 ? -sum : sum;
 }
 
+// The skin of that color, with its gloss.
+vec4 skinOf(vec3 color) {
+    vec4 skin = vec4(color, 1.0);
+    for (int i = 0; i < SKIN_COLORS; ++i)
+        if (distance(frame.skins[i].rgb, color) < 0.002) skin.w = frame.skins[i].w;
+    return skin;
+}
+
 void main() {
     const vec3 ray = frame.rayForward.xyz + clip.x * frame.rayRight.xyz + clip.y * frame.rayUp.xyz;
     const float height = dot(frame.section.xyz, frame.eye.xyz) - frame.section.w;
@@ -49,5 +57,5 @@ void main() {
     if (push.color.x > 0.5)
         shown = matt(position, frame.section.xyz, isSkin ? unknownValue : color);
     else
-        shown = shade(position, frame.section.xyz, isSkin ? insideAlbedo(position, color) : color, isSkin ? insideMoist : push.color.w);
+        shown = shade(position, frame.section.xyz, isSkin ? insideSurface(position, skinOf(color)) : tissue(color, push.color.w));
 }

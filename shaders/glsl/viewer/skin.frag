@@ -13,7 +13,7 @@ layout(location = 0) out vec4 shown;
 void main() {
     keepBehindSection(worldPosition);
     const vec3 albedo = mix(push.color.rgb, vec3(0.62, 0.66, 0.72), 0.55 * asleep);
-    shown = shade(worldPosition, worldNormal, albedo, push.color.w);
+    shown = shade(worldPosition, worldNormal, tissue(albedo, push.color.w));
 #ifdef GLASS
     shown.a = glassAlpha(worldPosition, worldNormal);
 #endif

@@ -6,6 +6,10 @@
 layout(push_constant) uniform Push { SkinPush push; };
 layout(location = 0) in vec4 position;
 layout(location = 1) in vec4 normal;
+#ifdef SHEET
+layout(location = 4) in vec4 sheetIn; // place in the sheet and size of the sheet [m]
+layout(location = 3) out vec4 inSheet;
+#endif
 layout(location = 0) out vec3 worldPosition;
 layout(location = 1) out vec3 worldNormal;
 #ifdef VALUES
@@ -18,6 +22,9 @@ layout(location = 2) out float asleep;
 void main() {
     worldPosition = rotated(push.rotation, push.scale.x * position.xyz) + push.position.xyz;
     worldNormal = rotated(push.rotation, normal.xyz);
+#ifdef SHEET
+    inSheet = sheetIn;
+#endif
 #ifdef VALUES
     value = valueIn;
 #else

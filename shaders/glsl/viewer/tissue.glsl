@@ -1,5 +1,4 @@
-// Shading of soft tissue and cloth: wrapped diffuse light that reddens at the terminator, two highlights, a rim of
-// sky light.
+// Shading of surfaces: wrapped diffuse light that reddens at the terminator, two highlights, a rim of sky light.
 #include "viewer/light.glsl"
 
 const float reflectance = 0.042; // at normal incidence: moist tissue
@@ -29,8 +28,21 @@ vec2 floorBelow(vec3 position, vec3 n) {
     return mix(sum / float(floorTaps), vec2(1.0), smoothstep(0.2, 1.5, height / frame.stage.w));
 }
 
-// The color of a pixel that shows a surface point. `moist`: 1 = wet tissue.
-vec4 shade(vec3 worldPosition, vec3 worldNormal, vec3 albedo, float moist) {
+struct Surface {
+    vec3 albedo;
+    float moist;   // 1 = wet tissue
+    float wrapped; // share of the light that wraps around the terminator
+    float rim;     // share of the sky that is mirrored at grazing angles
+};
+
+Surface tissue(vec3 albedo, float moist) {
+    return Surface(albedo, moist, 0.6, 0.34);
+}
+
+// The color of a pixel that shows a surface point.
+vec4 shade(vec3 worldPosition, vec3 worldNormal, Surface surface) {
+    const vec3 albedo = surface.albedo;
+    const float moist = surface.moist;
     const vec3 v = normalize(frame.eye.xyz - worldPosition);
     // an inverted triangle in a smooth surface, such as a sliver beside a cut, is lit like its surroundings
     const vec3 n = normalize(worldNormal) * (gl_FrontFacing || dot(worldNormal, v) > 0.0 ? 1.0 : -1.0);
@@ -45,7 +57,7 @@ vec4 shade(vec3 worldPosition, vec3 worldNormal, vec3 albedo, float moist) {
     const vec3 wrap = 0.10 + 0.30 * albedo;
     const vec3 wrapped = max((facing + wrap) / (1.0 + wrap), 0.0) / (1.0 + wrap);
     const float litAround = mix(0.45, lit, smoothstep(0.0, 0.4, facing));
-    const vec3 direct = keyLight * mix(vec3(nl * lit), wrapped * litAround, 0.6);
+    const vec3 direct = keyLight * mix(vec3(nl * lit), wrapped * litAround, surface.wrapped);
 
     const float upward = 0.5 + 0.5 * n.y;
     const vec2 below = floorBelow(worldPosition, n);
@@ -60,7 +72,7 @@ vec4 shade(vec3 worldPosition, vec3 worldNormal, vec3 albedo, float moist) {
     const vec3 r = reflect(-v, n);
     const vec3 above = skyColor(vec3(r.x, max(r.y, 0.0), r.z));
     const vec3 mirrored = mix(bounce / pi, above, smoothstep(-0.3, 0.5, r.y)) * mix(0.3, 1.0, below.y);
-    const vec3 rim = mirrored * (moist * reflectance + 0.34 * pow(1.0 - nv, 4.0));
+    const vec3 rim = mirrored * (moist * reflectance + surface.rim * pow(1.0 - nv, 4.0));
 
     const vec3 diffuse = albedo * (direct + ambient) / pi;
     return finish(diffuse + moist * keyLight * nl * lit * fresnel * gloss + rim, gl_FragCoord.xy);
