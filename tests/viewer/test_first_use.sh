@@ -77,14 +77,17 @@ keys F9
 await 30 says '^[1-9][0-9]* pictures\? in '
 echo "first use: another solver beside"
 line() { convert "$1" -crop 2x160+159+0 +repage -colorspace sRGB -format '%[fx:mean < 0.1 ? 1 : 0]' info:; } # dark line between the halves
+awaitHalves() { # WHY
+    for _ in {1..300}; do
+        shoot halves.png
+        [[ $(line halves.png) == 1 ]] && return
+        sleep 0.3
+    done
+    fail "$1"
+}
 [[ $(line layers.png) == 0 ]] || fail "there are halves before B"
 keys b
-for _ in {1..300}; do
-    shoot halves.png
-    [[ $(line halves.png) == 1 ]] && break
-    sleep 0.3
-done
-[[ $(line halves.png) == 1 ]] || fail "B compares nothing where gauss_seidel cannot play the scene"
+awaitHalves "B compares nothing where gauss_seidel cannot play the scene"
 [[ ! -s viewer.err ]] || fail "something was said on stderr"
 quit
 awaitEnd 0
@@ -105,12 +108,7 @@ sed -e '/cuttable/d' -e '/collides/d' crowd.toml >loose.toml
 scene=loose.toml
 start --beside jacobi
 xdotool windowmove "$window" 0 0
-for _ in {1..300}; do
-    shoot halves.png
-    [[ $(line halves.png) == 1 ]] && break
-    sleep 0.3
-done
-[[ $(line halves.png) == 1 ]] || fail "--beside shows no halves"
+awaitHalves "--beside shows no halves"
 halfReds() { convert "$1" -crop "160x200+$2+0" +repage half.png && reds half.png; }
 (($(halfReds halves.png 0) > 30 && $(halfReds halves.png 160) > 30)) || fail "a body is missing in a half"
 keys F12 # writes a picture that is copied where the window's pictures are shown
@@ -132,21 +130,11 @@ echo "first use: B compares in the next scene, too, which needs another default"
 : >viewer.err
 start
 keys b
-for _ in {1..300}; do
-    shoot halves.png
-    [[ $(line halves.png) == 1 ]] && break
-    sleep 0.3
-done
-[[ $(line halves.png) == 1 ]] || fail "B shows no halves"
+awaitHalves "B shows no halves"
 keys Prior
 awaitTitle crowd
 sleep 2 # until the picture is that of the scene
-for _ in {1..300}; do
-    shoot halves.png
-    [[ $(line halves.png) == 1 ]] && break
-    sleep 0.3
-done
-[[ $(line halves.png) == 1 ]] || fail "the comparison ends with the scene: $(cat viewer.err)"
+awaitHalves "the comparison ends with the scene: $(cat viewer.err)"
 grep -q "Can't compare" viewer.err && fail "another default was not tried: $(cat viewer.err)"
 : >viewer.err
 quit
