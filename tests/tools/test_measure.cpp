@@ -2,6 +2,7 @@
 #include "sinew/crossings.hpp"
 #include "sinew/measure.hpp"
 #include "sinew/overlap.hpp"
+#include "sinew/pilot.hpp"
 #include "sinew/skin_mesh.hpp"
 #include "sinew/statistics.hpp"
 #include "sinew/step_times.hpp"
@@ -373,4 +374,28 @@ TEST(StepTimes, GiveAStepThatIsRepeatedTheTimeOfBoth) {
     ASSERT_TRUE(times.awaits(1));
     times.see(1, 2, 50);
     EXPECT_EQ(times.take(), 40) << "20 of the undone steps, 20 more";
+}
+
+TEST(Extrapolate, FindsOrderAndErrorOfAPowerLaw) {
+    for (const double order : {1.0, 2.0, 4.0}) {
+        const auto error = [&](double substeps) { return std::pow(substeps, -order); };
+        const auto limit = tools::extrapolate(error(16) - error(32), error(32) - error(64));
+        ASSERT_TRUE(limit.has_value());
+        EXPECT_NEAR(limit->order, order, 1e-9);
+        EXPECT_NEAR(limit->finest, error(64), 1e-12);
+    }
+    EXPECT_EQ(tools::extrapolate(1, 0)->finest, 0) << "the finer runs are equal";
+}
+
+TEST(Extrapolate, RefusesDifferencesThatDoNotShrink) {
+    EXPECT_FALSE(tools::extrapolate(1, 0.8).has_value());
+    EXPECT_FALSE(tools::extrapolate(1, 2).has_value());
+    EXPECT_FALSE(tools::extrapolate(0, 0).has_value() && tools::extrapolate(0, 0)->finest != 0);
+    EXPECT_FALSE(tools::extrapolate(1, NAN).has_value());
+    tools::ErrorEstimate chaos{.steps = 30, .substeps = {32, 64, 128}, .chosen = 64, .difference = 0.2};
+    EXPECT_NE(tools::toText(chaos).find("not known"), std::string::npos);
+    chaos.order = 2, chaos.ofMotion = 0.004;
+    EXPECT_NE(tools::toText(chaos).find("about 0.4 % of the motion, estimated with order 2"),
+              std::string::npos);
+    EXPECT_NE(tools::toText(chaos).find("64 and 128 substeps differ by 20 %"), std::string::npos);
 }

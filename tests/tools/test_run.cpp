@@ -46,7 +46,7 @@ constexpr const char* reportFields[] = {
     "schema", "scene", "device", "solver", "substeps", "substep_choice", "forms", "iterations", "reversed",
     "dt", "velocity_age", "origin", "particles", "constraints", "bodies", "cut", "meshes", "passes",
     "skipped", "step", "frames", "frames_wanted", "interrupted", "frame_ms", "phase_ms", "error",
-    "stiffness", "finite", "sleeping", "divergence", "overflow", "forces", "state_hash", "peak_memory_mib",
+    "error_estimate", "stiffness", "finite", "sleeping", "divergence", "overflow", "forces", "state_hash", "peak_memory_mib",
     "validation", "validation_messages", "warnings", "notes"};
 // clang-format on
 

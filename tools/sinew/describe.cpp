@@ -15,7 +15,8 @@ namespace {
 
 int describe(const SceneOptions& options) {
     const scenes::LoadedScene loaded = loadScene(options);
-    TextOutput("-").write(sim::describe(sim::compile(loaded.scene, loaded.settings)) + stiffnessText(loaded));
+    TextOutput("-").write(sim::describe(sim::compile(loaded.scene, loaded.settings)) + stiffnessText(loaded) +
+                          errorText({}));
     return 0;
 }
 

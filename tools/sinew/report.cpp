@@ -105,12 +105,24 @@ Json stiffnessJson(const scenes::LoadedScene& loaded) {
             {"damping_time", report.dampingTime}};
 }
 
-Json choiceJson(const scenes::LoadedScene& loaded) {
+Json choiceJson(const RunRecord& record) {
+    const scenes::LoadedScene& loaded = record.loaded;
     constexpr const char* reasons[] = {"asked",    "stiffness", "weight", "damping", "drag",
                                        "contacts", "folds",     "fewest", "most"};
-    return {{"reason", reasons[static_cast<std::size_t>(loaded.substeps.reason)]},
+    const char* reason = reasons[static_cast<std::size_t>(loaded.substeps.reason)];
+    return {{"reason", record.isForError ? "error" : reason},
             {"wanted", loaded.substeps.wanted},
             {"tolerance", loaded.settings.tolerance}};
+}
+
+Json estimateJson(const std::optional<ErrorEstimate>& estimate) {
+    if (!estimate) return nullptr;
+    return {{"of_motion", orNull(estimate->ofMotion)},
+            {"of_body", orNull(estimate->ofBody)},
+            {"order", orNull(estimate->order)},
+            {"difference", estimate->difference},
+            {"steps", estimate->steps},
+            {"substeps", estimate->substeps}};
 }
 
 Json divergenceJson(const std::optional<Divergence>& divergence, double dt) {
@@ -255,7 +267,7 @@ std::string toJson(const RunRecord& record) {
         {"name", record.device.name}, {"driver", record.device.driver}, {"type", record.device.type}};
     json["solver"] = sim::solverName(settings.solver);
     json["substeps"] = settings.substeps;
-    json["substep_choice"] = choiceJson(record.loaded);
+    json["substep_choice"] = choiceJson(record);
     json["iterations"] = settings.solver == sim::Solver::split ? 1 : settings.iterations;
     json["reversed"] = settings.isReversed;
     json["forms"] = {{"texels", settings.forms.usesTexels},
@@ -280,6 +292,7 @@ std::string toJson(const RunRecord& record) {
     json["frame_ms"] = frameJson(summarise(record.frameMs));
     json["phase_ms"] = phaseJson(record);
     json["error"] = toJson(measure(scene, record.state, record.skins.whole, record.frames));
+    json["error_estimate"] = estimateJson(record.estimate);
     json["stiffness"] = stiffnessJson(record.loaded);
     json["finite"] = !record.divergence || record.divergence->isCrowded;
     json["divergence"] = divergenceJson(record.divergence, double{scene.dt});
@@ -301,12 +314,19 @@ std::string stiffnessText(const scenes::LoadedScene& loaded) {
     const sim::StiffnessReport report = sim::inspectStiffness(loaded.scene, loaded.settings);
     if (report.elastic == 0) return text;
     text += fmt::format(
-        "stiffness: {:.3g} % of the requested one on average, {:.3g} % at least, {} of {} links clamped\n",
-        100 * report.mean, 100 * report.softest, report.clamped, report.elastic);
+        "stiffness: {:.3g} % of the requested one on average, {:.3g} % at least, {} of {} links clamped "
+        "({:.3g} %)\n",
+        100 * report.mean, 100 * report.softest, report.clamped, report.elastic,
+        100 * static_cast<double>(report.clamped) / static_cast<double>(report.elastic));
     if (loaded.scene.dampingTime > 0)
         text += fmt::format("internal damping: {:.3g} s of {:.3g} s on average\n", report.dampingTime,
                             double{loaded.scene.dampingTime});
     return text;
+}
+
+std::string errorText(const std::optional<ErrorEstimate>& estimate) {
+    return "error of these substeps: " +
+           (estimate ? toText(*estimate) : "not measured, `sinew run --error` does") + "\n";
 }
 
 // Text on removed fragments.
@@ -326,7 +346,7 @@ std::string toText(const RunRecord& record) {
     if (const auto frame = summarise(record.frameMs))
         text += fmt::format("{}: {:.2f} ms each (median), {:.2f} ms at most in 99 %\n",
                             sim::counted(record.frames, "step"), frame->p50, frame->p99);
-    text += stiffnessText(record.loaded);
+    text += stiffnessText(record.loaded) + errorText(record.estimate);
     const Errors errors = measure(record.loaded.scene, record.state, record.skins.whole, record.frames);
     if (errors.strainRms)
         text += fmt::format("strain: {:.3g} % rms, {:.3g} % at most\n", 100 * *errors.strainRms,

@@ -5,6 +5,7 @@
 #include "scenes/load.hpp"
 #include "sim/program/program.hpp"
 #include "sinew/measure.hpp"
+#include "sinew/pilot.hpp"
 #include "sinew/runner.hpp"
 #include "sinew/statistics.hpp"
 
@@ -37,12 +38,17 @@ struct RunRecord {
     SkinMeshes skins;
     bool hasValidation = false;
     std::vector<std::string> validationMessages;
+    std::optional<ErrorEstimate> estimate; ///< of pilot runs, if there were any
+    bool isForError = false;               ///< the substeps were chosen to reach an error
 };
 
 std::string toJson(const RunRecord& record);
 
 /// The choice of substeps and the stiffness that they reach, as text.
 std::string stiffnessText(const scenes::LoadedScene& loaded);
+
+/// What the substeps buy: the estimate, or how to get one.
+std::string errorText(const std::optional<ErrorEstimate>& estimate);
 
 /// The report as a few lines of text.
 std::string toText(const RunRecord& record);

@@ -8,6 +8,7 @@
 #include "sinew/commands.hpp"
 #include "sinew/gpu_tune.hpp"
 #include "sinew/outputs.hpp"
+#include "sinew/pilot.hpp"
 #include "sinew/ranges.hpp"
 #include "sinew/report.hpp"
 #include "sinew/substeps.hpp"
@@ -16,6 +17,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <set>
@@ -30,8 +32,23 @@ struct RunOptions {
     std::uint64_t frames = 240;
     std::uint64_t traceEvery = 10;
     bool timesPasses = false;
+    std::optional<std::string> error; // empty text: only measure
     std::optional<std::string> folder, json, trace, save;
 };
+
+/// "1%" or "1", as a share; empty if it is no percentage above 0 and up to 100.
+std::optional<double> shareOf(std::string text) {
+    while (!text.empty() && (text.back() == '%' || text.back() == ' ')) text.pop_back();
+    double percent = 0;
+    if (!CLI::detail::lexical_cast(text, percent) || !(percent > 0 && percent <= 100)) return {};
+    return percent / 100;
+}
+
+// Empty if correct (the form that CLI11 requires).
+std::string checkError(const std::string& text) {
+    if (text.empty() || shareOf(text)) return {};
+    return text + " is no error: write a percentage, as 1%, or put --error after the scene";
+}
 
 std::vector<mesh::ParticleState> particleStates(const State& state) {
     std::vector<mesh::ParticleState> particles;
@@ -68,9 +85,36 @@ void step(const RunOptions& options, const scenes::LoadedScene& loaded, Runner& 
     progress.finish();
 }
 
+/// The pilot runs of --error. An error to reach sets the substeps. Empty if nothing can be said.
+std::optional<ErrorEstimate> pilot(const RunOptions& options, scenes::LoadedScene& loaded, Session& session) {
+    constexpr std::uint64_t mostSteps = 30; // half a second of a common step: the first fall and turn
+    if (!options.error) return {};
+    if (app::isRunFile(options.scene.file))
+        throw app::Failure(app::wrongUsage, "wrong usage: --error needs a scene, not a saved state");
+    const std::optional<double> wanted = shareOf(*options.error);
+    if (wanted && options.scene.overrides.substeps)
+        throw app::Failure(app::wrongUsage,
+                           "wrong usage: --substeps and an error to reach exclude each other");
+    Pilot pilot(session, loaded, static_cast<std::uint32_t>(std::min(options.frames, mostSteps)));
+    if (!wanted) return pilot.estimate(loaded.settings.substeps);
+    const std::optional<ErrorEstimate> found = pilot.find(*wanted);
+    if (app::isInterrupted()) return found;
+    if (!found)
+        throw app::Failure(
+            app::badInput,
+            fmt::format(
+                "cannot reach an error of {:g} % of the motion with up to {:g} substeps, "
+                "in the first {} steps: the motion diverges or is chaotic there, or nothing moves: ask for a "
+                "larger error, fewer --frames, or give --substeps",
+                100 * *wanted, sim::ranges::substeps.high, std::min(options.frames, mostSteps)));
+    loaded.settings.substeps = found->chosen;
+    loaded.substeps = {.substeps = found->chosen, .wanted = found->chosen};
+    return found;
+}
+
 /// Collects the record. Only the device's description stays in `session`; all else is copied.
 RunRecord recordOf(const RunOptions& options, const scenes::LoadedScene& loaded, Session& session,
-                   Runner& runner) {
+                   Runner& runner, std::optional<ErrorEstimate> estimate) {
     return {.loaded = loaded,
             .program = runner.simulation().program(),
             .device = session.device.description(),
@@ -92,7 +136,9 @@ RunRecord recordOf(const RunOptions& options, const scenes::LoadedScene& loaded,
             .state = runner.readState(),
             .skins = runner.readSkins(),
             .hasValidation = options.device.hasValidation,
-            .validationMessages = session.device.validationMessages()};
+            .validationMessages = session.device.validationMessages(),
+            .estimate = std::move(estimate),
+            .isForError = options.error && shareOf(*options.error)};
 }
 
 /// Warns if rigid links are more than twice as long as the tolerance allows: then there are too few substeps.
@@ -182,6 +228,7 @@ int run(const RunOptions& options) {
     if (options.folder) folder.emplace(*options.folder);
     Session session(options.device);
     loaded.settings.forms = sim::completed(loaded.settings.forms, sim::kindOf(session.device));
+    const std::optional<ErrorEstimate> estimate = pilot(options, loaded, session);
     constexpr std::uint64_t worthTuning = 100; // frames: in shorter runs timing of forms does not pay off
     if (options.frames >= worthTuning && !start.run && !options.scene.forms.isGiven())
         loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);
@@ -191,7 +238,7 @@ int run(const RunOptions& options) {
     std::vector<Sample> samples;
     step(options, loaded, runner, samples);
     const app::Writing writing;
-    const RunRecord record = recordOf(options, loaded, session, runner);
+    const RunRecord record = recordOf(options, loaded, session, runner, estimate);
     for (const std::string& message : record.validationMessages)
         std::fprintf(stderr, "validation: %s\n", message.c_str());
     warnAboutRun(record, loaded.warnings, runner.complaints());
@@ -216,6 +263,13 @@ void addRun(CLI::App& app, Chosen& chosen) {
     command.add_option("--frames", options->frames, "steps to simulate")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
         ->capture_default_str();
+    command
+        .add_option(
+            "--error", options->error,
+            "estimate the error of the substeps from pilot runs of the first 30 steps; with a percentage "
+            "of the motion, as 1%, take the fewest substeps that reach it")
+        ->expected(0, 1)
+        ->check(checkError);
     command.add_flag(
         "--pass-times", options->timesPasses,
         "time every pass separately: phase_ms of the report has an entry per kind of pass (slower)");

@@ -1,0 +1,61 @@
+// Tests of `sinew run --error`.
+#include "tools/program.hpp"
+
+using namespace sinew;
+using nlohmann::json;
+using test::expectOneError;
+using test::Outcome;
+
+namespace {
+
+class PilotRun : public test::Program {};
+
+const std::string bar = "[[box]]\nparticles = [8, 3, 3]\nspacing = 0.05\ncenter = [0, 0, 0]\n"
+                        "young_modulus = 1e6\nclamped = [\"low_x\"]\n";
+
+} // namespace
+
+TEST_F(PilotRun, EstimatesTheErrorOfItsSubstepsFromPilotRuns) {
+    write("beam.toml", bar);
+    const std::vector<std::string> few{"beam.toml", "--frames", "10", "--substeps", "4"};
+    EXPECT_TRUE(report(few)["error_estimate"].is_null());
+    const auto estimate = [&](const std::string& substeps) {
+        const json e =
+            report({"beam.toml", "--frames", "10", "--substeps", substeps, "--error"})["error_estimate"];
+        EXPECT_TRUE(e["of_motion"].is_number()) << e;
+        EXPECT_EQ(e["steps"], 10);
+        return e;
+    };
+    const json coarse = estimate("4"), fine = estimate("16");
+    EXPECT_EQ(coarse["substeps"].size(), 3u);
+    EXPECT_EQ(coarse["substeps"][2], 2 * coarse["substeps"][1].get<int>());
+    EXPECT_GT(coarse["substeps"][2], 8) << "4 and 8 differ as much as 2 and 4: finer runs tell";
+    EXPECT_GT(coarse["of_motion"], fine["of_motion"]);
+    EXPECT_GE(coarse["of_motion"], coarse["difference"]) << "the finer run has an error as well";
+    EXPECT_GT(coarse["of_motion"], coarse["of_body"]) << "it moves by less than its size";
+    EXPECT_GT(coarse["order"], 0.4);
+    const Outcome outcome = run({"run", "beam.toml", "--frames", "10", "--error"});
+    EXPECT_NE(outcome.out.find("error of these substeps: about "), std::string::npos) << outcome.out;
+    EXPECT_NE(run({"describe", "beam.toml"}).out.find("error of these substeps: not measured"),
+              std::string::npos);
+}
+
+TEST_F(PilotRun, TakesTheSubstepsThatReachAnError) {
+    write("beam.toml", bar);
+    const json loose = report({"beam.toml", "--frames", "10", "--error", "10%"});
+    const json tight = report({"beam.toml", "--frames", "10", "--error", "1%"});
+    EXPECT_LT(loose["substeps"], tight["substeps"]);
+    EXPECT_LE(loose["error_estimate"]["of_motion"], 0.1);
+    EXPECT_LE(tight["error_estimate"]["of_motion"], 0.01);
+    EXPECT_GT(loose["error_estimate"]["of_motion"], tight["error_estimate"]["of_motion"]);
+    EXPECT_EQ(loose["substep_choice"]["reason"], "error");
+    expectOneError(run({"run", "beam.toml", "--error", "much"}), 2, "much is no error");
+    expectOneError(run({"run", "beam.toml", "--error", "0%"}), 2, "0% is no error");
+    expectOneError(run({"run", "beam.toml", "--error", "1%", "--substeps", "8"}), 2, "exclude each other");
+    report({"beam.toml", "--frames", "1", "--save", "beam.state"});
+    expectOneError(run({"run", "beam.state", "--frames", "1", "--error"}), 2, "not a saved state");
+    write("hanging.toml",
+          "gravity = [0, 0, 0]\n[[box]]\nparticles = [3, 3, 3]\nspacing = 0.05\ncenter = [0, 0, 0]\n");
+    expectOneError(run({"run", "hanging.toml", "--frames", "2", "--error", "1%"}), 3,
+                   "cannot reach an error");
+}
