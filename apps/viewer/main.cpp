@@ -1,5 +1,6 @@
 // sinew-viewer: shows a scene in a window, or draws it to files.
 #include "app/guard.hpp"
+#include "app/thread_advice.hpp"
 #include "viewer/headless.hpp"
 #include "viewer/interactive.hpp"
 
@@ -36,5 +37,6 @@ int view(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     shareHeap();
+    sinew::app::prepareThreadAdvice();
     return sinew::app::guarded([&] { return view(argc, argv); });
 }

@@ -51,9 +51,9 @@ std::string listing(const std::vector<DeviceDescription>& devices, const std::st
         return device.name.find("llvmpipe") != std::string::npos;
     });
     if (hasLavapipe)
-        text += "\nllvmpipe (lavapipe) runs small scenes, below some 7,000 constraints, faster without "
-                "helper threads: "
-                "LP_NUM_THREADS=0 sinew run ...\n";
+        text += "\nllvmpipe (lavapipe) runs small scenes faster without helper threads: LP_NUM_THREADS=0 "
+                "sinew run "
+                "...\n`sinew run` and the viewer measure it and say so.\n";
     return text;
 }
 

@@ -1,5 +1,6 @@
 // The command line: parses it, then runs the command under a guard that maps failures to exit codes.
 #include "app/guard.hpp"
+#include "app/thread_advice.hpp"
 #include "sinew/commands.hpp"
 
 #include <CLI/CLI.hpp>
@@ -45,5 +46,6 @@ int parseAndRun(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+    sinew::app::prepareThreadAdvice();
     return sinew::app::guarded([&] { return parseAndRun(argc, argv); });
 }

@@ -2,6 +2,7 @@
 #include "app/guard.hpp"
 #include "app/progress.hpp"
 #include "app/take_over.hpp"
+#include "app/thread_advice.hpp"
 #include "mesh/export.hpp"
 #include "sim/core/counted.hpp"
 #include "sim/device/gpu_compile.hpp"
@@ -230,8 +231,13 @@ int run(const RunOptions& options) {
     loaded.settings.forms = sim::completed(loaded.settings.forms, sim::kindOf(session.device));
     const std::optional<ErrorEstimate> estimate = pilot(options, loaded, session);
     constexpr std::uint64_t worthTuning = 100; // frames: in shorter runs timing of forms does not pay off
-    if (options.frames >= worthTuning && !start.run && !options.scene.forms.isGiven())
+    if (options.frames >= worthTuning && !start.run && !options.scene.forms.isGiven()) {
         loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);
+        if (const auto advice = app::adviseOnThreads(session.device, loaded.scene, loaded.settings)) {
+            loaded.notes.push_back(*advice);
+            std::fprintf(stderr, "%s\n", advice->c_str());
+        }
+    }
     loaded.settings.timesPasses = options.timesPasses;
     Runner runner(session, loaded.scene, loaded.settings, {loaded.blades, loaded.scene.dt});
     if (start.run) runner.load(*start.run);

@@ -1,12 +1,15 @@
 // Makes the simulation, the renderers and the warm-up.
 #include "viewer/jobs/prepared_player.hpp"
 
+#include "app/thread_advice.hpp"
 #include "sinew/gpu_tune.hpp"
 #include "sinew/vk/kernel_store.hpp"
 #include "sinew/vk/queue.hpp"
 #include "viewer/jobs/gauges.hpp"
 #include "viewer/jobs/replay.hpp"
 #include "viewer/jobs/warm_up.hpp"
+
+#include <cstdio>
 
 namespace sinew::viewer {
 
@@ -18,7 +21,11 @@ sim::Settings fastest(const vk::Device& device, const OpenedScene& opening) {
     sim::Settings settings = opening.loaded.settings;
     app::addRoomForUser(settings);
     if (opening.reload) settings = sim::withRoomsOf(settings, opening.reload->settings);
-    return opening.run ? settings : sim::tuned(device, queue, opening.loaded.scene, settings);
+    if (opening.run) return settings;
+    settings = sim::tuned(device, queue, opening.loaded.scene, settings);
+    if (const auto advice = app::adviseOnThreads(device, opening.loaded.scene, settings))
+        std::printf("%s\n", advice->c_str()); // not stderr: nothing is wrong
+    return settings;
 }
 
 } // namespace
