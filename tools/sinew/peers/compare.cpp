@@ -23,7 +23,7 @@ using namespace peers;
 
 const std::vector<double> targets{0.1, 0.01, 0.001};
 constexpr const char* targetNames[] = {"10_percent", "1_percent", "0.1_percent"};
-constexpr double scenesShare = 5, searchShare = 0.6; // of PeerOptions::seconds; of a scene's time
+constexpr double searchShare = 0.65; // of a scene's time
 constexpr std::uint32_t mostSweeps = 1000, mostRounds = 7;
 
 /// One row with one choice of settings, which reaches a target.
@@ -73,19 +73,20 @@ RunError errorOf(const Searched& searched, const sim::Settings& settings) {
     return {};
 }
 
+/// In the order of the search, with shares of its time: what one leaves is for the next ones.
+constexpr std::pair<const char*, double> searchOrder[] = {
+    {"verlet", 1}, {"split", 3}, {"bullet", 3}, {"gauss_seidel", 2}, {"jacobi", 2}};
+
 std::vector<Searched> searchAll(Contest& contest, const sim::Scene& scene, study::Scale scale,
                                 Clock::time_point end) {
-    std::vector<std::string> programs;
-    for (const Row& row : contest.rows())
-        if (std::ranges::find(programs, row.program) == programs.end()) programs.push_back(row.program);
-    // The slowest last: what the others leave of the time is its own.
-    std::ranges::stable_partition(programs, [](const std::string& name) { return name != "jacobi"; });
     std::vector<Searched> result;
-    for (const std::string& program : programs) {
+    double shares = 0;
+    for (const auto& [program, share] : searchOrder) shares += share;
+    for (const auto& [program, share] : searchOrder) {
         const double left = std::chrono::duration<double>(end - Clock::now()).count();
-        const auto share = left / static_cast<double>(programs.size() - result.size());
         fmt::print(stderr, "{}: searching {}\n", scene.name, program);
-        result.push_back(searchFor(contest, program, scale, after(share)));
+        result.push_back(searchFor(contest, program, scale, after(left * share / shares)));
+        shares -= share;
     }
     return result;
 }
@@ -190,7 +191,7 @@ Json compare(const PeerOptions& options, Session& session, Session* single, cons
     fmt::print(stderr, "{}: computing the true motion\n", scene.name);
     const study::Truth truth = truthOf(scene, peer.frames);
     Contest contest(session, single, scene, truth);
-    const double seconds = scenesShare * options.seconds;
+    const double seconds = peer.share * options.seconds;
     const Clock::time_point end = after(seconds);
     const std::vector<Searched> searches =
         searchAll(contest, scene, options.scale, after(searchShare * seconds));

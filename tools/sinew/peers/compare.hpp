@@ -14,7 +14,7 @@ void requirePeers();
 
 struct PeerOptions {
     std::string scene = "all"; ///< or "cloth", "cube", "beam" or "chain"
-    double seconds = 10;       ///< five times as long is spent on each scene, its true motion not counted
+    double seconds = 10; ///< a scene takes 1 to 12 times as long by its size, its true motion not counted
     study::Scale scale = study::Scale::body; ///< of the errors to reach
     DeviceOptions device;                    ///< as for `session`
 };

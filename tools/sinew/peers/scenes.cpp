@@ -40,13 +40,13 @@ sim::Scene cube(std::uint32_t side) {
     return scene;
 }
 
-constexpr PeerScene scenes[] = {{"cloth", [] { return cloth(64); }, 18},
-                                {"cloth", [] { return cloth(128); }, 18},
-                                {"cube", [] { return cube(16); }, 18},
-                                {"cube", [] { return cube(32); }, 18},
-                                {"cube", [] { return cube(64); }, 6},
-                                {"beam", [] { return scenes::loadBuiltIn("beam").scene; }, 18},
-                                {"chain", [] { return scenes::loadBuiltIn("chain").scene; }, 18}};
+constexpr PeerScene scenes[] = {{"cloth", [] { return cloth(64); }, 18, 5},
+                                {"cloth", [] { return cloth(128); }, 18, 7},
+                                {"cube", [] { return cube(16); }, 18, 4},
+                                {"cube", [] { return cube(32); }, 18, 8},
+                                {"cube", [] { return cube(64); }, 6, 12},
+                                {"beam", [] { return scenes::loadBuiltIn("beam").scene; }, 18, 2},
+                                {"chain", [] { return scenes::loadBuiltIn("chain").scene; }, 18, 1}};
 
 std::vector<study::Positions> motion(const sim::Scene& scene, std::uint32_t frames, std::uint32_t substeps) {
     native::Verlet<double> verlet(scene, substeps, std::max(1u, std::thread::hardware_concurrency()));

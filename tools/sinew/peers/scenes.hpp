@@ -8,7 +8,8 @@ namespace sinew::tools::peers {
 struct PeerScene {
     const char* group; ///< of --scene
     sim::Scene (*make)();
-    std::uint32_t frames; ///< of 1/60 s; fewer where one takes long
+    std::uint32_t frames; ///< of 1/60 s; fewer if one takes long
+    double share;         ///< of PeerOptions::seconds: the time for search and timing
 };
 
 /// Elastic and without contacts, so that they have a true motion that every program approaches.
