@@ -267,6 +267,7 @@ std::string toJson(const RunRecord& record) {
         {"name", record.device.name}, {"driver", record.device.driver}, {"type", record.device.type}};
     json["solver"] = sim::solverName(settings.solver);
     json["substeps"] = settings.substeps;
+    json["levels"] = settings.levels;
     json["substep_choice"] = choiceJson(record);
     json["iterations"] = settings.solver == sim::Solver::split ? 1 : settings.iterations;
     json["reversed"] = settings.isReversed;
