@@ -1,15 +1,12 @@
-// Picking on the device: a kernel casts a ray at everything that is drawn of bodies, another one chooses the
-// particle. 32 bytes a ray come back, with the frame that they were recorded into; nothing waits.
+// Picking: rays at everything that is drawn of bodies (sinew/picking.hpp). Answers come back with the frame
+// that they were recorded into.
 #pragma once
 
-#include "sinew/vk/commands.hpp"
-#include "sinew/vk/kernel_store.hpp"
+#include "sinew/picking.hpp"
 #include "viewer/input/pick.hpp"
-#include "viewer/pick.h"
 #include "viewer/render/scene_light.hpp"
 
 #include <array>
-#include <memory>
 #include <optional>
 
 namespace sinew::viewer {
@@ -43,24 +40,8 @@ public:
     std::optional<Pick> answer(std::uint32_t slot, std::size_t ray) const noexcept;
 
 private:
-    /// Dispatches of a ray, by index of their binding sets.
-    enum Part : std::uint32_t { ofSkins, ofBalls, ofCuts, ofAll, parts = ofAll };
-    vk::BindingSets bindingSets(const vk::BufferView& indices) const;
-    layout::PickPush pushOf(const Cast& cast, std::uint32_t ray,
-                            const std::optional<Section>& section) const noexcept;
-    std::uint32_t recordCast(vk::Commands& commands, const vk::BindingSets& sets,
-                             layout::PickPush push) const noexcept;
-
-    const vk::Device& device_;
     const Document& document_;
-    std::shared_ptr<const vk::Kernel> skinCaster_, ballCaster_, cutCaster_,
-        resolver_; // from the device's store
-    // Tables of the scene.
-    vk::Buffer holders_, sheetIndices_, skins_, radii_, inverseMasses_;
-    layout::PickPush push_{};
-    vk::Buffer nothing_; // stands for buffers that a scene lacks
-    vk::Buffer windings_, hits_, found_, answers_;
-    std::optional<vk::BindingSets> sets_, wholeSets_; // the second: while nothing is cut
+    sim::RayCaster caster_;
 };
 
 } // namespace sinew::viewer
