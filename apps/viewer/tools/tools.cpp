@@ -87,6 +87,7 @@ std::string Tools::name() const {
 std::array<bool, mostTools> Tools::shownOn() const {
     std::array<bool, mostTools> shown{};
     for (std::size_t i = 0; i < states_.size(); ++i) shown[i] = states_[i]->isShownOn();
+    if (armed_) shown[*armed_] = true;
     return shown;
 }
 
