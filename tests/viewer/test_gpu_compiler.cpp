@@ -29,7 +29,7 @@ bool isKernel(const vk::ShaderCode& code) {
     return false;
 }
 
-// A light with balls, marks and a wall, which need pipelines.
+// A light with balls, marks, a wall and a cloth, which need pipelines.
 SceneLight light() {
     SceneLight light;
     light.bounds = Box(Vector3(-1, -1, -1), Vector3(1, 1, 1));
@@ -38,6 +38,8 @@ SceneLight light() {
     light.walls = wallsOf(scene, light.bounds);
     light.balls = {.ranges = {{.first = 0, .count = 2, .color = {1, 0, 0}}}, .radii = {0.1f, 0.1f}};
     light.marks = light.balls;
+    light.isSheet = {true};
+    light.sheets.resize(1);
     return light;
 }
 

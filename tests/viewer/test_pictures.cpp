@@ -447,6 +447,21 @@ TEST(Picture, LightsBothSidesOfCloth) {
     EXPECT_GT(redness(seen(-1.0f)), 20) << "from below";
 }
 
+TEST(Picture, ShowsAHemAndAPalerBackOfCloth) {
+    sim::Scene scene;
+    sim::addCloth(
+        scene, {.origin = {-0.5f, 0, -0.5f}, .size = {9, 9}, .spacing = 0.125f, .color = {0.7f, 0.1f, 0.1f}});
+    Camera above, below;
+    above.elevation = 1.4f;
+    below.elevation = -1.4f;
+    above.distance = below.distance = 1.5f;
+    SceneShot upper(scene, above), lower(scene, below);
+    const Picture face = upper.take(), back = lower.take();
+    EXPECT_GT(redness(colorAt(face, above, {0, 0, 0})), redness(colorAt(back, below, {0, 0, 0})) + 10);
+    EXPECT_LT(brightness(colorAt(face, above, {0.488f, 0, 0})),
+              brightness(colorAt(face, above, {0.44f, 0, 0})) - 5);
+}
+
 TEST(Picture, OfASceneWithoutSkinsIsAnEmptyStage) {
     sim::Scene scene;
     scene.particles.push_back({.position = {0, 1, 0}});
