@@ -8,6 +8,7 @@
 #include "scenes/specialised.hpp"
 #include "sim/compile/compile.hpp"
 #include "sim/device/gpu_compile.hpp"
+#include "sinew/bodies.hpp"
 #include "sinew/validate.hpp"
 #include "sinew/vk/kernel_store.hpp"
 #include "support/device.hpp"
@@ -157,7 +158,16 @@ std::optional<scenes::LoadedScene> loadFor(const fs::path& file, const char* sol
     }
 }
 
+// Two thin sheets, whose edges may pass each other.
+sim::Scene twoSheets() {
+    sim::Scene scene;
+    for (const float height : {0.0f, 0.1f})
+        sim::addCloth(scene, {.origin = {0, height, 0}, .size = {5, 5}, .spacing = 0.1f, .thickness = 0.01f});
+    return scene;
+}
+
 void makeKernelsOfAllScenes(Maker& maker) {
+    makeForms(maker, twoSheets(), {.substeps = fewSubsteps});
     for (const fs::path& file : sceneFiles())
         for (const char* solver : {"split", "jacobi", "gauss_seidel"}) {
             SCOPED_TRACE(file.stem().string() + ", " + solver);

@@ -37,6 +37,8 @@ bool hasPassed(Lines lines, Lines rates, out vec2 st) {
     return isInside(crossing, 1e-3);
 }
 
+#include "collision/edge_meeting.glsl"
+
 // The rest distance of an edge's contact with another [m]; large if they do not overlap.
 float restWith(uint e, uint other, uint element) {
     const float remembered = MEMORY(element).w;
@@ -78,7 +80,9 @@ Touch touchOf(uvec2 both, float reach, float remembered) {
     const float wayFirst = max(length(VELOCITY(a).xyz), length(VELOCITY(b).xyz));
     const float waySecond = max(length(VELOCITY(c).xyz), length(VELOCITY(d).xyz));
     const float outer = first.radius + second.radius + h * (wayFirst + waySecond);
-    if (!now.exists || !before.exists || dot(now.n, before.n) <= 0.0 || dot(middles, middles) >= outer * outer) return touch;
+    if (dot(middles, middles) >= outer * outer) return touch;
+    if (hasZones && areTwoSheets(a, c)) noteMeeting(lines, rates, reach);
+    if (!now.exists || !before.exists || dot(now.n, before.n) <= 0.0) return touch;
     const bool isSideKept = remembered != 0.0 && !areOneSheet(a, c);
     float side = isSideKept ? sideOf(remembered) : before.height < 0.0 ? -1.0 : 1.0;
     const bool isKept = keeps(a, c);

@@ -109,10 +109,10 @@ Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
 void noteMeeting(Meeting m) {
     const vec3 one = m.vp - m.vb, other = m.vp - m.vc;
     const float way2 = step.h * step.h * max(dot(m.vp, m.vp), max(dot(one, one), dot(other, other)));
-    vec3 b;
-    const vec3 start = nearestBefore(m).d;
-    meets = isWithinReach(m) || dot(start, start) < m.reach * m.reach || m.height * m.heightBefore < 0.0 && wentThrough(m, b);
-    mayPass = mayPass || way2 > push.quick * push.quick && meets;
+    vec3 b, start = nearestBefore(m).d;
+    if (!isWithinReach(m) && dot(start, start) >= m.reach * m.reach && !(m.height * m.heightBefore < 0.0 && wentThrough(m, b))) return;
+    meets = meetingMark(way2, m.reach);
+    mayPass = mayPass || way2 > push.quick * push.quick;
 }
 
 // The contact with the face of a candidate. `through`: the side from which the point passes through a neighbouring
@@ -120,7 +120,7 @@ void noteMeeting(Meeting m) {
 Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
     const uvec2 candidate = CONTACT(element);
     Meeting m = keptMeetingOf(i, candidate);
-    meets = false;
+    meets = 0u;
     if (isSliver(m.triangle)) return Touch(vec3(0.0), 0.0, vec3(0.0), 0.0, false, m.face);
     if (hasZones) noteMeeting(m);
     m.isBeyond = !m.isKept && isPast(passageOf(m), m.reach, m.nearest);

@@ -31,7 +31,10 @@ layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       
 layout(std140, binding = 8) uniform Step { StepParams step; };
 #define SHEETS_BINDING 13
 #include "collision/one_sheet.glsl"
-layout(std140, binding = 14) uniform Bounds { GridBounds bounds; };
+layout(constant_id = 5) const bool hasZones = false; // edges of two sheets may pass each other; else bindings 14 and 15 are empty
+layout(std430, binding = 14) writeonly buffer Finding { DispatchArguments finding[]; }; // of the search for edges that pass
+layout(std430, binding = 15) writeonly buffer Meets { uint meeting[]; };                // by element, see meeting_marks.glsl
+layout(std140, binding = 16) uniform Bounds { GridBounds bounds; };
 #include "collision/row_items.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #define MARKS_BINDING 9
@@ -46,8 +49,15 @@ void main() {
     FOR_EACH_ROW(row) {
         const uint element = elementOf(row);
         const uvec2 candidate = CONTACT(element);
+        meets = 0u;
         const Touch touch = touchOf(uvec2(owners[element], candidate.x), uintBitsToFloat(candidate.y), MEMORY(element).w);
         directions[element] = vec4(touch.n, touch.depth);
         weights[element] = vec4(touch.st, 0.0, touch.remembered);
+        if (!hasZones) continue;
+        meeting[element] = meets;
+        mayPass = mayPass || meets != 0u && touch.depth > push.quick;
     }
+    if (!hasZones) return;
+    if (gl_GlobalInvocationID.x == 0u) finding[ZONE_GROUPS + 1].groupsX = gl_NumWorkGroups.x;
+    if (mayPass) finding[ZONE_OF_EDGES].groupsX = gl_NumWorkGroups.x;
 }

@@ -31,19 +31,20 @@ layout(constant_id = 3) const uint firstInner = ~0u; // faces from there to befo
 #include "collision/recovery.glsl"
 #include "collision/hidden_faces.glsl"
 bool mayPass = false; // whether the point is so fast or so deep that it may pass a face
-bool meets = false;   // whether it comes within reach of the face that was looked at last
+uint meets = 0u;      // mark of the pair that was looked at last (meeting_marks.glsl)
 #define SHEETS_BINDING 13
 #include "collision/one_sheet.glsl"
+#include "collision/meeting_marks.glsl"
 #include "collision/face_touch.glsl"
 layout(std430, binding = 10) writeonly buffer Finding { DispatchArguments finding[]; }; // of the search for points that pass
 layout(std430, binding = 11) writeonly buffer Solving { DispatchArguments solving[]; };
-layout(std430, binding = 12) writeonly buffer Meets { uint meeting[]; }; // by element: 1 = comes within reach
+layout(std430, binding = 12) writeonly buffer Meets { uint meeting[]; }; // by element, see meeting_marks.glsl
 #include "collision/held_behind.glsl"
 
 void write(uint element, Touch touch) {
     directions[element] = vec4(touch.n, touch.depth);
     weights[element] = vec4(touch.b, touch.remembered);
-    if (hasZones) meeting[element] = uint(meets);
+    if (hasZones) meeting[element] = meets;
 }
 
 // Elements to look at again after `passed`, as bits: of those from `from` to `end`, at most 32.
@@ -56,8 +57,10 @@ uint besides(uint from, uint end, uint passed, ContactFace face) {
 
 // The first search for points that pass runs if one may; each solution and each other search runs if the pass before it has run or found any.
 void planSearch() {
-    if (gl_WorkGroupID.x == 0u && gl_LocalInvocationID.x == 0u)
+    if (gl_WorkGroupID.x == 0u && gl_LocalInvocationID.x == 0u) {
         for (uint round = 0u; round < ZONE_ROUNDS; ++round) solving[round].groupsX = 0u;
+        finding[ZONE_GROUPS].groupsX = gl_NumWorkGroups.x;
+    }
     if (mayPass) finding[0].groupsX = gl_NumWorkGroups.x;
 }
 

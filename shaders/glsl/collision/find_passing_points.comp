@@ -21,44 +21,13 @@ layout(std430, binding = 9) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 10) writeonly buffer Solving { DispatchArguments solving[]; };
 layout(std430, binding = 11) readonly buffer SearchedFaces { uint searchedFaces[]; }; // small faces that exist; ~0 = none
 layout(std430, binding = 12) readonly buffer Large { uint large[]; };                 // wide ones
-layout(std430, binding = 13) readonly buffer Meets { uint meeting[]; }; // by element of lists: 1 = comes within reach (find_face_contacts)
+layout(std430, binding = 13) readonly buffer Meets { uint meeting[]; }; // by element of lists (meeting_marks.glsl)
 layout(push_constant) uniform Push { ZonePush push; };
 #define SHEETS_BINDING 14
 #include "collision/one_sheet.glsl"
+#include "collision/meeting_marks.glsl"
 #include "collision/zone_test.glsl"
-#include "collision/zone_trees.glsl"
-
-void enlist(uint i) {
-    if (atomicCompSwap(PARENT(i), 0u, i + 1u) == 0u) MEMBER(atomicAdd(words[ZONE_MEMBER_COUNT], 1u)) = i;
-}
-
-// A root is only attached to a lower one, by an exchange that fails if another invocation was faster.
-void join(uint i, uint j) {
-    uint a = rootOf(i), b = rootOf(j);
-    while (a != b) {
-        const uint high = max(a, b), low = min(a, b);
-        if (atomicCompSwap(PARENT(high), high + 1u, low + 1u) == high + 1u) return;
-        a = rootOf(high);
-        b = rootOf(low);
-    }
-}
-
-void addPair(uint i, ContactFace face, float time) {
-    const uint corners[] = uint[](face.a, face.b, face.c);
-    enlist(i);
-    for (uint c = 0u; c < 3u; ++c) {
-        enlist(corners[c]);
-        join(i, corners[c]);
-    }
-    const uint place = atomicAdd(words[ZONE_PAIR_COUNT], 1u);
-    if (place < ZONE_PAIRS) pairs[place] = ZonePair(i, time);
-}
-
-// Whether a point and a face have been solved as one zone: they have one motion.
-bool areOne(uint i, ContactFace face) {
-    const uint zone = SOLVED(i);
-    return zone != 0u && SOLVED(face.a) == zone && SOLVED(face.b) == zone && SOLVED(face.c) == zone;
-}
+#include "collision/zone_pairs.glsl"
 
 // A sheet is kept from itself by separations, and contacts alone hold it at faces of bodies.
 bool isLeftOut(uint i, uint f, ContactFace face) {
@@ -68,11 +37,12 @@ bool isLeftOut(uint i, uint f, ContactFace face) {
 // Tests a point with a face that it touches at distances below `reach`; the sign bit is that of the thickness.
 void testPair(uint i, Path point, uint f, float reach) {
     const ContactFace face = faces[f];
-    if (areOne(i, face) || isLeftOut(i, f, face)) return;
+    const uvec4 all = uvec4(i, face.a, face.b, face.c);
+    if (areSolved(all) || isLeftOut(i, f, face)) return;
     const bool isSolid = f >= push.sheets && f < push.moving;
     const float front = floatBitsToUint(reach) >> 31 != 0u ? -1.0 : 1.0;
     const float time = timeOfPassing(passageOf(point, face), abs(reach), isSolid ? front : 0.0);
-    if (time <= 1.0) addPair(i, face, time);
+    if (time <= 1.0) addPair(all, time);
 }
 
 void searchFace(uint i, Path point, uint f) {
@@ -88,16 +58,15 @@ void searchAll(uint i, Path point) {
 
 void main() {
     const uint i = itemIndex(push.count);
-    if (gl_WorkGroupID.x == 0u && gl_LocalInvocationID.x == 0u) {
-        words[ZONE_GROUPS] = gl_NumWorkGroups.x;
-        solving[push.round].groupsX = 1u;
-    }
+    if (gl_WorkGroupID.x == 0u && gl_LocalInvocationID.x == 0u) solving[push.round].groupsX = 1u;
     if (LOOSE(i) == 0u) return;
     const Path point = pathOf(i);
     const uvec2 list = lists[i];
-    bool isNear = false; // a face
-    for (uint element = list.x; element < list.x + list.y; ++element) isNear = isNear || meeting[element] != 0u;
-    if (isNear && uintBitsToFloat(LOOSE(i)) > 0.0) { // contacts may throw it through faces that are in no list
+    uint mark = 0u; // the largest
+    for (uint element = list.x; element < list.x + list.y; ++element) mark = max(mark, meeting[element]);
+    const bool isCorner = hasSheets && sheets[i] != 0u;
+    // Contacts may throw it through faces that are in no list.
+    if (mark >= (isCorner ? MEETS_FAST : MEETS) && uintBitsToFloat(LOOSE(i)) > 0.0) {
         searchAll(i, point);
         return;
     }

@@ -15,7 +15,7 @@ layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(std430, binding = 5) coherent volatile buffer Words { uint words[]; };
 layout(std430, binding = 6) readonly buffer Pairs { ZonePair pairs[]; };
 layout(std430, binding = 7) coherent buffer Zones { Zone zones[]; };
-layout(std430, binding = 8) writeonly buffer Finding { DispatchArguments finding[]; };
+layout(std430, binding = 8) buffer Finding { DispatchArguments finding[]; };
 layout(push_constant) uniform Push { ZonePush push; };
 #include "forces/forces.glsl"
 #define FOR_EACH(item, end) for (uint item = gl_LocalInvocationID.x; item < (end); item += GROUP_SIZE)
@@ -98,8 +98,11 @@ void close(uint count, bool isDone) {
         SOLVED(i) = isDone ? 0u : root;
     }
     if (gl_LocalInvocationID.x > 0u) return;
-    finding[push.round].groupsX = 0u;
-    if (push.round + 1u < ZONE_ROUNDS) finding[push.round + 1u].groupsX = isDone ? 0u : words[ZONE_GROUPS];
+    for (uint kind = 0u; kind < 2u; ++kind) { // points, edges
+        const uint search = kind * ZONE_OF_EDGES + push.round;
+        finding[search].groupsX = 0u;
+        if (push.round + 1u < ZONE_ROUNDS) finding[search + 1u].groupsX = isDone ? 0u : finding[ZONE_GROUPS + kind].groupsX;
+    }
     words[ZONE_PAIR_COUNT] = 0u;
     if (isDone) words[ZONE_MEMBER_COUNT] = 0u;
 }

@@ -91,7 +91,8 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const std::vector
                               .surfaces = faces.rows.surfaces.count,
                               .recoverySpeed = model.scene.contacts.recoverySpeed,
                               .moving = 0,
-                              .sheets = 0},
+                              .sheets = 0,
+                              .quick = faces.rows.push.quick},
                      .lists = lists.pooled,
                      .shapes = lists.edges,
                      .elements = lists.grid.entries,
@@ -103,14 +104,33 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const std::vector
     row_contacts::add(program, contacts.rows,
                       cornersOf(edges, model.layout, model.inverseMass, model.settings.keepsForces),
                       particles);
-    contacts.rows.touching = {lists.pooled.links->owners, lists.pooled.links->elements,
-                              lists.pooled.links->ranges, faces.separations.sheets};
+    const bool mayPass = faces.zones.areBetweenSheets;
+    constexpr std::uint32_t hasZonesId = 5; // constant_id in find_edge_contacts.comp
+    contacts.constants[hasZonesId] = mayPass;
+    if (mayPass) contacts.meeting = program.scratch<std::uint32_t>("zones.meeting_edges", lists.pooled.room);
+    contacts.rows.touching = {
+        lists.pooled.links->owners, lists.pooled.links->elements,          lists.pooled.links->ranges,
+        faces.separations.sheets,   boundIf(mayPass, faces.zones.finding), contacts.meeting};
     ContactBuffers& shown = program.program().contacts;
     shown.edges = lists.edges;
     shown.edgePairs = lists.pooled.contacts;
     shown.edgeLists = lists.pooled.ranges;
     shown.edgeCount = contacts.rows.push.count;
     return contacts;
+}
+
+std::optional<impact_zones::FoundEdges> Contacts::passing() const {
+    if (meeting == unbound) return {};
+    return impact_zones::FoundEdges{.edges = lists.edges,
+                                    .contacts = rows.lists.contacts,
+                                    .owners = rows.lists.links->owners,
+                                    .lists = rows.lists.ranges,
+                                    .thickness = lists.thickness,
+                                    .links = rows.lists.links->elements,
+                                    .linkLists = rows.lists.links->ranges,
+                                    .bounds = rows.bounds,
+                                    .meeting = meeting,
+                                    .most = rows.elements.most};
 }
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,

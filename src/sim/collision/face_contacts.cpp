@@ -312,9 +312,11 @@ impact_zones::Request zonesOf(const Scene& scene, const StateLayout& layout, con
         for (const std::uint32_t i : face.particles) request.loose[layout.slot[i]] = 0;
     for (const DistanceConstraint& link : scene.distances)
         request.loose[layout.slot[link.a]] = request.loose[layout.slot[link.b]] = 0;
-    if (haveSeveral(sheets.ofSlots))
-        for (std::size_t slot = 0; slot < sheets.ofSlots.size(); ++slot)
-            if (sheets.ofSlots[slot] != 0) request.loose[slot] = -1;
+    request.areBetweenSheets = haveSeveral(sheets.ofSlots);
+    if (request.areBetweenSheets)
+        for (std::size_t i = 0; i < scene.particles.size(); ++i)
+            if (const std::uint32_t slot = layout.slot[i]; sheets.ofSlots[slot] != 0)
+                request.loose[slot] = sign * scene.particles[i].radius;
     return request;
 }
 
@@ -399,7 +401,8 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
     program.dispatch(k::stopAtFaces, push.count, buffers, push, constants);
 }
 
-void addZones(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+void addZones(ProgramBuilder& program, const Contacts& contacts,
+              const std::optional<impact_zones::FoundEdges>& edges, const ParticleBuffers& predicted,
               const ParticleBuffers& state) {
     const row_contacts::Rows& rows = contacts.rows;
     impact_zones::addPasses(program, contacts.zones,
@@ -411,7 +414,7 @@ void addZones(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                              .groups = rows.particles.listed,
                              .sheets = contacts.separations.sheets,
                              .constants = contacts.separations.constants()},
-                            predicted, state);
+                            edges, predicted, state);
 }
 
 } // namespace sinew::sim::collision::face_contacts

@@ -51,8 +51,9 @@ enum class StopKind : bool {
 void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state, StopKind kind);
 
 /// Appends the passes between these: what still passes a moving face, or would be pushed through one by a
-/// stop, is stopped with it. `predicted` as in addPasses().
-void addZones(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+/// stop, is stopped with it. `edges` of two sheets that pass each other too. `predicted` as in addPasses().
+void addZones(ProgramBuilder& program, const Contacts& contacts,
+              const std::optional<impact_zones::FoundEdges>& edges, const ParticleBuffers& predicted,
               const ParticleBuffers& state);
 
 /// Smallest distance, in spacings, from a face between four nodes of a lattice to a point that no link joins

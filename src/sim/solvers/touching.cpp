@@ -100,7 +100,8 @@ void Touching::addStops(ProgramBuilder& program, const ParticleBuffers& predicte
     if (edges) addSeparations(edges->rows);
     collision::face_contacts::addStops(program, *faces, state, StopKind::all);
     if (!faces->zones.exist()) return;
-    collision::face_contacts::addZones(program, *faces, predicted, state);
+    collision::face_contacts::addZones(program, *faces, edges ? edges->passing() : std::nullopt, predicted,
+                                       state);
     collision::face_contacts::addStops(program, *faces, state, StopKind::passing);
 }
 

@@ -19,7 +19,7 @@ double at(const Cubic& c, double t) {
     return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
 }
 
-// The volume that the point spans with the triangle, over time.
+// The volume that three vectors span, over time.
 Cubic volumeOf(const Corners& e, const Corners& d) {
     const auto triple = [](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
         return a.cross(b).dot(c);
@@ -53,6 +53,7 @@ double rootBetween(const Cubic& c, double low, double high) {
     return (low + high) / 2;
 }
 
+// Whether a point, relative to the first corner of a triangle with these edges, is in it.
 bool isInside(const Corners& edges) {
     const Vector3d n = edges[0].cross(edges[1]);
     const double area = n.squaredNorm();
@@ -60,22 +61,40 @@ bool isInside(const Corners& edges) {
     return area > 0 && b >= 0 && c >= 0 && b + c <= 1;
 }
 
-} // namespace
+// Whether two edges in one plane cross; the third vector leads from an end of the second to one of the first.
+bool areCrossed(const Corners& edges) {
+    const Vector3d n = edges[0].cross(edges[1]);
+    const double area = n.squaredNorm();
+    const double s = edges[1].cross(edges[2]).dot(n) / area, t = edges[0].cross(edges[2]).dot(n) / area;
+    return area > 0 && s >= 0 && s <= 1 && t >= 0 && t <= 1;
+}
 
-bool passesThrough(const Vector3d& from, const Vector3d& to, const Corners& before, const Corners& after) {
-    Corners edges{before[1] - before[0], before[2] - before[0], from - before[0]}, ways = edges;
-    const Corners ends{after[1] - after[0], after[2] - after[0], to - after[0]};
-    for (std::size_t k = 0; k < 3; ++k) ways[k] = ends[k] - edges[k];
-    const Cubic volume = volumeOf(edges, ways);
+// Whether three vectors come into one plane, at a time at which `isMet` holds for them.
+template <typename Test> bool pass(const Corners& vectors, const Corners& ends, const Test& isMet) {
+    Corners ways = vectors;
+    for (std::size_t k = 0; k < 3; ++k) ways[k] = ends[k] - vectors[k];
+    const Cubic volume = volumeOf(vectors, ways);
     const std::vector<double> turns = turnsOf(volume);
     for (std::size_t k = 0; k + 1 < turns.size(); ++k) {
         if ((at(volume, turns[k]) > 0) == (at(volume, turns[k + 1]) > 0)) continue;
         const double t = rootBetween(volume, turns[k], turns[k + 1]);
         Corners then;
-        for (std::size_t e = 0; e < 3; ++e) then[e] = edges[e] + t * ways[e];
-        if (isInside(then)) return true;
+        for (std::size_t e = 0; e < 3; ++e) then[e] = vectors[e] + t * ways[e];
+        if (isMet(then)) return true;
     }
     return false;
+}
+
+} // namespace
+
+bool passesThrough(const Vector3d& from, const Vector3d& to, const Corners& before, const Corners& after) {
+    return pass({before[1] - before[0], before[2] - before[0], from - before[0]},
+                {after[1] - after[0], after[2] - after[0], to - after[0]}, isInside);
+}
+
+bool edgesPass(const Ends& before, const Ends& after) {
+    return pass({before[1] - before[0], before[3] - before[2], before[0] - before[2]},
+                {after[1] - after[0], after[3] - after[2], after[0] - after[2]}, areCrossed);
 }
 
 } // namespace sinew::test

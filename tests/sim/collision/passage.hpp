@@ -1,4 +1,5 @@
-// The path of a point through a moving triangle in double precision: an independent judge of what has passed.
+// The path of a point through a moving triangle, and of two edges through each other, in double precision: an
+// independent judge of what has passed.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,5 +13,11 @@ using Corners = std::array<Eigen::Vector3d, 3>;
 /// pass through each other.
 bool passesThrough(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Corners& before,
                    const Corners& after);
+
+/// The ends of two edges.
+using Ends = std::array<Eigen::Vector3d, 4>;
+
+/// Whether two edges, whose ends each move in a straight line in the same time, pass through each other.
+bool edgesPass(const Ends& before, const Ends& after);
 
 } // namespace sinew::test
