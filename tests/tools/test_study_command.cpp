@@ -112,12 +112,12 @@ TEST_F(Study, GivesEverySolverTheSameMesh) {
     for (const Json& curve : json["curves"]) solvers.insert(curve["solver"]);
     for (const char* solver : {"split", "jacobi", "gauss_seidel"})
         EXPECT_TRUE(solvers.contains(solver)) << solver;
-    // The settings of the file itself give another scene, which only split supports.
+    // The settings of the file itself give another scene, which only split supports, with and without levels.
     write("scene.toml", "name = \"tiny\"\n[[mesh]]\nname = \"ball\"\ngenerate = \"sphere\"\nsize = 0.2\n"
                         "resolution = 4\nyoung_modulus = 2e3\nrecovery = 1\n[[plane]]\noffset = -1\n");
     const Outcome asked = study();
     ASSERT_EQ(asked.code, 0) << asked.error;
-    EXPECT_EQ(Json::parse(text("study.json"))["scenes"][0]["curves"].size(), 1u);
+    EXPECT_EQ(Json::parse(text("study.json"))["scenes"][0]["curves"].size(), 2u);
 }
 
 TEST_F(Study, ComparesContactsWithShortStepsAndFollowsThemToRest) {

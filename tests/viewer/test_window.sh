@@ -366,6 +366,8 @@ keys Return
 awaitTitle 'block'
 keys Prior
 awaitTitle 'other'
+keys space
+awaitTitle paused
 awaitStill asked.png
 keys ctrl+o
 awaitOther asked.png listed.png "Ctrl + O lists no files"

@@ -1,5 +1,6 @@
 // Whether two edges pass each other in a substep, in which all four ends go straight. Requires the names and buffers of
 // find_passing_edges.
+#define areOneAt areEdgesOneAt // another decision than that of a point and a face
 #include "collision/zone_paths.glsl"
 
 // From an end of the second edge to one of the first, and both edges.
