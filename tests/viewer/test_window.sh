@@ -364,25 +364,6 @@ awaitOther filmed.png asked.png "Ctrl + O asks for no path"
 xdotool type --window "$window" --delay 50 "$folder/scenes/block.toml"
 keys Return
 awaitTitle 'block'
-keys Prior
-awaitTitle 'other'
-keys space
-awaitTitle paused
-awaitStill asked.png
-keys ctrl+o
-awaitOther asked.png listed.png "Ctrl + O lists no files"
-xdotool type --window "$window" --delay 50 scenes/blo
-keys Down
-sleep 1
-keys Return
-awaitTitle 'block'
-keys space
-awaitTitle paused
-awaitStill asked.png
-keys F2
-awaitOther asked.png listed.png "F2 shows no gallery"
-xdotool mousemove 20 380 click 1 # beside it
-awaitSame asked.png listed.png "a press in the scene does not close the gallery"
 keys Tab # the panels into which it was typed
 keys Prior
 awaitTitle 'other'
