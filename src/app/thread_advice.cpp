@@ -1,5 +1,6 @@
 #include "app/thread_advice.hpp"
 
+#include "app/driver_threads.hpp"
 #include "sinew/simulation.hpp"
 #include "sinew/vk/loader.hpp"
 #include "sinew/vk/queue.hpp"
@@ -16,33 +17,18 @@ namespace sinew::app {
 
 namespace {
 
-constexpr const char* variable = "LP_NUM_THREADS";
 constexpr int rounds = 5;
 constexpr double worthSaying = 0.9; // of the time with threads
 constexpr std::size_t mostParticles = 50'000;
 constexpr std::uint32_t mostSubsteps = 8;
 
-// Empty: the user decides, or nobody has asked.
-std::string defaultThreads; // NOLINT: set once, before there are threads
-std::atomic<bool> isMeasured = false;
+// Set by prepareThreadAdvice(), unless the user decides; taken by the first measurement.
+std::atomic<bool> mayAdvise = false;
 
-/// A device without threads of the driver.
-struct SingleDevice {
-    SingleDevice()
-        : device([this] {
-              setenv(variable, "0", 1); // replaces a value; the variable exists
-              try {
-                  vk::Device made = vk::Device::create(loader.getInstanceProcAddr(), {.device = "llvmpipe"});
-                  setenv(variable, defaultThreads.c_str(), 1);
-                  return made;
-              } catch (...) {
-                  setenv(variable, defaultThreads.c_str(), 1);
-                  throw;
-              }
-          }()) {}
-    vk::Loader loader;
-    vk::Device device;
-};
+vk::Device singleDevice(const vk::Loader& loader) {
+    const WithoutDriverThreads scope;
+    return vk::Device::create(loader.getInstanceProcAddr(), {.device = "llvmpipe"});
+}
 
 /// Steps of a scene on one device.
 class Trial {
@@ -75,11 +61,11 @@ private:
 } // namespace
 
 void prepareThreadAdvice() {
-    if (std::getenv(variable)) return;
+    if (std::getenv(driverThreadsVariable)) return;
     const unsigned processors = std::thread::hardware_concurrency();
     if (processors < 2) return; // lavapipe has no threads then
-    defaultThreads = std::to_string(processors);
-    setenv(variable, defaultThreads.c_str(), 1);
+    setenv(driverThreadsVariable, std::to_string(processors).c_str(), 1);
+    mayAdvise = true;
 }
 
 ThreadTimes compareThreads(const std::function<double()>& threaded, const std::function<double()>& single) {
@@ -99,19 +85,19 @@ std::optional<std::string> threadAdvice(const ThreadTimes& times) {
         text, sizeof text,
         "this scene is about %.1f times as fast with %s=0 in the environment: measured just now, a trial "
         "step took %.3g ms with the driver's threads and %.3g ms without",
-        times.threaded / times.single, variable, times.threaded, times.single);
+        times.threaded / times.single, driverThreadsVariable, times.threaded, times.single);
     return text;
 }
 
 std::optional<std::string> adviseOnThreads(const vk::Device& device, const sim::Scene& scene,
                                            const sim::Settings& settings) {
     const bool isLavapipe = device.description().name.find("llvmpipe") != std::string::npos;
-    if (defaultThreads.empty() || !isLavapipe || scene.particles.size() > mostParticles) return {};
-    if (isMeasured.exchange(true)) return {};
+    if (!isLavapipe || scene.particles.size() > mostParticles || !mayAdvise.exchange(false)) return {};
     sim::Settings tried = settings;
     tried.substeps = std::min(tried.substeps, mostSubsteps);
-    const SingleDevice other;
-    Trial threaded(device, scene, tried), single(other.device, scene, tried);
+    const vk::Loader loader;
+    const vk::Device other = singleDevice(loader);
+    Trial threaded(device, scene, tried), single(other, scene, tried);
     return threadAdvice(compareThreads([&] { return threaded.step(); }, [&] { return single.step(); }));
 }
 

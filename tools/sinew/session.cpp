@@ -1,9 +1,10 @@
 // Opens the device that the options name.
 #include "sinew/session.hpp"
 
+#include "app/driver_threads.hpp"
+
 #include <algorithm>
 #include <cstdlib>
-#include <string>
 #include <thread>
 
 namespace sinew::tools {
@@ -25,26 +26,15 @@ Session::Session(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const vk::Device
     : device(vk::Device::create(getInstanceProcAddr, request)), queue(device), kept(device) {}
 
 std::uint32_t driverThreads() {
-    const char* asked = std::getenv("LP_NUM_THREADS");
+    const char* asked = std::getenv(app::driverThreadsVariable);
     const unsigned long threads =
         asked ? std::strtoul(asked, nullptr, 10) : std::thread::hardware_concurrency();
     return static_cast<std::uint32_t>(std::clamp(threads, 1ul, 256ul));
 }
 
 std::unique_ptr<Session> oneThreadSession(const DeviceOptions& options) {
-    constexpr const char* name = "LP_NUM_THREADS";
-    const char* before = std::getenv(name);
-    const std::optional<std::string> kept = before ? std::optional(std::string(before)) : std::nullopt;
-    setenv(name, "0", 1);
-    const auto restore = [&] { kept ? setenv(name, kept->c_str(), 1) : unsetenv(name); };
-    try {
-        auto session = std::make_unique<Session>(options);
-        restore();
-        return session;
-    } catch (...) {
-        restore();
-        throw;
-    }
+    const app::WithoutDriverThreads scope;
+    return std::make_unique<Session>(options);
 }
 
 } // namespace sinew::tools

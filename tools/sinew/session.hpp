@@ -29,9 +29,7 @@ struct Session {
 /// it computes on the thread that it submits from.
 std::uint32_t driverThreads();
 
-/// A second session whose lavapipe computes on one thread: it reads LP_NUM_THREADS when its instance is made,
-/// so that both stand in one process. Sets the variable to 0 meanwhile: call before other threads read the
-/// environment.
+/// A second session whose lavapipe computes on one thread (app::WithoutDriverThreads says when to call it).
 std::unique_ptr<Session> oneThreadSession(const DeviceOptions& options);
 
 } // namespace sinew::tools
