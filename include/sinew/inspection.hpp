@@ -19,6 +19,10 @@ struct SINEW_API ParticleSlots {
 /// That order in every simulation of a valid scene with these settings.
 SINEW_API ParticleSlots particleSlots(const Scene& scene, const Settings& settings);
 
+/// By particle, a word: 0xfffffffe, a value that no other has, if the particle is part of a removed fragment.
+/// Valid as Simulation::positions() is.
+SINEW_API vk::BufferView removedParticles(const Simulation& simulation);
+
 /// The hash grid of a contact search, as last built.
 struct SINEW_API InspectedGrid {
     std::string name; ///< "grid" of particles, "faces.grid" of points, "edges.grid" of edges

@@ -7,7 +7,6 @@
 #include "viewer/layers/value_maps.hpp"
 #include "viewer/render/balls.hpp"
 #include "viewer/render/mesh_buffer.hpp"
-#include "viewer/render/removed.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>

@@ -8,7 +8,6 @@
 #include "sinew/inverse_masses.hpp"
 #include "viewer/layers/value_maps.hpp"
 #include "viewer/render/mesh_buffer.hpp"
-#include "viewer/render/removed.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>

@@ -6,7 +6,6 @@
 #include "sinew/inspection.hpp"
 #include "sinew/inverse_masses.hpp"
 #include "viewer/render/mesh_buffer.hpp"
-#include "viewer/render/removed.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>

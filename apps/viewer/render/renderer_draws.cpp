@@ -1,7 +1,7 @@
 // Draw calls for the parts of a scene, with a given pipeline.
 #include "viewer/render/renderer.hpp"
 
-#include "viewer/render/removed.hpp"
+#include "sinew/inspection.hpp"
 
 #include <algorithm>
 

@@ -39,7 +39,7 @@ public:
 
     /// The file of an entry; none for a folder, which is entered.
     std::optional<std::string> take(std::size_t entry);
-    /// What Enter does: the chosen entry, or the path that was typed.
+    /// The choice of Enter: the chosen entry, or the path that was typed.
     std::optional<std::string> takeTyped();
 
 private:

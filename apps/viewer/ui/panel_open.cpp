@@ -10,7 +10,7 @@ namespace sinew::viewer::parts {
 
 namespace {
 
-// Of the kinds of an entry.
+// Names of the kinds of an entry.
 constexpr std::array kindTexts{"", "scene", "mesh", "state"};
 
 // Keeps the end of a path, which says most.

@@ -10,6 +10,15 @@ ParticleSlots particleSlots(const Scene& scene, const Settings& settings) {
     return {std::move(layout.slot), layout.count};
 }
 
+// If nothing can be cut, positions stand for the labels of pieces: the bits of a finite number never equal
+// REMOVED_PIECE.
+vk::BufferView removedParticles(const Simulation& simulation) {
+    vk::BufferView words = simulation.pieces();
+    if (words.size == 0) words = simulation.positions();
+    words.stride = sizeof(std::uint32_t);
+    return words;
+}
+
 InspectedBuffers inspect(const Simulation& simulation) {
     const StepProgram& program = simulation.program();
     const auto view = [&](BufferId buffer) { return simulation.view(buffer); };

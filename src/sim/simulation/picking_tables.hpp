@@ -2,7 +2,6 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sinew/simulation.hpp"
 #include "sinew/vk/buffer.hpp"
 
 #include <cstring>
@@ -21,15 +20,6 @@ vk::Buffer tableOf(const vk::Device& device, const std::string& name, std::vecto
     std::memcpy(buffer.mapped(), elements.data(), elements.size() * sizeof(T));
     buffer.flush();
     return buffer;
-}
-
-/// By particle: REMOVED_PIECE if it is part of a removed fragment. If nothing can be cut, positions stand for
-/// the labels of pieces: the bits of a finite number never equal REMOVED_PIECE.
-inline vk::BufferView removedParticles(const Simulation& simulation) {
-    vk::BufferView words = simulation.pieces();
-    if (words.size == 0) words = simulation.positions();
-    words.stride = sizeof(std::uint32_t);
-    return words;
 }
 
 } // namespace sinew::sim

@@ -2,6 +2,7 @@
 #include "kernels.hpp"
 #include "sim/simulation/picking_tables.hpp"
 #include "simulation/pick.h"
+#include "sinew/inspection.hpp"
 #include "sinew/inverse_masses.hpp"
 #include "sinew/picking.hpp"
 #include "sinew/vk/kernel_store.hpp"

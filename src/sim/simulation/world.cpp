@@ -118,7 +118,7 @@ struct World::Making {
     Settings settings;
     bool hasLost = false; // parts that the simulation that runs has
     bool wakes = false;   // all that sleeps
-    // Of the new simulation; after the take-over, of the one that it replaced.
+    // Those of the new simulation; after the take-over, those of the one that it replaced.
     Scene scene;
     std::vector<Placed> placed;
     std::unique_ptr<Simulation> simulation;
