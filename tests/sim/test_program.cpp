@@ -362,6 +362,13 @@ Scene thickSheet() {
     return scene;
 }
 
+// A block of 6^3 cells that may be cut, with two levels of blocks.
+Scene stiffBlock() {
+    Scene scene{.name = "block"};
+    addLattice(scene, {.cells = {6, 6, 6}, .spacing = 0.05f, .youngModulus = 1e7f, .isCuttable = true});
+    return scene;
+}
+
 std::vector<Golden> goldens() {
     return {{"jacobi_chain.txt", test::chain(5), {.solver = Solver::jacobi, .substeps = 2, .iterations = 2}},
             {"jacobi_sheet_in_a_room.txt",
@@ -378,6 +385,7 @@ std::vector<Golden> goldens() {
             {"split_sheet_in_a_room.txt", inRoom(test::sheet(4, 1e-5f)), {.substeps = 7}},
             {"split_blocks_that_touch_and_sleep.txt", twoBlocks(false), {.substeps = 2, .sleeps = true}},
             {"split_blocks_that_are_cut.txt", twoBlocks(true), {.substeps = 2}},
+            {"split_block_with_levels.txt", stiffBlock(), {.substeps = 2, .levels = 2}},
             {"split_sheet_that_touches_itself.txt", thickSheet(), {.substeps = 2}}};
 }
 

@@ -1,4 +1,4 @@
-// What passes in a substep joins one zone. Requires the buffers words and pairs.
+// Two parts that pass each other in a substep join one zone. Requires the buffers words and pairs.
 #include "collision/zone_trees.glsl"
 
 void enlist(uint i) {

@@ -3,6 +3,7 @@
 #define LEVEL_CHILDREN 8 // most children of a block: slots in level 1, blocks of the level below in others
 #define LEVEL_GROUP 128  // invocations of the work group that solves all levels of a body above the first
 #define NO_BLOCK 0xffffffffu
+#define BROKEN_BLOCK 0x80000000u // bit beside those of a block's links
 
 struct LevelBlock {
     float inverseMass; // [1/kg]; 0 = contains a particle that never moves
@@ -31,12 +32,9 @@ struct LevelRange {
 };
 
 struct LevelPush {
-    uint count;   // blocks of level 1 or, for the levels above, bodies x LEVEL_GROUP
+    uint count;   // kick_blocks: blocks of level 1; solve_levels: levels
     uint isFirst; // 1 in the first substep of a step
-    uint levels;
 };
-
-#define BROKEN_BLOCK 0x80000000u // bit beside those of a block's links
 
 struct LevelCutPush {
     uint levels;

@@ -6,6 +6,7 @@
 #define GROUP_SIZE LEVEL_GROUP
 #include "common/kernel.glsl"
 #include "lattice/link_masks.glsl"
+#include "levels/level_group.glsl"
 
 layout(std430, binding = 0) readonly buffer Ranges { LevelRange ranges[]; }; // push.levels for each body
 layout(std430, binding = 1) readonly buffer Octants { uint octants[]; };     // by block: LEVEL_CHILDREN, by corner
@@ -54,14 +55,8 @@ void writeLinks(uint b) {
     masks[b] = alive;
 }
 
-void waitForGroup() {
-    memoryBarrierBuffer();
-    barrier();
-}
-
 void main() {
-    const uint body = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
-    const uint lane = isReversed ? LEVEL_GROUP - 1u - gl_LocalInvocationID.x : gl_LocalInvocationID.x;
+    const uint body = bodyOfGroup(), lane = laneOfGroup();
     for (uint l = 0u; l < push.levels; ++l) {
         const LevelRange range = ranges[body * push.levels + l];
         for (uint k = lane; k < range.count; k += LEVEL_GROUP) findOpen(range.first + k, l == 0u);

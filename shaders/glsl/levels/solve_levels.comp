@@ -7,7 +7,7 @@
 #include "common/kernel.glsl"
 #include "common/fetched.glsl"
 
-layout(std430, binding = 0) readonly buffer Ranges { LevelRange ranges[]; }; // push.levels for each body
+layout(std430, binding = 0) readonly buffer Ranges { LevelRange ranges[]; }; // push.count, the levels, for each body
 layout(std430, binding = 1) readonly buffer Blocks { LevelBlock blocks[]; };
 FETCHED_UVEC2(2, Children, childAt) // LevelChild
 FETCHED_UVEC4(3, Links, linkAt)     // LevelLink
@@ -18,18 +18,10 @@ layout(push_constant) uniform Push { LevelPush push; };
 
 #define LINK(k) linkAt(k)
 #define BLOCK_POSITION(b) positions[b].xyz
+#define CHILD_POSITION(b) positions[b].xyz
+#include "levels/level_group.glsl"
 #include "levels/levels.glsl"
-
-void place(uint b) {
-    const uint first = b * LEVEL_CHILDREN;
-    const vec3 x = positions[childAt(first).x].xyz;
-    vec3 sum = vec3(0.0);
-    [[unroll]] for (uint c = 1u; c < LEVEL_CHILDREN; ++c) {
-        const uvec2 child = childAt(first + c);
-        sum += uintBitsToFloat(child.y) * (positions[child.x].xyz - x);
-    }
-    positions[b] = vec4(x + sum, 0.0);
-}
+#include "levels/place_block.glsl"
 
 void kick(uint b, Substep substep) {
     const LevelBlock block = blocks[b];
@@ -38,22 +30,16 @@ void kick(uint b, Substep substep) {
     kicks[b] = vec4(dv, 0.0);
 }
 
-void waitForGroup() {
-    memoryBarrierBuffer();
-    barrier();
-}
-
 void main() {
-    const uint body = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
-    const uint lane = isReversed ? LEVEL_GROUP - 1u - gl_LocalInvocationID.x : gl_LocalInvocationID.x;
+    const uint body = bodyOfGroup(), lane = laneOfGroup(), levels = push.count;
     const Substep substep = substepOf(push.isFirst != 0u);
-    for (uint l = 1u; l < push.levels; ++l) {
-        const LevelRange range = ranges[body * push.levels + l];
-        for (uint k = lane; k < range.count; k += LEVEL_GROUP) place(range.first + k);
+    for (uint l = 1u; l < levels; ++l) {
+        const LevelRange range = ranges[body * levels + l];
+        for (uint k = lane; k < range.count; k += LEVEL_GROUP) positions[range.first + k] = vec4(placeOf(range.first + k), 0.0);
         waitForGroup();
     }
-    for (uint l = push.levels; --l > 0u;) {
-        const LevelRange range = ranges[body * push.levels + l];
+    for (uint l = levels; --l > 0u;) {
+        const LevelRange range = ranges[body * levels + l];
         for (uint k = lane; k < range.count; k += LEVEL_GROUP) kick(range.first + k, substep);
         waitForGroup();
     }

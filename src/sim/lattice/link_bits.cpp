@@ -9,13 +9,6 @@
 namespace sinew::sim::lattice {
 namespace {
 
-// The bit of a link with the given steps along x, y and z; none if they lead to no neighbour.
-std::optional<std::uint32_t> bitOf(const std::array<int, 3>& step) {
-    for (std::uint32_t bit = 0; bit < directionCount; ++bit)
-        if (directionOf(bit) == step) return bit;
-    return std::nullopt;
-}
-
 std::array<int, 3> nodeOf(const Grid& grid, std::uint32_t particle) {
     const std::uint32_t node = grid.node[particle - grid.firstParticle];
     return {static_cast<int>(node % grid.nodes[0]), static_cast<int>(node / grid.nodes[0] % grid.nodes[1]),

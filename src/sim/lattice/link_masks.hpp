@@ -5,6 +5,8 @@
 
 #include "sim/lattice/placement.hpp"
 
+#include <optional>
+
 namespace sinew::sim::lattice {
 
 inline constexpr std::uint32_t directionCount = 26;
@@ -15,6 +17,15 @@ inline constexpr std::uint32_t firstOwned = 13;
 constexpr std::array<int, 3> directionOf(std::uint32_t bit) {
     const int step = static_cast<int>(bit < firstOwned ? bit : bit + 1);
     return {step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1};
+}
+
+/// The bit of such a direction; empty if the steps lead to no neighbour.
+constexpr std::optional<std::uint32_t> bitOf(const std::array<int, 3>& steps) {
+    for (const int step : steps)
+        if (step < -1 || step > 1) return std::nullopt;
+    const auto place = static_cast<std::uint32_t>(steps[0] + 1 + 3 * (steps[1] + 1) + 9 * (steps[2] + 1));
+    if (place == firstOwned) return std::nullopt;
+    return place < firstOwned ? place : place - 1;
 }
 
 /// Directions of the edges of the six tetrahedra of a cell (Kuhn's subdivision): along axes, the face

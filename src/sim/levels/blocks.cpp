@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace sinew::sim::levels {
@@ -22,17 +21,17 @@ constexpr std::uint32_t none = 0xffffffffu;
 constexpr double levelOmega = 0.95;
 constexpr double surfaceWeight = 2; // a compromise: docs/levels.md, "Speed against error"
 
-// A table over the places of a level.
+// Numbers of the blocks of a level's nodes, by place.
 class Places {
 public:
     explicit Places(const std::vector<Node>& nodes) {
         for (const Node& node : nodes)
-            for (std::size_t d = 0; d < 3; ++d) size_[d] = std::max(size_[d], node.place[d] + 1);
+            for (std::size_t d = 0; d < 3; ++d) size_[d] = std::max(size_[d], node.place[d] / 2 + 1);
         at_.assign(std::size_t(size_[0]) * size_[1] * size_[2], none);
     }
 
     // The number at a place, which is set to `next` if there is none yet.
-    std::uint32_t& first(const Place& place, std::uint32_t next) {
+    std::uint32_t first(const Place& place, std::uint32_t next) {
         std::uint32_t& found = at_[index(place)];
         if (found == none) found = next;
         return found;
@@ -81,14 +80,12 @@ void weigh(std::vector<Node>& nodes, const std::vector<Node>& blocks) {
     for (Node& node : nodes) node.weight /= sums[node.parent];
 }
 
-// The blocks of a level's nodes, whose parents and weights are set.
-std::vector<Node> blocksOf(std::vector<Node>& nodes) {
+// The blocks of a level's nodes, whose parents and weights are set; `places`: those of these nodes.
+std::vector<Node> blocksOf(std::vector<Node>& nodes, Places& places) {
     std::vector<Node> blocks;
-    std::vector<Node> places = nodes;
-    for (Node& node : places) node.place = halved(node.place);
-    Places at(places);
     for (Node& node : nodes) {
-        std::uint32_t& block = at.first(halved(node.place), static_cast<std::uint32_t>(blocks.size()));
+        const std::uint32_t block =
+            places.first(halved(node.place), static_cast<std::uint32_t>(blocks.size()));
         if (block == blocks.size()) blocks.push_back({.place = halved(node.place), .inverseMass = 1});
         node.parent = block;
         if (node.inverseMass == 0) blocks[block].inverseMass = 0;
@@ -165,7 +162,7 @@ void clamp(Level& level, double omega, double h) {
     for (Link& link : level.links) link.most = share(link) * std::min(time(link.a), time(link.b));
 }
 
-// What a substep does not reach of a link's stiffness [N/m].
+// The stiffness of a link that a substep does not reach [N/m].
 double missingOf(const Link& link, double h) {
     return std::max(link.stiffness - link.most / (h * h), 0.0);
 }
@@ -203,9 +200,8 @@ Place alongNeighbours(const std::vector<Node>& blocks, const Places& places, con
 // The level above, without limits of its links.
 Level above(Level& level, double h) {
     Level next;
-    next.nodes = blocksOf(level.nodes);
-    Places places(next.nodes);
-    for (std::uint32_t b = 0; b < next.nodes.size(); ++b) places.first(next.nodes[b].place, b);
+    Places places(level.nodes);
+    next.nodes = blocksOf(level.nodes, places);
     Energies energies(next.nodes.size());
     for (Link link : level.links) {
         double energy = missingOf(link, h) * link.length * link.length;

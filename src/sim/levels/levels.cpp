@@ -31,12 +31,6 @@ struct Body {
     std::vector<std::uint32_t> first = {NO_BLOCK}; // by level: index of the first block
 };
 
-// The bit of a link in a mask (link_masks.hpp).
-std::uint32_t bitOf(const std::array<std::int32_t, 3>& step) {
-    const std::int32_t place = step[0] + 1 + 3 * (step[1] + 1) + 9 * (step[2] + 1);
-    return static_cast<std::uint32_t>(place < 13 ? place : place - 1);
-}
-
 // A link as one of its blocks sees it.
 struct Seen {
     std::uint32_t bit = 0;
@@ -52,17 +46,18 @@ void writeLinks(Tables& tables, const Level& level) {
                                    {first + to, static_cast<float>(link.length),
                                     static_cast<float>(link.stiffness), static_cast<float>(link.most)}});
         };
-        add(link.a, link.b, bitOf(link.step));
-        add(link.b, link.a, lattice::directionCount - 1 - bitOf(link.step));
+        const std::uint32_t bit = *lattice::bitOf(link.step); // links of a grid lead to neighbours
+        add(link.a, link.b, bit);
+        add(link.b, link.a, lattice::directionCount - 1 - bit);
     }
     for (std::size_t b = 0; b < level.nodes.size(); ++b) {
-        std::ranges::stable_sort(links[b], {}, &Seen::bit);
+        std::ranges::sort(links[b], {}, &Seen::bit);
         tables.blocks.push_back({static_cast<float>(level.nodes[b].inverseMass), NO_BLOCK,
                                  static_cast<std::uint32_t>(tables.links.size()),
                                  static_cast<std::uint32_t>(links[b].size())});
         std::uint32_t& mask = tables.masks.emplace_back(0);
         for (const Seen& seen : links[b]) {
-            mask |= 1u << (seen.bit & 31);
+            mask |= 1u << seen.bit;
             tables.links.push_back(seen.link);
         }
     }
@@ -164,6 +159,18 @@ struct Cuts {
     }
 };
 
+// `links`: the block links, which the pass writes.
+void keepCuts(Build& build, BufferId links, Cuts given) {
+    ProgramBuilder& program = build.program;
+    CuttingBuffers& cutting = program.program().cutting;
+    cutting.topology.push_back(links);
+    cutting.lists.push_back(links);
+    program.addToState(links, links);
+    const Cuts& cuts = build.keep(std::move(given));
+    program.into(List::refresh, [&] { cuts.addPass(program); });
+    program.only(When::cut, [&] { cuts.addPass(program); });
+}
+
 } // namespace
 
 void check(const Scene& scene, const Settings& settings, Complaints& complaints) {
@@ -208,21 +215,17 @@ std::optional<Levels> add(Build& build, const stiffness::Shares& shares) {
     levels.positions_ = program.scratch<layout::vec4>("levels.positions", tables.blocks.size());
     levels.kicks_ = program.scratch<layout::vec4>("levels.kicks", tables.blocks.size());
     if (cuttable == 0) return levels;
-    CuttingBuffers& cutting = program.program().cutting;
-    cutting.topology.push_back(levels.links_);
-    cutting.lists.push_back(levels.links_);
-    program.addToState(levels.links_, levels.links_);
-    const Cuts& cuts = build.keep(Cuts{
-        .bodies = cuttable,
-        .push = {levels.levels_},
-        .buffers = {levels.ranges_, program.upload("levels.octants", tables.octants), cutting.links,
-                    program.initialOf("levels.whole_nodes", cutting.links),
-                    program.upload("levels.masks", tables.masks), levels.info_,
-                    program.initialOf("levels.whole_links", levels.links_),
-                    program.scratch<std::uint32_t>("levels.open", tables.blocks.size()),
-                    program.scratch<std::uint32_t>("levels.live", tables.blocks.size()), levels.links_}});
-    program.into(List::refresh, [&] { cuts.addPass(program); });
-    program.only(When::cut, [&] { cuts.addPass(program); });
+    const CuttingBuffers& cutting = program.program().cutting;
+    keepCuts(
+        build, levels.links_,
+        {.bodies = cuttable,
+         .push = {levels.levels_},
+         .buffers = {levels.ranges_, program.upload("levels.octants", tables.octants), cutting.links,
+                     program.initialOf("levels.whole_nodes", cutting.links),
+                     program.upload("levels.masks", tables.masks), levels.info_,
+                     program.initialOf("levels.whole_links", levels.links_),
+                     program.scratch<std::uint32_t>("levels.open", tables.blocks.size()),
+                     program.scratch<std::uint32_t>("levels.live", tables.blocks.size()), levels.links_}});
     return levels;
 }
 
@@ -232,15 +235,14 @@ void addCuts(Build& build) {
 }
 
 void Levels::addPasses(ProgramBuilder& program, const ParticleBuffers& particles, bool isFirst) const {
-    layout::LevelPush push{blocks_, isFirst ? 1u : 0u, levels_};
-    program.dispatch(k::averageBlocks, push.count, {particles.positions, children_, positions_}, push);
-    if (levels_ > 1) {
-        push.count = bodies_ * LEVEL_GROUP;
-        program.dispatch(k::solveLevels, push.count,
-                         {ranges_, info_, children_, links_, positions_, kicks_, particles.step}, push);
-        push.count = blocks_;
-    }
-    program.dispatch(k::kickBlocks, push.count, {info_, links_, positions_, kicks_, particles.step}, push);
+    program.dispatch(k::averageBlocks, blocks_, {particles.positions, children_, positions_},
+                     layout::CountPush{blocks_});
+    if (levels_ > 1)
+        program.dispatch(k::solveLevels, bodies_ * LEVEL_GROUP,
+                         {ranges_, info_, children_, links_, positions_, kicks_, particles.step},
+                         layout::LevelPush{levels_, isFirst ? 1u : 0u});
+    program.dispatch(k::kickBlocks, blocks_, {info_, links_, positions_, kicks_, particles.step},
+                     layout::LevelPush{blocks_, isFirst ? 1u : 0u});
 }
 
 } // namespace sinew::sim::levels

@@ -17,10 +17,10 @@ public:
     /// Appends the passes to a substep that starts with `particles`.
     void addPasses(ProgramBuilder& program, const ParticleBuffers& particles, bool isFirst) const;
 
-    BufferId blockOf() const {
-        return blockOf_;
-    }                                         ///< by slot: its block of level 1, and its share of the kick
-    BufferId kicks() const { return kicks_; } ///< by block [m/s]
+    /// By slot: its block of level 1, and its share of the kick.
+    BufferId blockOf() const { return blockOf_; }
+    /// By block [m/s].
+    BufferId kicks() const { return kicks_; }
 
 private:
     friend std::optional<Levels> add(Build& build, const stiffness::Shares& shares);

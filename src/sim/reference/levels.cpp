@@ -50,7 +50,7 @@ void addLinks(Level& level, const Grid& grid, const Problem& problem, const std:
         level.nodes[i].importance = counts[i] < std::ranges::max(counts) ? 2 : 1;
 }
 
-// What a substep lacks of a bond's stiffness [N/m].
+// The stiffness of a bond that a substep does not reach [N/m].
 double missingOf(const Bond& bond, double h) {
     return std::max(bond.stiffness - bond.most / (h * h), 0.0);
 }
