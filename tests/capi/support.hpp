@@ -70,6 +70,21 @@ inline void makeDevice(Device& device) {
     ASSERT_TRUE(isOk(sinewCreateDevice(&request, &device)));
 }
 
+/// Tests on a device of their own, which must leave no warning of the validation layer, leaks included.
+class OnDevice : public ::testing::Test {
+protected:
+    void SetUp() override { makeDevice(device); }
+    void TearDown() override {
+        if (device.handle.id != 0) {
+            EXPECT_TRUE(isOk(sinewDestroyDevice(device)));
+            device.handle.id = 0;
+        }
+        EXPECT_EQ(log.warnings, std::vector<std::string>{});
+    }
+    Log log;
+    Device device;
+};
+
 /// A scene with a cube of `side` cells of 0.1 m on each side, over a floor.
 inline void makeCube(Scene& scene, std::uint32_t side = 2, float height = 0.2f, bool isCuttable = false) {
     ASSERT_TRUE(isOk(sinewCreateScene(&scene)));

@@ -7,24 +7,14 @@
 namespace sinew::test {
 namespace {
 
-class CApiOwnQueue : public ::testing::Test {
+class CApiOwnQueue : public OnDevice {
 protected:
-    void SetUp() override { makeDevice(device); }
-    void TearDown() override {
-        if (device.handle.id != 0) {
-            EXPECT_TRUE(isOk(sinewDestroyDevice(device)));
-            device.handle.id = 0;
-        }
-        EXPECT_EQ(log.warnings, std::vector<std::string>{}); // of the validation layer, leaks included
-    }
     SinewSimulationInfo infoOf(SinewSimulation simulation) {
         SinewSimulationInfo info{};
         info.size = sizeof info;
         EXPECT_TRUE(isOk(sinewGetSimulationInfo(simulation, &info)));
         return info;
     }
-    Log log;
-    Device device;
 };
 
 TEST_F(CApiOwnQueue, ManyStepsAtOnceHaveTheBitsOfSingleOnes) {

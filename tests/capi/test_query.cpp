@@ -15,24 +15,14 @@ constexpr SinewQueryRoom room{sizeof(SinewQueryRoom), 2, 10, 2};
 constexpr SinewRay down{{0.1f, 3, 0.1f}, {0, -1, 0}, 0, 0};
 constexpr SinewRegion around{{0.1f, 0.3f, 0.1f}, {0, 0, 0}, 0.11f, 0}; // a node and its six neighbours
 
-class CApiQuery : public ::testing::Test {
+class CApiQuery : public OnDevice {
 protected:
-    void SetUp() override { makeDevice(device); }
-    void TearDown() override {
-        if (device.handle.id != 0) {
-            EXPECT_TRUE(isOk(sinewDestroyDevice(device)));
-            device.handle.id = 0;
-        }
-        EXPECT_EQ(log.warnings, std::vector<std::string>{}); // of the validation layer, leaks included
-    }
     SinewRayHit cast(SinewQuery query, const SinewRay& ray) {
         SinewRayHit hit{};
         hit.size = sizeof hit;
         EXPECT_TRUE(isOk(sinewCastRay(query, &ray, &hit)));
         return hit;
     }
-    Log log;
-    Device device;
 };
 
 } // namespace

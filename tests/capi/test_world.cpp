@@ -65,10 +65,10 @@ SinewResult find(SinewWorld world, SinewPart part, Place& place) {
     return sinewFindPart(world, part, &place.first, &place.count);
 }
 
-class CApiWorld : public ::testing::Test {
+class CApiWorld : public OnDevice {
 protected:
     void SetUp() override {
-        makeDevice(device);
+        OnDevice::SetUp();
         Scene ground;
         makeGround(ground);
         const SinewSettings settings = worldSettings();
@@ -79,9 +79,7 @@ protected:
             EXPECT_TRUE(isOk(sinewDestroyWorld(world)));
         }
         world.handle.id = 0;
-        EXPECT_TRUE(isOk(sinewDestroyDevice(device)));
-        device.handle.id = 0;
-        EXPECT_EQ(log.warnings, std::vector<std::string>{}); // of the validation layer, leaks included
+        OnDevice::TearDown();
     }
     void step(std::uint32_t count) {
         const SinewStep given = sinewDefaultStep();
@@ -94,8 +92,6 @@ protected:
         const auto first = all.begin() + place.first.particles;
         return {first, first + place.count.particles};
     }
-    Log log;
-    Device device;
     World world;
 };
 

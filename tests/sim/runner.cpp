@@ -208,6 +208,14 @@ std::uint64_t Runner::stateHash() const {
     return hash;
 }
 
+void runOnce(sim::GpuExecutor& executor) {
+    const VkCommandBuffer buffer = queue().begin();
+    vk::Commands commands(device(), buffer);
+    executor.upload(commands);
+    executor.step(commands, {}, nullptr);
+    queue().wait(queue().submit(buffer));
+}
+
 std::uint64_t hashOfRun(const sim::Scene& scene, const sim::Settings& settings, int steps) {
     Runner runner(scene, settings);
     EXPECT_EQ(runner.run(steps).nonFinite, 0u);

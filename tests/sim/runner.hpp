@@ -1,6 +1,7 @@
 // A Simulation on the shared device that is stepped and read back one step at a time.
 #pragma once
 
+#include "sim/device/gpu_executor.hpp"
 #include "sinew/simulation.hpp"
 #include "support/device.hpp"
 
@@ -68,6 +69,9 @@ private:
     std::vector<std::uint32_t> slots_; // of each particle in the solver's state
     std::uint64_t frame_ = 0;
 };
+
+/// Uploads a program's buffers and makes one step, and waits for it.
+void runOnce(sim::GpuExecutor& executor);
 
 /// Hash of the state after some steps of the scene's dt, all of which must be finite.
 std::uint64_t hashOfRun(const sim::Scene& scene, const sim::Settings& settings, int steps = 3);

@@ -46,11 +46,7 @@ std::vector<std::uint32_t> itemsOf(bool isReversed, std::uint32_t count) {
     builder.dispatch(test::kernels::itemIndex, count, {items}, count);
     const StepProgram program = builder.finish();
     GpuExecutor executor(test::device(), program);
-    const VkCommandBuffer buffer = test::queue().begin();
-    vk::Commands commands(test::device(), buffer);
-    executor.upload(commands);
-    executor.step(commands, {}, nullptr);
-    test::queue().wait(test::queue().submit(buffer));
+    test::runOnce(executor);
     return test::queue().download<std::uint32_t>(executor.view(items));
 }
 

@@ -2,9 +2,9 @@
 // the device under validation.
 #include "common/layout.h"
 #include "sim/device/gpu_executor.hpp"
+#include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 #include "sim_indirect_kernels.hpp"
-#include "support/device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,11 +57,7 @@ TEST(Indirect, WaitsForItsArgumentsAndIsWaitedForBeforeTheyChange) {
     for (std::size_t p = 1; p < program[List::step].size(); ++p)
         EXPECT_TRUE(hasBarrier({}, program[List::step][p])) << "pass " << p;
     GpuExecutor executor(test::device(), program);
-    const VkCommandBuffer buffer = test::queue().begin();
-    vk::Commands commands(test::device(), buffer);
-    executor.upload(commands);
-    executor.step(commands, {}, nullptr);
-    test::queue().wait(test::queue().submit(buffer));
+    test::runOnce(executor);
     EXPECT_EQ(test::queue().download<std::uint32_t>(executor.view(toggled.runs)),
               std::vector<std::uint32_t>(count, 2));
 }

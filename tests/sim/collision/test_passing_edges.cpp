@@ -4,8 +4,8 @@
 #include "kernels.hpp"
 #include "sim/collision/passage.hpp"
 #include "sim/device/gpu_executor.hpp"
+#include "sim/runner.hpp"
 #include "sinew/scene.hpp"
-#include "support/device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -139,11 +139,7 @@ std::map<std::uint32_t, double> searched(const State& state, bool isReversed) {
         layout::ZonePush{.count = count, .moving = 0, .sheets = 0, .large = 0, .round = 0});
     const StepProgram program = builder.finish();
     GpuExecutor executor(test::device(), program);
-    const VkCommandBuffer buffer = test::queue().begin();
-    vk::Commands commands(test::device(), buffer);
-    executor.upload(commands);
-    executor.step(commands, {}, nullptr);
-    test::queue().wait(test::queue().submit(buffer));
+    test::runOnce(executor);
     const auto found = test::queue().download<layout::ZonePair>(executor.view(pairs));
     const auto all = test::queue().download<std::uint32_t>(executor.view(words));
     std::map<std::uint32_t, double> times;

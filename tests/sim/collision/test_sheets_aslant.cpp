@@ -97,7 +97,7 @@ struct Passed {
     int edges = 0, points = 0;
 };
 
-// What passes of the two sheets in a step: all pairs are looked at.
+// Counts edges and points of the two sheets that pass in a step: looks at all pairs.
 class Judge {
 public:
     explicit Judge(const Scene& scene) : lower_(edgesOf(scene, false)), upper_(edgesOf(scene, true)) {
