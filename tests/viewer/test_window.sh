@@ -67,6 +67,12 @@ dark closed.png $side && fail "panels cover a small window unasked"
 keys Tab
 awaitStill panels.png
 dark panels.png $side || fail "Tab shows no panels"
+keys F2
+awaitOther panels.png gallery.png "F2 shows no gallery"
+xdotool mousemove 20 380 click 1 # beside it
+awaitOther gallery.png closed.png "a press in the scene does not close the gallery"
+for picture in panels closed; do convert $picture.png -crop 180x160+440+150 +repage $picture-part.png; done
+alike panels-part.png closed-part.png || fail "a press in the scene leaves a part of the gallery"
 xdotool mousemove 390 174 click 1 # its button resumes, like Space
 awaitTitle fps
 keys space
@@ -362,6 +368,16 @@ film=$(sed -n 's/^recording //p' viewer.out)
 keys ctrl+o
 awaitOther filmed.png asked.png "Ctrl + O asks for no path"
 xdotool type --window "$window" --delay 50 "$folder/scenes/block.toml"
+keys Return
+awaitTitle 'block'
+keys Prior
+awaitTitle 'other'
+keys space
+awaitTitle paused
+awaitStill asked.png
+keys ctrl+o
+awaitOther asked.png listed.png "Ctrl + O lists no files"
+xdotool type --window "$window" --delay 50 block.t # a part of a name chooses in the list
 keys Return
 awaitTitle 'block'
 keys Tab # the panels into which it was typed
