@@ -35,7 +35,7 @@ struct SINEW_API RayHit {
     float distance = 0;         ///< from the origin to the point [m]
 };
 
-/// What rays meet of a scene besides its skins.
+/// The parts of a scene besides its skins that rays meet.
 struct SINEW_API RayTargets {
     std::vector<float> radii{};   ///< of the ball of each particle [m]; below 0 = none
     std::vector<bool> isClosed{}; ///< for each skin: whether it has an inside, for HiddenSide
@@ -64,9 +64,9 @@ public:
     /// `slot` must have finished. `commands` as in Simulation::recordReset(). Allocates nothing.
     void record(VkCommandBuffer commands, std::uint32_t slot, std::span<const std::optional<RayQuery>> rays,
                 const std::optional<HiddenSide>& hidden = {}) const noexcept;
-    /// What a ray of that recording met, once its commands have finished: also once a step that was recorded
-    /// behind them has (Simulation::status). Empty if it met no body, or only fixed particles that were not
-    /// asked for.
+    /// The hit of a ray of that recording, once its commands have finished: also once a step that was
+    /// recorded behind them has (Simulation::status). Empty if it met no body, or only fixed particles that
+    /// were not asked for.
     std::optional<RayHit> hit(std::uint32_t slot, std::size_t ray) const noexcept;
 
 private:
@@ -95,7 +95,7 @@ public:
     void record(VkCommandBuffer commands, std::uint32_t slot, const RegionQuery& region) const noexcept;
     struct Found {
         std::uint32_t count = 0; ///< of all particles in the region
-        /// Of these, ascending; any `room` of them if there are more.
+        /// Their indices, ascending: all, or any `room` of them if there are more.
         std::vector<std::uint32_t> particles{};
     };
     /// Valid as RayCaster::hit(). Allocates its list.

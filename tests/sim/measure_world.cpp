@@ -36,7 +36,7 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Of all threads of this process [ms].
+// Processor time of all threads of this process [ms].
 double processorTime() {
     return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }

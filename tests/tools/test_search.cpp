@@ -92,7 +92,7 @@ TEST(Search, SaysThatItIsNeverReachedOrThatTimeWasOver) {
     const SearchResult result = findCheapest(search);
     EXPECT_FALSE(result.isComplete);
     EXPECT_EQ(result.probes.size(), 5u);
-    // What was reached before the time was over stays.
+    // Targets that were reached before the time was over stay.
     search = bySubsteps({0.6, 1e-9});
     left = 6;
     search.isOver = [&] { return --left < 0; };

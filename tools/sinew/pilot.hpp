@@ -8,8 +8,8 @@
 
 namespace sinew::tools {
 
-/// What three runs say that differ in their substeps by factors of 2. Differences are RMS over all steps and
-/// particles, relative to the motion: to the distance from the start, averaged in the same way.
+/// The findings of three runs that differ in their substeps by factors of 2. Differences are RMS over all
+/// steps and particles, relative to the motion: to the distance from the start, averaged in the same way.
 struct ErrorEstimate {
     std::uint32_t steps = 0;             ///< of each pilot run
     std::vector<std::uint32_t> substeps; ///< of the runs, rising

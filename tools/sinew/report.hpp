@@ -47,7 +47,7 @@ std::string toJson(const RunRecord& record);
 /// The choice of substeps and the stiffness that they reach, as text.
 std::string stiffnessText(const scenes::LoadedScene& loaded);
 
-/// What the substeps buy: the estimate, or how to get one.
+/// The error that the substeps buy: the estimate, or how to get one.
 std::string errorText(const std::optional<ErrorEstimate>& estimate);
 
 /// The report as a few lines of text.

@@ -16,7 +16,7 @@ struct Price {
 };
 extern const std::array<Price, 3> prices; ///< time, sweeps, barriers
 
-/// What an error is divided by.
+/// The length that an error is divided by.
 enum class Scale {
     body,   ///< the body's size
     motion, ///< the error of a body that stays where it started
