@@ -19,12 +19,29 @@ tools/check.sh
 # use the software device, even if the machine has a GPU
 for icd in /usr/share/vulkan/icd.d/lvp_icd.*.json; do export VK_ICD_FILENAMES=$icd; done
 
-# tests PRESET [ctest options]: runs the tests and copies the output of ctest to build/PRESET/tests.log. Fails if a test fails.
+# tests PRESET [ctest options]: runs the tests and copies the output of ctest to build/PRESET/tests.log. Tests
+# that play in a window depend on when the X server, the viewer and the test get processor time: if nothing
+# else failed, those that failed run once more, alone. Otherwise ends with the reasons and the summary again.
 tests() {
-    local preset=$1
+    local preset=$1 failed log=build/$1/tests.log
     shift
     echo "testing (build/$preset)"
-    ctest --preset "$preset" --output-on-failure -j2 "$@" | tee "build/$preset/tests.log"
+    ctest --preset "$preset" --output-on-failure -j2 "$@" | tee "$log" && return
+    failed=$(sed -n '/The following tests FAILED/,$s/^[[:space:]]*[0-9]* - \([^ ]*\) .*/\1/p' "$log")
+    echo "why tests failed:"
+    grep -aE '(^|: )(FAILED:|Failure$|error:|AddressSanitizer|Segmentation)' "$log" | tail -n 20 || true
+    if [[ -n $failed ]] && ! grep -qvFx -f <(window_tests "$preset") <<<"$failed"; then
+        echo "only tests that play in a window failed: again, alone"
+        ctest --preset "$preset" --output-on-failure -j1 --rerun-failed | tee -a "$log"
+        return
+    fi
+    sed -n '/tests passed/,$p' "$log"
+    return 8
+}
+
+# window_tests PRESET: the names of the tests that play in a window.
+window_tests() {
+    ctest --preset "$1" -N -L '^window$' | sed -n 's/^ *Test *#[0-9]*: //p'
 }
 
 # summary PRESET: prints the number of tests that passed and the names of the others.
