@@ -45,7 +45,7 @@ reds() { # FILE: number of pixels of the red body; color maps have none
     convert "$1" -colorspace sRGB -fx 'r > 1.5*g && r > 0.3 ? 1 : 0' -format '%[fx:round(mean*w*h)]' info:
 }
 echo "first use: more room for contacts, while the window goes on"
-for _ in {1..30}; do
+for _ in {1..150}; do
     sleep 0.7
     keys F8
     room=$(cat crowd-*.input 2>/dev/null | sed -n 's/^room //p' | sort -n | tail -n 1 || true)
@@ -66,15 +66,15 @@ done
 (($(reds layers.png) < 20)) || fail "bodies do not get the colors of the map"
 echo "first use: a picture, a film"
 keys F12
-await 30 says '^picture: '
+await 60 says '^picture: '
 grep -q '^picture: ' viewer.out || fail "F12 made no picture"
 keys F9
-await 10 says '^recording '
+await 60 says '^recording '
 awaitStill layers.png
 keys period
 awaitOther layers.png filmed.png "a step changes nothing"
 keys F9
-await 30 says '^[1-9][0-9]* pictures\? in '
+await 60 says '^[1-9][0-9]* pictures\? in '
 echo "first use: another solver beside"
 line() { convert "$1" -crop 2x160+159+0 +repage -colorspace sRGB -format '%[fx:mean < 0.1 ? 1 : 0]' info:; } # dark line between the halves
 awaitHalves() { # WHY
@@ -112,7 +112,7 @@ awaitHalves "--beside shows no halves"
 halfReds() { convert "$1" -crop "160x200+$2+0" +repage half.png && reds half.png; }
 (($(halfReds halves.png 0) > 30 && $(halfReds halves.png 160) > 30)) || fail "a body is missing in a half"
 keys F12 # writes a picture that is copied where the window's pictures are shown
-await 30 says '^picture: ' # of halves
+await 60 says '^picture: ' # of halves
 grep -qv '^warning: beside: .* softer than asked' viewer.err && fail "a picture of halves: $(cat viewer.err)"
 : >viewer.err
 keys b
