@@ -2,6 +2,7 @@
 #include "viewer/interactive.hpp"
 
 #include "app/guard.hpp"
+#include "app/thread_advice.hpp"
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/loader.hpp"
 #include "viewer/jobs/devices.hpp"
@@ -265,6 +266,18 @@ private:
     std::optional<std::chrono::steady_clock::time_point> lost_; // the newest time
 };
 
+// Prints whether steps of the scene on show would be faster without the driver's threads. Measured when the
+// window is gone: the trial compiles all kernels again, which would delay the first picture, and beside a
+// scene that plays it would measure that, too.
+void adviseOnThreads(Session& session, const ScenePlayer& player, const vk::Device& device) try {
+    session.presenter().waitIdle();
+    if (const auto advice =
+            app::adviseOnThreads(device, player.document().scene(), player.document().settings()))
+        std::printf("%s\n", advice->c_str()); // not stderr: nothing is wrong
+} catch (const std::exception&) {
+    // no trial, so nothing to say: the device may lack the memory for one
+}
+
 // Runs until the window is closed. Objects declared later are destroyed earlier.
 void play(std::unique_ptr<OpenedScene> opening, const Options& options, const Preferences& preferences,
           std::atomic<std::size_t>& messages) {
@@ -309,6 +322,7 @@ void play(std::unique_ptr<OpenedScene> opening, const Options& options, const Pr
     if (options.isTimed) session.timing().printTable();
     keepSettings();
     window.hide(); // threads may end slowly
+    if (!app::isInterrupted()) adviseOnThreads(session, *player, *device);
 }
 
 } // namespace

@@ -1,15 +1,12 @@
 // Makes the simulation, the renderers and the warm-up.
 #include "viewer/jobs/prepared_player.hpp"
 
-#include "app/thread_advice.hpp"
 #include "sinew/gpu_tune.hpp"
 #include "sinew/vk/kernel_store.hpp"
 #include "sinew/vk/queue.hpp"
 #include "viewer/jobs/gauges.hpp"
 #include "viewer/jobs/replay.hpp"
 #include "viewer/jobs/warm_up.hpp"
-
-#include <cstdio>
 
 namespace sinew::viewer {
 
@@ -22,10 +19,7 @@ sim::Settings fastest(const vk::Device& device, const OpenedScene& opening) {
     app::addRoomForUser(settings);
     if (opening.reload) settings = sim::withRoomsOf(settings, opening.reload->settings);
     if (opening.run) return settings;
-    settings = sim::tuned(device, queue, opening.loaded.scene, settings);
-    if (const auto advice = app::adviseOnThreads(device, opening.loaded.scene, settings))
-        std::printf("%s\n", advice->c_str()); // not stderr: nothing is wrong
-    return settings;
+    return sim::tuned(device, queue, opening.loaded.scene, settings);
 }
 
 } // namespace

@@ -28,6 +28,7 @@ public:
     /// it returns; it may then be called again. Throws vk::Error.
     std::unique_ptr<OpenedScene> run();
 
+    const Document& document() const { return document_; }
     /// The view of the scene.
     const Camera& camera() const { return controller_.camera; }
 
