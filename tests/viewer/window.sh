@@ -70,7 +70,7 @@ awaitTitle() { # PATTERN
 keys() { xdotool key --window "$window" "$@"; }
 quit() { # quits by the key. xdotool fails if the window closes before it releases the keys, and Q would stay pressed for the next one
     keys ctrl+q 2>/dev/null || true
-    for _ in {1..300}; do
+    for _ in {1..1200}; do
         kill -0 "$running" 2>/dev/null || { xdotool keyup q keyup ctrl; return; }
         sleep 0.1
     done
