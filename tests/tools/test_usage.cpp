@@ -80,6 +80,8 @@ TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
         {"run", "a.toml", "--forms", "texels=2"},
         {"run", "a.toml", "--forms", "items=1"},
         {"describe", "a.toml", "--forms", "rows=1"},
+        {"describe", "a.toml", "--predict"},
+        {"describe", "a.toml", "--cards", "b.csv"},
         {"bench", "--contacts", "--only", "heap"},
         {"devices", "extra"},
     };
@@ -98,6 +100,24 @@ TEST_F(Usage, DescribeNeedsNoDevice) {
     EXPECT_NE(
         run({"describe", shippedScene("cube"), "--solver", "jacobi"}, noDevice).out.find("apply_corrections"),
         std::string::npos);
+}
+
+TEST_F(Usage, DescribePredictsCardsThatAreNotThere) {
+    const Outcome outcome = run({"describe", shippedScene("cube"), "--predict", "h200"}, noDevice);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_EQ(outcome.out.rfind("predicted for h200, not measured", 0), 0u) << outcome.out;
+    EXPECT_NE(outcome.out.find("gather_node "), std::string::npos) << outcome.out;
+    expectOneError(run({"describe", shippedScene("cube"), "--predict", "h300"}, noDevice), 2,
+                   "no card \"h300\": choose h200, rx6900xt, rtx4060m, xelp96");
+    const auto cards = write("cards.csv", "name,simds,lanes,waves,ghz,gb_s,dispatch_us,empty_us\n"
+                                          "mine,10,32,16,1,100,1000,1000\n");
+    const Outcome mine =
+        run({"describe", shippedScene("cube"), "--predict", "mine", "--cards", cards.string()}, noDevice);
+    EXPECT_EQ(mine.code, 0) << mine.error;
+    EXPECT_NE(mine.out.find("all: 34."), std::string::npos) << mine.out; // 34 dispatches of 1 ms, and work
+    expectOneError(
+        run({"describe", shippedScene("cube"), "--predict", "mine", "--cards", "no.csv"}, noDevice), 3,
+        "cannot read cards: no.csv");
 }
 
 TEST_F(Usage, MeshRepairsAndSaysSo) {

@@ -3,6 +3,7 @@
 #include "sinew/commands.hpp"
 #include "sinew/options.hpp"
 #include "sinew/outputs.hpp"
+#include "sinew/predict/predict.hpp"
 #include "sinew/report.hpp"
 
 #include <CLI/CLI.hpp>
@@ -13,7 +14,23 @@ namespace sinew::tools {
 
 namespace {
 
-int describe(const SceneOptions& options) {
+struct DescribeOptions : SceneOptions {
+    std::string card, cards;
+};
+
+// The model of a GPU, with the forms that one starts with.
+int predict(const DescribeOptions& options) {
+    const Card card =
+        findCard(options.cards.empty() ? shippedCards() : loadCards(options.cards), options.card);
+    scenes::LoadedScene loaded = loadScene(options);
+    loaded.settings.forms = sim::completed(loaded.settings.forms, sim::DeviceKind::gpu);
+    TextOutput("-").write(
+        predictionText(sim::compile(loaded.scene, loaded.settings), card, shippedKernels()));
+    return 0;
+}
+
+int describe(const DescribeOptions& options) {
+    if (!options.card.empty()) return predict(options);
     const scenes::LoadedScene loaded = loadScene(options);
     TextOutput("-").write(sim::describe(sim::compile(loaded.scene, loaded.settings)) + stiffnessText(loaded) +
                           errorText({}));
@@ -25,8 +42,13 @@ int describe(const SceneOptions& options) {
 void addDescribe(CLI::App& app, Chosen& chosen) {
     CLI::App& command = *app.add_subcommand(
         "describe", "print the passes, buffers and barriers of a scene's step; needs no device");
-    const auto options = std::make_shared<SceneOptions>();
+    const auto options = std::make_shared<DescribeOptions>();
     addSceneOptions(command, *options);
+    CLI::Option* card = command.add_option("--predict", options->card,
+                                           "instead, predict the time of each pass on a card that need not "
+                                           "be there: h200, rx6900xt, rtx4060m, xelp96");
+    command.add_option("--cards", options->cards, "file with other cards, as tools/sinew/predict/cards.csv")
+        ->needs(card);
     command.callback([options, &chosen] { chosen = [options] { return describe(*options); }; });
 }
 
