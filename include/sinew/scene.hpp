@@ -371,7 +371,12 @@ struct SINEW_API Settings {
     /// `gauss_seidel` only if none ends at a particle that never moves. Motion stays the same, except for
     /// rounding in `split` without contacts.
     bool keepsForces = false;
-    std::uint32_t grabs = 0; ///< grabs that can be active at a time (Step::grabs), 0..8; 0 = no passes
+    /// Kinds of events that a step lists (Simulation::events): bits of EventKind, such as allEvents; 0 = no
+    /// passes. Contacts add a pass to each substep, with a memory of 8 bytes for each body and each body,
+    /// plane or collider that it may touch. Motion keeps its bits.
+    std::uint32_t events = 0;
+    std::uint32_t eventRoom = 256; ///< events that are kept of a step, 1..65536; 16 bytes each
+    std::uint32_t grabs = 0;       ///< grabs that can be active at a time (Step::grabs), 0..8; 0 = no passes
     std::uint32_t hostColliders =
         0; ///< kinematic colliders at a time (Step::hostColliders), 0..8; 0 = no passes
     /// Force fields at a time (Step::fields), 0..16; 0 = no passes. With room for one, no body stays in

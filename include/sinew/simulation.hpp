@@ -2,6 +2,7 @@
 // read views.
 #pragma once
 
+#include "sinew/events.hpp"
 #include "sinew/export.hpp"
 #include "sinew/scene.hpp"
 #include "sinew/step.hpp"
@@ -304,6 +305,10 @@ public:
     /// for each body, then one for each grab, plane, host collider, collider, then the others; an empty view
     /// without Settings::keepsForces. Written by the commands of record(), visible as positions() are.
     vk::BufferView forceSums() const noexcept;
+    /// The events of a step (Settings::events), available when its status() is, and as long. Does not wait;
+    /// allocates its list. Equal on every device that computes the same bits, whatever the order of
+    /// invocations and the forms of kernels.
+    Events events(std::uint64_t frame) const;
     /// Sentences about mistakes in the host's recording that were ignored: a step before the first reset,
     /// more steps in flight than Settings::framesInFlight, more grabs, host colliders or anchors than
     /// allowed, an invalid blade or one without a cuttable body, and steps undone for lack of

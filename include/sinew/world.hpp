@@ -68,6 +68,8 @@ public:
 
     /// Simulation::status() of any step since the last release(), before a take-over or after.
     StepStatus status(std::uint64_t frame) const noexcept;
+    /// Simulation::events() of such a step. Indices are those of the scene that the step was recorded with.
+    Events events(std::uint64_t frame) const;
     /// Reads the status of a finished step: if it lacked room for contacts or for the surface of cuts, a
     /// simulation with more is made. Returns false if there is no more to be had: beyond ranges.hpp, or
     /// because a making with it has failed.

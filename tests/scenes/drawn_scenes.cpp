@@ -2,6 +2,7 @@
 #include "scenes/drawn_scenes.hpp"
 
 #include "sinew/bodies.hpp"
+#include "sinew/events.hpp"
 
 #include <array>
 #include <random>
@@ -186,6 +187,7 @@ DrawnScene drawScene(std::uint32_t seed) {
     addBodies(drawn.scene, lots, drawn.settings.solver == Solver::split);
     addWorld(drawn.scene, lots);
     drawn.settings.fields = lots.extraIn(3) ? 1 : 0;
+    drawn.settings.events = lots.extraIn(2) ? allEvents : 0;
     return drawn;
 }
 

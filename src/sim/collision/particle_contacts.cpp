@@ -6,6 +6,7 @@
 #include "sim/collision/cut_contacts.hpp"
 #include "sim/collision/debris_contacts.hpp"
 #include "sim/collision/overlaps.hpp"
+#include "sim/events/events.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/sleep/sleep.hpp"
 #include "sinew/ranges.hpp"
@@ -184,6 +185,16 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                      {countsNearId, contacts.countsNear}});
 }
 
+void addEvents(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
+    const contact_lists::Lists& lists = contacts.lists;
+    events::SeenPairs pairs{lists.pooled.contacts, lists.pooled.ranges, lists.hits, contacts.touching};
+    if (contacts.solvesListedGroups) {
+        pairs.groups = lists.grid.touching;
+        pairs.listed = lists.touching;
+    }
+    events::addPairs(program, predicted, pairs);
+}
+
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next) {
     const contact_lists::Lists& lists = contacts.lists;
@@ -326,6 +337,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
     }
     sleep::addTouches(program, predicted);
     addCount(program, contacts, predicted);
+    addEvents(program, contacts, predicted);
     addGather(program, contacts, predicted, next);
 }
 

@@ -2,6 +2,7 @@
 #include "sim/collision/row_contacts.hpp"
 
 #include "kernels.hpp"
+#include "sim/events/events.hpp"
 
 namespace sinew::sim::collision::row_contacts {
 
@@ -116,6 +117,7 @@ void addPasses(ProgramBuilder& program, const Rows& rows, const ParticleBuffers&
     else
         addOverRows(program, rows, touch, std::move(buffers), constants);
     sleep::addRowTouches(program, predicted, seenOf(rows));
+    events::addRows(program, predicted, seenOf(rows));
     addShares(program, rows, rows.directions, predicted);
     addOverRows(program, rows, k::computeRowImpulses,
                 {predicted.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.directions,

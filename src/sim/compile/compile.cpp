@@ -71,7 +71,8 @@ ParticleBuffers addParticles(ProgramBuilder& program, const SceneModel& model,
             .layout = layout,
             .sleep = nullptr,
             .grabs = nullptr,
-            .forces = nullptr};
+            .forces = nullptr,
+            .events = nullptr};
 }
 
 // Settling resets the w of positions, which a solver may derive from the material, to the initial values: in

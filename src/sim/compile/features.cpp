@@ -6,6 +6,7 @@
 #include "sim/constraints/tether.hpp"
 #include "sim/cutting/cut.hpp"
 #include "sim/cutting/cut_lists.hpp"
+#include "sim/events/events.hpp"
 #include "sim/fields/fields.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/grabs/grab.hpp"
@@ -51,6 +52,11 @@ constexpr Feature rows[] = {
      .substepBegin = rigid::colliders::addSaving,
      .substepEnd = rigid::colliders::addPass},
     {.name = "driven bodies", .open = rigid::driven::add, .afterLinks = rigid::driven::addPass},
+    {.name = "events",
+     .buffers = events::add,
+     .begin = events::addClearing,
+     .substepEnd = events::addSupports,
+     .end = events::addListing},
     {.name = "sleep",
      .buffers = sleep::add,
      .open = sleep::addOpening,

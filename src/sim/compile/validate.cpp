@@ -5,6 +5,7 @@
 #include "sim/compile/compile.hpp"
 #include "sim/core/complaints.hpp"
 #include "sim/cutting/cut_lists.hpp"
+#include "sim/events/events.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/lattice/check_grid.hpp"
 #include "sim/levels/levels.hpp"
@@ -523,11 +524,6 @@ void checkCellVolumes(const Scene& scene, const Settings& settings, Complaints& 
     }
 }
 
-// Needs a scene that is otherwise valid.
-void checkForces(const Scene& scene, const Settings& settings, Complaints& complaints) {
-    forces::checkRoom(SceneModel(scene, settings), complaints);
-}
-
 } // namespace
 
 bool canRecover(const Scene& scene, const Settings& settings) {
@@ -564,6 +560,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkFaces(scene, complaints);
     if (complaints.isEmpty()) checkContacts(scene, settings, complaints);
     if (complaints.isEmpty()) forces::check(scene, settings, complaints);
+    events::check(scene, settings, complaints);
     levels::check(scene, settings, complaints);
     checkLinks(scene, settings, complaints);
     checkSurfaces(scene.contacts, complaints);
@@ -580,7 +577,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     if (complaints.isEmpty()) checkChosenSweeps(scene, settings, complaints);
     if (complaints.isEmpty()) checkColors(scene, settings, complaints);
     if (complaints.isEmpty() && settings.keepsForces && !scene.particles.empty())
-        checkForces(scene, withSubsteps(scene, settings), complaints);
+        forces::checkRoom(SceneModel(scene, withSubsteps(scene, settings)), complaints);
     return complaints.finish();
 }
 

@@ -5,6 +5,7 @@
 #include "sim/cutting/cut_plan.hpp"
 #include "sim/cutting/debris.hpp"
 #include "sim/cutting/tearing.hpp"
+#include "sim/events/events.hpp"
 #include "sim/grabs/grab.hpp"
 #include "sim/sleep/sleep.hpp"
 #include "sim/surface/cut_surface.hpp"
@@ -88,6 +89,7 @@ void addBladePasses(ProgramBuilder& program, Cut& cut, const ParticleBuffers& pa
     program.updateBlade(cut.blade, cut.points);
     program.fill(cut.work, 0);
     program.copy(buffers.links, buffers.savedLinks); // an undone step restores these
+    events::addPiecesCleared(program, particles);
     for (const Run& run : cut.runs)
         program.dispatch(k::openCut, run.push.count,
                          {particles.positions, particles.velocities, cut.placesBefore, particles.step,
@@ -96,12 +98,14 @@ void addBladePasses(ProgramBuilder& program, Cut& cut, const ParticleBuffers& pa
     if (cut.surface)
         cut.bladePlaces = surface::addPulling(program, *cut.surface, cut.placesBefore, cut.work, cut.blade);
     addBlade(program, cut);
+    events::addBladeEnd(program, particles);
     if (cut.tearing) addTearingPasses(program, *cut.tearing, cut);
     addListing(program, cut);
     for (const Run& run : cut.runs)
         program.dispatchIndirect(k::removeLooseLinks, {buffers.listedArguments, run.push.run, run.push.count},
                                  {buffers.links, buffers.dirty, buffers.listedCounts, buffers.listed},
                                  run.push);
+    for (const Run& run : cut.runs) events::addCut(program, particles, run.push);
     addWholeCells(program, cut);
     addWaking(program, cut, particles);
 }
@@ -169,6 +173,9 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuf
                 {cut.labels, cut.particles, buffers.pieces, buffers.pieceSizes, buffers.counts}, chunksOf);
     addParting(program, cut, particles);
     addDebrisRemoval(program, cut, particles);
+    for (std::uint32_t r = 0; r < runs; ++r)
+        events::addPieces(program, particles, cut.runs[r].push,
+                          {cut.arguments, 2 * runs + r, cut.runs[r].push.count});
 }
 
 // Draws what the links leave: debris, the surface of cuts, the skins of sheets.
@@ -203,6 +210,7 @@ void addOpening(Build& build) {
     Cut& cut = build.keep(std::move(added));
     cut.bladePlaces = cut.buffers.places;
     addDebris(program, build.model.scene, cut, build.particles);
+    events::addCutBuffers(program, build.particles);
     program.beginPhase("cut");
     program.only(When::cut, [&] { addBladePasses(program, cut, build.particles); });
 }
@@ -227,7 +235,9 @@ void addRewriting(Build& build) {
     if (cut->surface)
         surface::addSkinHits(program, *cut->surface, cut->bladePlaces, cut->placesBefore, cut->blade,
                              cut->points);
+    events::addPiecesCleared(program, build.particles);
     addFindingPieces(program, *cut, build.particles);
+    events::addPiecesKept(program, build.particles);
     addSurfaces(program, *cut);
 }
 

@@ -31,6 +31,10 @@ namespace forces {
 struct Forces;
 }
 
+namespace events {
+struct Events;
+}
+
 /// Order of the particles in a solver's state: the order of the scene in most solvers; `split` places bodies
 /// on a grid into dense boxes. Slots without a particle never move.
 struct StateLayout {
@@ -65,6 +69,7 @@ struct ParticleBuffers {
     std::shared_ptr<sleep::Sleep> sleep;          ///< null if nothing sleeps
     std::shared_ptr<grabs::Grabs> grabs;          ///< null without grabs
     std::shared_ptr<const forces::Forces> forces; ///< null if no forces are kept
+    std::shared_ptr<events::Events> events;       ///< null if no events are listed
 };
 
 /// Share of the gravity kick h g, contained in the velocities, that particles have moved by when links are

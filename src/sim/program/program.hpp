@@ -158,7 +158,9 @@ enum class Elements : std::uint8_t {
     slots,
     particles,
     attachments,
-    movers,       ///< host colliders, colliders, driven bodies
+    movers, ///< host colliders, colliders, driven bodies
+    bodies,
+    bodyPartners, ///< of each body, what it may touch (EventBuffers)
     interlocks,   ///< pairs of bodies (StepProgram::interlocks)
     prisms,       ///< of clipped skins (SkinSpan)
     skinVertices, ///< of clipped skins (SkinSpan)
@@ -301,6 +303,14 @@ struct ForceBuffers {
                   holds = 0; ///< number of each
 };
 
+/// Events of a step (events.hpp); invalid if none are listed.
+struct EventBuffers {
+    BufferId list; ///< layout::EventEntry: a head, then the events
+    /// Partners of a body, in this order. Numbers of planes and colliders are 0 if contacts are not listed.
+    std::uint32_t bodies = 0, planes = 0, hostColliders = 0, colliders = 0;
+    std::uint32_t rowWords = 0; ///< a body has 32 of these partners, and unused ones
+};
+
 /// The pass lists of a program. Each is recorded by itself; any but the first may be empty.
 enum class List : std::uint8_t {
     step, ///< for every step
@@ -343,6 +353,7 @@ struct StepProgram {
     HostColliderGroups hostColliders;
     FieldGroups fields;
     ForceBuffers forces;
+    EventBuffers events;
     CuttingBuffers cutting;
     CutSurfaceBuffers cutSurface;
     std::vector<PieceVertices> pieceSkins; ///< one for each cuttable sheet with a skin

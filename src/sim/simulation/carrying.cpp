@@ -85,6 +85,34 @@ Origin spanOrigins(const StepProgram& from, const StepProgram& to, const Origin&
     return origins;
 }
 
+// By partner of a body, one list after another (EventBuffers): the partner before.
+Origin partnerOrigins(const EventBuffers& from, const EventBuffers& to, const Origins& origins) {
+    Origin partners;
+    std::uint32_t first = 0;
+    const auto add = [&](auto begin, std::uint32_t count, std::uint32_t before) {
+        for (std::uint32_t i = 0; i < count; ++i, ++begin)
+            partners.push_back(*begin < before ? first + *begin : NO_ELEMENT);
+        first += before;
+    };
+    add(origins.bodies.begin(), to.bodies, from.bodies);
+    add(origins.planes.begin(), to.planes, from.planes);
+    add(origins.movers.begin(), to.hostColliders + to.colliders, from.hostColliders + from.colliders);
+    return partners;
+}
+
+// By body and partner. Bodies keep their order, so a pair stays in the row of its first body.
+Origin pairOrigins(const EventBuffers& from, const EventBuffers& to, const Origins& origins) {
+    const std::uint32_t rowBefore = 32 * from.rowWords, row = 32 * to.rowWords;
+    if (rowBefore == 0 || row == 0) return {};
+    const Origin partners = partnerOrigins(from, to, origins);
+    Origin pairs(std::size_t{to.bodies} * row, NO_ELEMENT);
+    for (std::uint32_t body = 0; body < to.bodies; ++body)
+        for (std::uint32_t p = 0; p < partners.size(); ++p)
+            if (origins.bodies[body] != NO_ELEMENT && partners[p] != NO_ELEMENT)
+                pairs[std::size_t{body} * row + p] = origins.bodies[body] * rowBefore + partners[p];
+    return pairs;
+}
+
 Origin identity(std::size_t count) {
     Origin origins(count);
     std::iota(origins.begin(), origins.end(), 0u);
@@ -131,6 +159,8 @@ public:
         tables_[Elements::slots].runs = joined(tables_[Elements::slots].runs);
         add(Elements::attachments, origins.attachments, 0);
         add(Elements::movers, origins.movers, 0);
+        add(Elements::bodies, origins.bodies, 0);
+        add(Elements::bodyPartners, pairOrigins(first.events, second.events, origins), 0);
         add(Elements::prisms,
             spanOrigins(first, second, origins.skins, {&SkinSpan::firstPrism, &SkinSpan::prisms}), 0);
         add(Elements::skinVertices,

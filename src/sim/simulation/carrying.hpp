@@ -19,7 +19,7 @@ using Origin = std::vector<std::uint32_t>;
 
 /// The elements of a scene that were part of the scene before.
 struct Origins {
-    Origin particles, attachments, skins;
+    Origin particles, attachments, skins, bodies, planes;
     Origin movers; ///< host colliders, colliders, driven bodies
 };
 

@@ -314,6 +314,42 @@ vk::BufferView Simulation::forceSums() const noexcept {
     return state_->executor.view(state_->program.forces.sums);
 }
 
+namespace {
+
+// Sets what a body touches, from its index among all that it may.
+void setPartner(Event& event, std::uint32_t partner, const EventBuffers& of) {
+    const std::pair<EventPartner, std::uint32_t> lists[] = {{EventPartner::body, of.bodies},
+                                                            {EventPartner::plane, of.planes},
+                                                            {EventPartner::hostCollider, of.hostColliders},
+                                                            {EventPartner::collider, of.colliders}};
+    for (const auto& [kind, count] : lists) {
+        event.partner = kind;
+        event.other = partner;
+        if (partner < count) return;
+        partner -= count;
+    }
+}
+
+} // namespace
+
+Events Simulation::events(std::uint64_t frame) const {
+    const StepRing& ring = state_->ring;
+    if (!ring.isFinished(frame)) return {};
+    const StepRing::Listed listed = ring.events(frame);
+    Events events{.isFinished = true, .list = {}, .lost = listed.lost};
+    for (const layout::EventEntry& entry : listed.entries) {
+        Event& event = events.list.emplace_back(
+            Event{.kind = static_cast<EventKind>(entry.kind), .body = entry.body, .count = entry.count});
+        if ((bitOf(event.kind) & contactEvents) == 0) continue;
+        setPartner(event, entry.partner, state_->program.events);
+        event.count = (entry.count + state_->substeps - 1) / state_->substeps;
+    }
+    const std::uint32_t room = ring.words(frame).candidates;
+    if (room > 0 && (state_->chosen.events & bitOf(EventKind::lacksRoom)) != 0)
+        events.list.push_back({.kind = EventKind::lacksRoom, .count = room});
+    return events;
+}
+
 std::vector<std::string> Simulation::complaints() {
     state_->readSteps();
     const std::uint64_t end = state_->lackedLists.value_or(~std::uint64_t{0}); // later steps are undone

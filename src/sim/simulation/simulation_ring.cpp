@@ -33,11 +33,14 @@ template <typename Words> Words read(const vk::Buffer& ring, std::uint32_t slot)
 
 } // namespace
 
-StepRing::StepRing(const vk::Device& device, std::uint32_t slots, bool hasCounts, std::size_t forces)
+StepRing::StepRing(const vk::Device& device, std::uint32_t slots, const ResultSizes& sizes)
     : status_(ringOf(device, "status.ring", slots, sizeof(layout::StatusWords))),
-      ends_(ringOf(device, "status.ends", slots, sizeof(std::uint32_t))), forceCount_(forces), steps_(slots) {
-    if (hasCounts) counts_.emplace(ringOf(device, "cut.counts.ring", slots, sizeof(layout::CutCounts)));
-    if (forces > 0) forces_.emplace(ringOf(device, "forces.ring", slots, forces * sizeof(layout::ForceSum)));
+      ends_(ringOf(device, "status.ends", slots, sizeof(std::uint32_t))), sizes_(sizes), steps_(slots) {
+    if (sizes.hasCounts) counts_.emplace(ringOf(device, "cut.counts.ring", slots, sizeof(layout::CutCounts)));
+    if (sizes.forces > 0)
+        forces_.emplace(ringOf(device, "forces.ring", slots, sizes.forces * sizeof(layout::ForceSum)));
+    if (sizes.events > 0)
+        events_.emplace(ringOf(device, "events.ring", slots, sizes.events * sizeof(layout::EventEntry)));
 }
 
 void StepRing::open(const RecordedStep& step) noexcept {
@@ -57,11 +60,14 @@ vk::BufferView StepRing::slotIn(const vk::Buffer& ring, std::uint32_t slot, std:
     return view;
 }
 
-void StepRing::record(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status,
-                      const vk::BufferView& counts, const vk::BufferView& forces) const noexcept {
-    commands.copy(status, slotIn(status_, slotOf(frame), status.size));
-    if (counts_) commands.copy(counts, slotIn(*counts_, slotOf(frame), counts.size));
-    if (forces_) commands.copy(forces, slotIn(*forces_, slotOf(frame), forces.size));
+void StepRing::record(vk::Commands& commands, std::uint64_t frame, const ResultViews& views) const noexcept {
+    const auto keep = [&](const vk::BufferView& view, const vk::Buffer& ring) {
+        commands.copy(view, slotIn(ring, slotOf(frame), view.size));
+    };
+    keep(views.status, status_);
+    if (counts_) keep(views.counts, *counts_);
+    if (forces_) keep(views.forces, *forces_);
+    if (events_) keep(views.events, *events_);
 }
 
 void StepRing::recordEnd(vk::Commands& commands, std::uint64_t frame,
@@ -81,12 +87,26 @@ layout::CutCounts StepRing::counts(std::uint64_t frame) const noexcept {
 }
 
 std::vector<layout::ForceSum> StepRing::forces(std::uint64_t frame) const {
-    std::vector<layout::ForceSum> sums(forceCount_);
+    std::vector<layout::ForceSum> sums(sizes_.forces);
     if (!forces_) return sums;
     const std::size_t offset = std::size_t{slotOf(frame)} * forces_->stride();
     forces_->invalidate(offset, forces_->stride());
     std::memcpy(sums.data(), forces_->mapped() + offset, sums.size() * sizeof(layout::ForceSum));
     return sums;
+}
+
+StepRing::Listed StepRing::events(std::uint64_t frame) const {
+    if (!events_) return {};
+    const std::size_t offset = std::size_t{slotOf(frame)} * events_->stride();
+    events_->invalidate(offset, events_->stride());
+    layout::EventEntry head;
+    std::memcpy(&head, events_->mapped() + offset, sizeof head);
+    const auto kept = std::min<std::size_t>(head.kind, sizes_.events - 1);
+    Listed listed{std::vector<layout::EventEntry>(kept), head.kind - static_cast<std::uint32_t>(kept)};
+    if (kept > 0)
+        std::memcpy(listed.entries.data(), events_->mapped() + offset + sizeof head,
+                    kept * sizeof(layout::EventEntry));
+    return listed;
 }
 
 bool StepRing::isFinished(std::uint64_t frame) const noexcept {

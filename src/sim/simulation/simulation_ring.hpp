@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/layout.h"
+#include "events/events.h"
 #include "sinew/scene.hpp"
 #include "sinew/vk/buffer.hpp"
 #include "sinew/vk/commands.hpp"
@@ -23,11 +24,22 @@ struct RecordedStep {
     std::uint32_t generation = 0; ///< of steps: a new one begins when a state comes from elsewhere
 };
 
+/// Numbers of results of a step beside its status.
+struct ResultSizes {
+    bool hasCounts = false; ///< of cuts
+    std::size_t forces = 0; ///< sums
+    std::size_t events = 0; ///< entries of the list, its head included
+};
+
+/// Results of a step on the device; views of those that the ring does not hold are empty.
+struct ResultViews {
+    vk::BufferView status, counts, forces, events;
+};
+
 class StepRing {
 public:
-    /// Makes a ring for `slots` steps. With `hasCounts` it also holds the counts of cuts, and `forces` sums
-    /// of forces.
-    StepRing(const vk::Device& device, std::uint32_t slots, bool hasCounts, std::size_t forces);
+    /// Makes a ring for `slots` steps.
+    StepRing(const vk::Device& device, std::uint32_t slots, const ResultSizes& sizes);
 
     std::uint32_t slots() const noexcept { return static_cast<std::uint32_t>(steps_.size()); }
     std::uint32_t slotOf(std::uint64_t frame) const noexcept {
@@ -38,8 +50,7 @@ public:
     /// Gives the slot of `step` to it; the step then counts as unfinished. Never allocates.
     void open(const RecordedStep& step) noexcept;
     /// Records the copies of results into the slot of `frame`.
-    void record(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status,
-                const vk::BufferView& counts, const vk::BufferView& forces) const noexcept;
+    void record(vk::Commands& commands, std::uint64_t frame, const ResultViews& views) const noexcept;
     /// Records the copy that marks `frame` as finished. The caller puts a barrier between the two that makes
     /// the copies of record() visible to the host (vk::Commands::endStepForHost).
     void recordEnd(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status) const noexcept;
@@ -49,6 +60,12 @@ public:
     layout::CutCounts counts(std::uint64_t frame) const noexcept;
     /// Sums of forces of that step; empty if none are kept.
     std::vector<layout::ForceSum> forces(std::uint64_t frame) const;
+    /// Entries of the list of events of that step, and the number of those that had no room.
+    struct Listed {
+        std::vector<layout::EventEntry> entries;
+        std::uint32_t lost = 0;
+    };
+    Listed events(std::uint64_t frame) const;
     /// Whether `frame` was recorded, still has its slot and has finished on the device.
     bool isFinished(std::uint64_t frame) const noexcept;
     /// The step of `frame`, for its reader to mark.
@@ -71,8 +88,8 @@ private:
     static vk::BufferView slotIn(const vk::Buffer& ring, std::uint32_t slot, std::size_t size) noexcept;
 
     vk::Buffer status_, ends_; // slots are whole atoms, since host and device write side by side
-    std::optional<vk::Buffer> counts_, forces_; // in whole atoms too
-    std::size_t forceCount_ = 0;
+    std::optional<vk::Buffer> counts_, forces_, events_; // in whole atoms too
+    ResultSizes sizes_;
     std::vector<RecordedStep> steps_;
     std::uint64_t undone_ = 0; // undone steps whose slots were reused
 };

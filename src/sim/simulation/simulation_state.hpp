@@ -119,7 +119,7 @@ struct Simulation::State {
     State(const vk::Device& d, const Scene& scene, const Settings& settings, Resolved)
         : device(d.anchored()), chosen(settings), program(compileFor(d, scene, settings)),
           executor(d, program), written(writtenByStep(program)), sceneKey(sim::sceneKey(scene)),
-          ring(d, settings.framesInFlight, program.cutting.counts != BufferId{}, forceCount(program)),
+          ring(d, settings.framesInFlight, resultSizes(program)),
           skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
           anchors(scene.attachments), grabs(settings.grabs, scene.particles.size()),
           fields(settings.fields, scene.bodies.size(), program.fields),
@@ -133,9 +133,12 @@ struct Simulation::State {
         for (Before& one : befores) one.anchors.resize(anchors.values().size());
     }
 
-    // Number of sums of forces that a step reads back.
-    static std::size_t forceCount(const StepProgram& of) {
-        return of.forces.sums == BufferId{} ? 0 : of.buffers[of.forces.sums.index].count;
+    // What a step reads back beside its status.
+    static ResultSizes resultSizes(const StepProgram& of) {
+        const auto countOf = [&](BufferId buffer) -> std::size_t {
+            return buffer == BufferId{} ? 0 : of.buffers[buffer.index].count;
+        };
+        return {of.cutting.counts != BufferId{}, countOf(of.forces.sums), countOf(of.events.list)};
     }
 
     bool mayBeCut() const noexcept { return program.cutting.counts != BufferId{}; }
@@ -231,8 +234,9 @@ struct Simulation::State {
             commands.update(executor.view(program.status), &words, sizeof words);
             commands.barrier();
         }
-        ring.record(commands, frame, executor.view(program.status), executor.view(program.cutting.counts),
-                    executor.view(program.forces.sums));
+        ring.record(commands, frame,
+                    {executor.view(program.status), executor.view(program.cutting.counts),
+                     executor.view(program.forces.sums), executor.view(program.events.list)});
     }
 
     // Records the mark that a step has finished: after a barrier that follows all its results for the host.

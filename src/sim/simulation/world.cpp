@@ -65,6 +65,8 @@ Origins originsOf(const Scene& before, const Parts& partsBefore, const Scene& no
     Origins origins{.particles = none(now.particles.size()),
                     .attachments = none(now.attachments.size()),
                     .skins = none(now.skins.size()),
+                    .bodies = none(now.bodies.size()),
+                    .planes = none(now.planes.size()),
                     .movers = none(hostColliders + now.colliders.size() + now.driven.size())};
     const auto length = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
     for (std::uint32_t k = 0; k < hostColliders; ++k) origins.movers[k] = k;
@@ -74,6 +76,8 @@ Origins originsOf(const Scene& before, const Parts& partsBefore, const Scene& no
     add(origins.particles, {&SceneCounts::particles});
     add(origins.attachments, {&SceneCounts::attachments});
     add(origins.skins, {&SceneCounts::skins});
+    add(origins.bodies, {&SceneCounts::bodies});
+    add(origins.planes, {&SceneCounts::planes});
     add(origins.movers, {&SceneCounts::colliders, hostColliders, hostColliders});
     add(origins.movers, {&SceneCounts::driven, hostColliders + length(before.colliders),
                          hostColliders + length(now.colliders)});
@@ -212,6 +216,13 @@ StepStatus World::status(std::uint64_t frame) const noexcept {
         if (before.isFinished) return before;
     }
     return status;
+}
+
+Events World::events(std::uint64_t frame) const {
+    Events events = simulation_->events(frame);
+    for (std::size_t k = replaced_.size(); k-- > 0 && !events.isFinished;)
+        events = replaced_[k]->simulation->events(frame);
+    return events;
 }
 
 bool World::observe(const StepStatus& status) {

@@ -35,25 +35,6 @@ std::vector<std::uint32_t> componentsOf(const SceneModel& model) {
     return result;
 }
 
-// Largest drift of a resting particle [m]: 0.02 radii, or without a radius 0.01 of the mean length of its
-// links.
-std::vector<float> limitsOf(const Scene& scene, const StateLayout& layout) {
-    constexpr float ofRadius = 0.02f, ofLength = 0.01f, ofNothing = 0.001f;
-    std::vector<float> lengths(scene.particles.size()), links(scene.particles.size());
-    for (const DistanceConstraint& d : scene.distances)
-        for (const std::uint32_t end : {d.a, d.b}) {
-            lengths[end] += d.restLength;
-            links[end] += 1;
-        }
-    std::vector<float> limits(layout.count);
-    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
-        const float radius = scene.particles[i].radius;
-        const float mean = links[i] > 0 ? lengths[i] / links[i] : 0;
-        limits[layout.slot[i]] = radius > 0 ? ofRadius * radius : mean > 0 ? ofLength * mean : ofNothing;
-    }
-    return limits;
-}
-
 std::vector<float> weightsOf(const SceneModel& model) {
     const std::vector<bool> isDriven = rigid::driven::areDriven(model.scene);
     std::vector<float> weights(model.layout.count, 0);
@@ -140,6 +121,23 @@ void setContents(ProgramBuilder& program, BufferId buffer, std::span<const std::
 
 } // namespace
 
+std::vector<float> restLimits(const Scene& scene, const StateLayout& layout) {
+    constexpr float ofRadius = 0.02f, ofLength = 0.01f, ofNothing = 0.001f;
+    std::vector<float> lengths(scene.particles.size()), links(scene.particles.size());
+    for (const DistanceConstraint& d : scene.distances)
+        for (const std::uint32_t end : {d.a, d.b}) {
+            lengths[end] += d.restLength;
+            links[end] += 1;
+        }
+    std::vector<float> limits(layout.count);
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        const float radius = scene.particles[i].radius;
+        const float mean = links[i] > 0 ? lengths[i] / links[i] : 0;
+        limits[layout.slot[i]] = radius > 0 ? ofRadius * radius : mean > 0 ? ofLength * mean : ofNothing;
+    }
+    return limits;
+}
+
 void add(Build& build) {
     const SceneModel& model = build.model;
     if (!model.settings.sleeps) return;
@@ -157,7 +155,7 @@ void add(Build& build) {
     state.listed = sleep->push.groups;
     sleep->state = program.upload("sleep.state", std::vector{state});
     sleep->weights = program.upload("sleep.weights", weightsOf(model));
-    sleep->limits = program.upload("sleep.limits", limitsOf(model.scene, layout));
+    sleep->limits = program.upload("sleep.limits", restLimits(model.scene, layout));
     sleep->rests = program.scratch<layout::vec4>("sleep.rests", count);
     sleep->components = program.upload("sleep.components", componentsOf(model));
     sleep->islands = program.scratch<std::uint32_t>("sleep.islands", count);

@@ -31,6 +31,9 @@ struct Sleep {
     std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`
 };
 
+/// Largest drift of a resting particle by slot [m]: 0.02 radii, or without a radius 0.01 of the mean length
+/// of its links.
+std::vector<float> restLimits(const Scene& scene, const StateLayout& layout);
 /// Inverse masses by slot, also of sleeping particles [1/kg]; unbound if none can sleep.
 BufferId weightsOf(const ParticleBuffers& particles);
 /// By work group of particles: 0 if passes over listed groups leave it out; unbound if none can sleep.

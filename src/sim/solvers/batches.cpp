@@ -1,6 +1,7 @@
 // Grids of equal shape and material are marched in one dispatch: chunks differ only in where they begin.
 #include "sim/solvers/batches.hpp"
 #include "sim/model/grids.hpp"
+#include "sinew/events.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -111,11 +112,12 @@ void appendBody(Batch& batch, const lattice::Box& box, std::vector<layout::Latti
 } // namespace
 
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids) {
-    // levels, attachments, grabs, fields, tethers, colliders, host colliders and driven bodies need passes
-    // between substeps
-    if (settings.keepsForces || settings.levels > 0 || !scene.attachments.empty() || settings.grabs > 0 ||
-        settings.fields > 0 || settings.hostColliders > 0 || !scene.tethers.empty() ||
-        !scene.colliders.empty() || !scene.driven.empty())
+    // levels, attachments, grabs, fields, tethers, colliders, host colliders, driven bodies and events of
+    // contacts need passes between substeps
+    if (settings.keepsForces || (settings.events & contactEvents) != 0 || settings.levels > 0 ||
+        !scene.attachments.empty() || settings.grabs > 0 || settings.fields > 0 ||
+        settings.hostColliders > 0 || !scene.tethers.empty() || !scene.colliders.empty() ||
+        !scene.driven.empty())
         return false;
     if (grids.empty() || listedParticles(scene, grids) > 0) return false;
     return std::ranges::all_of(grids, [&](std::uint32_t g) {
