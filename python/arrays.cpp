@@ -47,4 +47,25 @@ py::array outputArray(SinewDevice device, SinewSimulation simulation, std::uint3
     return array;
 }
 
+py::list eventsOf(SinewSimulation simulation) {
+    constexpr std::array<const char*, 5> partners{"", "body", "plane", "host_collider", "collider"};
+    std::uint32_t count = 0;
+    check(sinewGetStepEvents(simulation, &count, nullptr, nullptr));
+    std::vector<SinewEvent> events(count);
+    check(sinewGetStepEvents(simulation, &count, events.data(), nullptr));
+    using namespace py::literals;
+    py::list list;
+    for (const SinewEvent& event : events) {
+        py::dict entry("step"_a = event.frame, "kind"_a = eventNames[event.kind]);
+        if (event.kind != SINEW_EVENT_LACKS_ROOM) entry["body"] = event.body;
+        if (event.partner != SINEW_PARTNER_NONE) {
+            entry["partner"] = partners[event.partner];
+            entry["other"] = event.other;
+        }
+        entry["count"] = event.count;
+        list.append(entry);
+    }
+    return list;
+}
+
 } // namespace sinew::python

@@ -1,7 +1,7 @@
 // Arrays and vectors between Python and the C interface.
 #pragma once
 
-#include "sinew/sinew.h"
+#include "sinew/sinew_events.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -28,6 +28,12 @@ inline SinewVec3 toVec3(const Vector& v) {
 
 /// The number of rows of an array with `columns` columns. Throws ValueError that names the array.
 std::uint32_t rowsOf(const py::array& array, std::size_t columns, const char* name);
+
+/// Names of the kinds of events, by bit of SinewSettings::events.
+inline constexpr std::array<const char*, 8> eventNames{
+    "contact_begins", "contact_ends", "cut", "tear", "pieces", "sleeps", "wakes", "lacks_room"};
+/// Events of the newest steps of a simulation, as a list of dicts.
+py::list eventsOf(SinewSimulation simulation);
 
 /// Values of `count` elements, given as one number or as an array with one for each.
 class PerElement {

@@ -113,6 +113,24 @@ void addSettings(py::module_& module) {
             if (found == std::end(solverNames)) throw py::value_error("there is no solver " + name);
             settings.values.solver = static_cast<std::uint32_t>(found - std::begin(solverNames));
         });
+    type.def_property(
+        "events",
+        [](const Settings& settings) {
+            std::vector<std::string> names;
+            for (std::size_t kind = 0; kind < eventNames.size(); ++kind)
+                if ((settings.values.events >> kind & 1) != 0) names.emplace_back(eventNames[kind]);
+            return names;
+        },
+        [](Settings& settings, const std::vector<std::string>& names) {
+            std::uint32_t events = 0;
+            for (const std::string& name : names) {
+                const auto found = std::ranges::find(eventNames, name);
+                if (found == eventNames.end()) throw py::value_error("there is no event " + name);
+                events |= 1u << (found - eventNames.begin());
+            }
+            settings.values.events = events;
+        });
+    add("event_room", &SinewSettings::eventRoom);
     add("substeps", &SinewSettings::substeps);
     add("iterations", &SinewSettings::iterations);
     add("tolerance", &SinewSettings::tolerance);
@@ -193,6 +211,7 @@ void addSimulation(py::module_& module) {
              })
         .def("status", &Simulation::status)
         .def("impulses", &Simulation::impulses)
+        .def("events", [](const Simulation& self) { return eventsOf(self.handle); })
         .def("complaints", &Simulation::complaints)
         .def_property_readonly("positions", output(SINEW_POSITIONS))
         .def_property_readonly("velocities", output(SINEW_VELOCITIES))

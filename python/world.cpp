@@ -148,6 +148,7 @@ void addWorld(py::module_& module) {
              py::arg("grabs") = std::vector<SinewGrab>{}, py::arg("fields") = std::vector<SinewField>{})
         .def("positions", output(SINEW_POSITIONS), py::arg("part") = py::none())
         .def("velocities", output(SINEW_VELOCITIES), py::arg("part") = py::none())
+        .def("events", [](const World& self) { return eventsOf(self.info().simulation); })
         .def("counts", [](const World& self) { return dictOf(self.counts()); })
         .def_property_readonly("is_changing", [](const World& self) { return self.info().isChanging != 0; })
         .def_property_readonly("take_overs", [](const World& self) { return self.info().takeOvers; })

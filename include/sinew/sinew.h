@@ -374,6 +374,7 @@ typedef struct SinewSettings {
     float warmStart;                       // of `gauss_seidel`
     uint32_t isReversed;                   // runs kernels in reversed order, with the same results
     uint32_t levels;                       // of `split`: coarse levels of bodies on grids, 0 to 6
+    uint32_t events, eventRoom;            // kinds listed, and events kept of a step: sinew_events.h
 } SinewSettings;
 SINEW_C_API SinewSettings sinewDefaultSettings(void);
 // The settings of a scene that sinewLoadScene() read; else the default ones.

@@ -42,6 +42,8 @@ class Settings:
     warm_start: float
     sleeps: bool
     keeps_forces: bool
+    events: Sequence[str]  # kinds that events() lists: contact_begins, contact_ends, cut, tear, pieces, sleeps, wakes, lacks_room
+    event_room: int  # events kept of a step, at most 65536
 
 class Scene:
     """Bodies, constraints and colliders. Empty, or read from a scene file or a mesh file."""
@@ -108,6 +110,9 @@ class Simulation:
     def impulses(self) -> NDArray[np.float32]:
         """Impulses on bodies in the newest step (Settings.keeps_forces): (bodies, 5, 2, 3), by contacts, planes, colliders, holds and
         grabs, linear [N s] and angular [N m s]."""
+    def events(self) -> list[dict[str, Any]]:
+        """What happened in the steps of the last step() (Settings.events), oldest first: step, kind, body and count; of contacts also
+        partner ("body", "plane", "host_collider", "collider") and other, its index. As SinewEvent in sinew_events.h."""
     def complaints(self) -> list[str]:
         """Sentences on input that was ignored, each kind once."""
     @property
@@ -155,6 +160,8 @@ class World:
         """A copy for a part, or for all: (n, 4), position [m] and inverse mass [1/kg], 0 while the particle sleeps."""
     def velocities(self, part: Optional[Part] = None) -> NDArray[np.float32]:
         """A copy for a part, or for all: (n, 4), velocity [m/s], 0."""
+    def events(self) -> list[dict[str, Any]]:
+        """As Simulation.events()."""
     def counts(self) -> dict[str, int]:
         """Number of elements of each kind."""
     @property

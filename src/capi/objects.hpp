@@ -44,6 +44,12 @@ struct StepInput {
     std::array<sim::ForceField, sim::ranges::mostFields + 1> fields{};
 };
 
+/// Events of the steps of one call, with the frame of each.
+struct StepEvents {
+    std::vector<std::pair<std::uint64_t, sim::Event>> list;
+    std::uint32_t lost = 0;
+};
+
 struct SimulationObject final : Object {
     static constexpr Kind kind = Kind::simulation;
     SimulationObject(DeviceObject& itsDevice, const sim::Scene& itsScene, const sim::Settings& itsSettings);
@@ -64,6 +70,7 @@ struct SimulationObject final : Object {
     sim::Rooms rooms;
     bool isReset = false; ///< also of a world's
     std::uint64_t nextFrame = 0, stepsDone = 0;
+    StepEvents stepEvents;
     std::vector<std::unique_ptr<sim::Simulation>> predecessors; ///< kept for addresses that were given out
     bool isMapped = false;                                      ///< addresses of `simulation` were given out
     std::uint64_t replacements = 0; ///< of `simulation` by one with more room, behind the same handle

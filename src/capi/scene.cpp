@@ -110,6 +110,8 @@ sim::Settings toSettings(const SinewSettings* settings) {
             .cutSurfaceRoom = given.cutSurfaceRoom,
             .sleeps = given.sleeps != 0,
             .keepsForces = given.keepsForces != 0,
+            .events = given.events,
+            .eventRoom = given.eventRoom,
             .grabs = given.grabs,
             .hostColliders = given.hostColliders,
             .fields = given.fields,
@@ -138,7 +140,9 @@ SinewSettings fromSettings(const sim::Settings& settings) {
             .overRelaxation = settings.overRelaxation,
             .warmStart = settings.warmStart,
             .isReversed = settings.isReversed ? 1u : 0u,
-            .levels = settings.levels};
+            .levels = settings.levels,
+            .events = settings.events,
+            .eventRoom = settings.eventRoom};
 }
 
 } // namespace sinew::capi

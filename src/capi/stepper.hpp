@@ -42,6 +42,7 @@ public:
     Stepper(SimulationObject& object, Submitting& queue, const sim::Step& step)
         : object_(object), queue_(queue), step_(step), values_(object.settings.framesInFlight) {
         step_.repeats = true;
+        object.stepEvents = {};
     }
     virtual ~Stepper() = default;
     Stepper(const Stepper&) = delete;
@@ -95,9 +96,17 @@ private:
                                                    " particles is not finite, the first one is particle " +
                                                    std::to_string(status.firstBadParticle) +
                                                    ": take more substeps"};
+        keepEvents(frame);
         ++object_.stepsDone;
         last_ = status;
         return true;
+    }
+
+    void keepEvents(std::uint64_t frame) {
+        if (object_.settings.events == 0) return;
+        const sim::Events events = object_.simulation->events(frame);
+        for (const sim::Event& event : events.list) object_.stepEvents.list.emplace_back(frame, event);
+        object_.stepEvents.lost += events.lost;
     }
 
     sim::Step step_;

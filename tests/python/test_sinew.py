@@ -200,6 +200,22 @@ class Module(unittest.TestCase):
         with self.assertRaises(sinew.Error):
             alone.remove(kept)
 
+    def test_events_say_what_happened(self):
+        settings = sinew.Settings(events=["contact_begins", "contact_ends"])
+        self.assertEqual(settings.events, ["contact_begins", "contact_ends"])
+        with self.assertRaises(ValueError):
+            settings.events = ["falls"]
+        simulation = sinew.Simulation(self.device, cube(), settings)
+        self.assertEqual(simulation.events(), [])
+        simulation.step(16)
+        (event,) = simulation.events()
+        self.assertEqual({**event, "count": 0, "step": 12},
+                         {"step": 12, "kind": "contact_begins", "body": 0, "partner": "plane", "other": 0, "count": 0})
+        self.assertAlmostEqual(event["step"], 12, delta=1)
+        world = sinew.World(self.device, cube(0.01), settings)
+        world.step(5)
+        self.assertEqual([event["kind"] for event in world.events()], ["contact_begins"])
+
     def test_stubs_name_all_that_there_is(self):
         stub = (pathlib.Path(sinew.__file__).parent / "__init__.pyi").read_text(encoding="utf-8")
         for name in sinew.__all__:
