@@ -1,7 +1,7 @@
 // Worlds of the module: parts come and go between steps.
 #include "scene.hpp"
 
-#include "sinew/sinew_world.h"
+#include "sinew/sinew_query.h"
 
 namespace sinew::python {
 
@@ -106,10 +106,53 @@ struct World : Owned<SinewWorld, sinewDestroyWorld> {
         return array;
     }
 
+    /// Where a ray meets the bodies, or None.
+    py::object pick(const Vector& origin, const Vector& direction, float length, bool skipsFixed) {
+        const SinewRay ray{toVec3(origin), toVec3(direction), length, skipsFixed ? 1u : 0u};
+        SinewRayHit hit{};
+        hit.size = sizeof hit;
+        const SinewQuery asked = query();
+        runUnlocked([&] { return sinewCastRay(asked, &ray, &hit); });
+        if (hit.isMet == 0) return py::none();
+        using namespace py::literals;
+        return py::dict("particle"_a = hit.particle,
+                        "body"_a = hit.body == 0xffffffffu ? py::object(py::none()) : py::int_(hit.body),
+                        "point"_a = Vector{hit.point.x, hit.point.y, hit.point.z},
+                        "place"_a = Vector{hit.place.x, hit.place.y, hit.place.z},
+                        "distance"_a = hit.distance);
+    }
+
+    /// The particles inside a box along the axes, grown by a radius.
+    py::array_t<std::uint32_t> overlap(const Vector& center, const Vector& halfExtents, float radius,
+                                       bool skipsFixed) {
+        const SinewRegion region{toVec3(center), toVec3(halfExtents), radius, skipsFixed ? 1u : 0u};
+        const SinewQuery asked = query();
+        std::vector<std::uint32_t> particles(counts().particles);
+        auto count = static_cast<std::uint32_t>(particles.size());
+        runUnlocked([&] { return sinewFindParticles(asked, &region, &count, particles.data()); });
+        return py::array_t<std::uint32_t>(static_cast<py::ssize_t>(count), particles.data());
+    }
+
     std::shared_ptr<Device> device; // destroyed after the world
 
 private:
+    /// For the present simulation: made anew after a take-over.
+    SinewQuery query() {
+        const std::uint64_t now = info().takeOvers;
+        if (!query_ || queriedAt_ != now) {
+            const SinewQueryRoom room{sizeof room, 1, std::max(counts().particles, 1u), 1};
+            auto made = std::make_unique<Query>();
+            runUnlocked([&] { return sinewCreateWorldQuery(handle, &room, &made->handle); });
+            query_ = std::move(made);
+            queriedAt_ = now;
+        }
+        return query_->handle;
+    }
+
+    struct Query : Owned<SinewQuery, sinewDestroyQuery> {};
     SinewStep step_;
+    std::unique_ptr<Query> query_;
+    std::uint64_t queriedAt_ = 0; // take-overs when it was made
 };
 
 } // namespace
@@ -148,6 +191,10 @@ void addWorld(py::module_& module) {
              py::arg("grabs") = std::vector<SinewGrab>{}, py::arg("fields") = std::vector<SinewField>{})
         .def("positions", output(SINEW_POSITIONS), py::arg("part") = py::none())
         .def("velocities", output(SINEW_VELOCITIES), py::arg("part") = py::none())
+        .def("pick", &World::pick, py::arg("origin"), py::arg("direction"), py::arg("length") = 0.0f,
+             py::arg("skips_fixed") = false)
+        .def("overlap", &World::overlap, py::arg("center"), py::arg("half_extents") = Vector{},
+             py::arg("radius") = 0.0f, py::arg("skips_fixed") = false)
         .def("events", [](const World& self) { return eventsOf(self.info().simulation); })
         .def("counts", [](const World& self) { return dictOf(self.counts()); })
         .def_property_readonly("is_changing", [](const World& self) { return self.info().isChanging != 0; })

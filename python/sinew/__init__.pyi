@@ -160,6 +160,12 @@ class World:
         """A copy for a part, or for all: (n, 4), position [m] and inverse mass [1/kg], 0 while the particle sleeps."""
     def velocities(self, part: Optional[Part] = None) -> NDArray[np.float32]:
         """A copy for a part, or for all: (n, 4), velocity [m/s], 0."""
+    def pick(self, origin: Vector, direction: Vector, length: float = 0.0, skips_fixed: bool = False) -> Optional[dict[str, Any]]:
+        """What a ray from `origin` [m] along `direction`, a unit vector, meets first within `length` [m] (0 = anywhere), or None: the
+        nearest particle, its body (or None), point and distance [m] along the ray, place of the particle [m]. Rays meet skins, balls
+        of bodies without a skin, and surfaces of cuts."""
+    def overlap(self, center: Vector, half_extents: Vector = (0, 0, 0), radius: float = 0.0, skips_fixed: bool = False) -> NDArray[np.uint32]:
+        """The particles inside a box along the axes around `center`, grown by `radius` [m], ascending; a sphere without extents."""
     def events(self) -> list[dict[str, Any]]:
         """As Simulation.events()."""
     def counts(self) -> dict[str, int]:

@@ -200,6 +200,39 @@ class Module(unittest.TestCase):
         with self.assertRaises(sinew.Error):
             alone.remove(kept)
 
+    def test_rays_and_regions_find_particles_of_a_world(self):
+        def box(x):
+            scene = sinew.Scene()
+            scene.add_lattice(cells=(2, 2, 2), origin=(x, 0, 0), spacing=0.1, young_modulus=1e5, skin=True)
+            return scene
+
+        base = sinew.Scene()
+        base.gravity = (0, 0, 0)
+        world = sinew.World(self.device, base)
+        self.assertIsNone(world.pick((0.1, 3, 0.1), (0, -1, 0)))
+        self.assertEqual(world.overlap((0, 0, 0), radius=9).size, 0)
+        left = world.add(box(0))
+        world.add(box(2))
+        world.update()
+        hit = world.pick((0.1, 3, 0.1), (0, -1, 0))
+        self.assertAlmostEqual(hit["distance"], 2.8, places=5)
+        np.testing.assert_allclose(hit["point"], (0.1, 0.2, 0.1), atol=1e-6)
+        np.testing.assert_allclose(hit["place"], world.positions()[hit["particle"], :3])
+        self.assertEqual(hit["body"], 0)
+        self.assertEqual(world.pick((2.1, 3, 0.1), (0, -1, 0))["body"], 1)
+        self.assertIsNone(world.pick((0.1, 3, 0.1), (0, -1, 0), length=2.7))
+        self.assertIsNone(world.pick((1, 3, 0.1), (0, -1, 0)))
+        positions = world.positions()[:, :3]
+        inside = np.flatnonzero(np.linalg.norm(positions - (0.1, 0.1, 0.1), axis=1) < 0.11)
+        found = world.overlap((0.1, 0.1, 0.1), radius=0.11)
+        self.assertEqual(found.dtype, np.uint32)
+        np.testing.assert_array_equal(found, inside)
+        self.assertEqual(world.overlap((2.1, 0.1, 0.1), half_extents=(0.11, 0.11, 0.11)).size, 27)
+        world.remove(left)
+        world.update()
+        self.assertEqual(world.pick((2.1, 3, 0.1), (0, -1, 0))["body"], 0)
+        self.assertIsNone(world.pick((0.1, 3, 0.1), (0, -1, 0)))
+
     def test_events_say_what_happened(self):
         settings = sinew.Settings(events=["contact_begins", "contact_ends"])
         self.assertEqual(settings.events, ["contact_begins", "contact_ends"])
