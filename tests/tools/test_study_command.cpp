@@ -169,6 +169,48 @@ TEST_F(Study, RunsNothingAgain) {
     EXPECT_EQ(text("study.json"), before);
 }
 
+// Errors are the same numbers; only times are measured twice.
+TEST_F(Study, OfPartsIsThatOfTheWhole) {
+    for (const auto& [content, points] : {std::pair{scene, "2"}, std::pair{balls, "1"}}) {
+        write("scene.toml", content);
+        const auto studyIn = [&](const char* folder, const std::vector<std::string>& more) {
+            std::vector<std::string> arguments{"study",    "--scene", "scene.toml", "--out", folder,
+                                               "--points", points,    "--frames",   "4"};
+            arguments.insert(arguments.end(), more.begin(), more.end());
+            const Outcome outcome = run(arguments);
+            EXPECT_EQ(outcome.code, 0) << outcome.error;
+            return outcome;
+        };
+        for (const char* folder : {"a", "b", "merged", "out"}) fs::remove_all(folder_ / folder);
+        studyIn("a", {"--shard", "1/2"});
+        const Outcome last = studyIn("b", {"--shard", "2/2"});
+        EXPECT_NE(last.out.find("part 2/2"), std::string::npos) << last.out;
+        EXPECT_FALSE(fs::exists(folder_ / "a" / "study.json"));
+        const auto filesIn = [&](const char* folder) {
+            return std::distance(fs::directory_iterator(folder_ / folder / "runs"), fs::directory_iterator());
+        };
+        const Outcome merged = studyIn("merged", {"--merge", "a", "b"});
+        EXPECT_EQ(merged.error.find("runs to"), std::string::npos) << merged.error;
+        EXPECT_EQ(merged.error.find("timing"), std::string::npos) << merged.error;
+        studyIn("out", {});
+        EXPECT_EQ(filesIn("merged"), filesIn("out"));
+        EXPECT_LT(filesIn("a"), filesIn("merged"));
+
+        const auto withoutTimes = [&](const char* folder) {
+            Json tiny = Json::parse(std::ifstream(folder_ / folder / "study.json"))["scenes"][0];
+            Json kept{{"notes", tiny["notes"]}, {"truth", tiny["truth"]}, {"rest", tiny["rest"]}};
+            for (const Json& curve : tiny["curves"])
+                for (const Json& point : curve["points"])
+                    kept["points"].push_back({curve["solver"], point["substeps"], point["iterations"],
+                                              point["sweeps"], point["barriers"], point["error_rms"],
+                                              point["error_max"]});
+            return kept;
+        };
+        EXPECT_EQ(withoutTimes("merged"), withoutTimes("out"));
+        EXPECT_TRUE(fs::exists(folder_ / "merged" / "study.html"));
+    }
+}
+
 TEST_F(Study, RunsAgainWhatIsMissingOrDamaged) {
     write("scene.toml", scene);
     ASSERT_EQ(study().code, 0);
@@ -214,6 +256,11 @@ TEST_F(Study, RefusesWhatItCannotStudy) {
         expectOneError(run({"study", "--scene", "scene.toml", "--out", "out", "--points", points}), 2,
                        "--points");
     expectOneError(run({"study", "--scene", "scene.toml", "--out", "out", "--frames", "0"}), 2, "--frames");
+    for (const char* shard : {"0/2", "3/2", "1", "1/", "/2", "1/2x", "-1/2"})
+        expectOneError(run({"study", "--scene", "scene.toml", "--out", "out", "--shard", shard}), 2,
+                       "--shard");
+    expectOneError(run({"study", "--scene", "scene.toml", "--out", "out", "--merge", "nowhere"}), 3,
+                   "cannot merge: nowhere/runs: ");
 }
 
 TEST_F(Study, RefusesAFolderItCannotWriteTo) {

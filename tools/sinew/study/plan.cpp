@@ -9,6 +9,7 @@
 #include "sinew/validate.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace sinew::tools::study {
@@ -125,6 +126,17 @@ std::vector<std::string> curveNames() {
     names.emplace_back(weighted);
     names.emplace_back(withLevels);
     return names;
+}
+
+std::optional<Shard> parseShard(const std::string& text) {
+    const char* const end = text.data() + text.size();
+    Shard shard;
+    const auto [slash, first] = std::from_chars(text.data(), end, shard.index);
+    if (first != std::errc{} || slash == end || *slash != '/') return {};
+    const auto [last, second] = std::from_chars(slash + 1, end, shard.count);
+    if (second != std::errc{} || last != end || shard.index < 1 || shard.index > shard.count) return {};
+    --shard.index;
+    return shard;
 }
 
 std::vector<std::string> studySceneNames() {

@@ -4,6 +4,7 @@
 
 #include "scenes/load.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,15 @@ bool isOfContacts(const sim::Scene& scene);
 
 /// `settings` with the margin and capacities of the scene's file.
 sim::Settings settingsOfContacts(const StudyScene& scene, sim::Settings settings);
+
+/// A part of the runs of each scene: one of `count` parts that together are all of them.
+struct Shard {
+    std::uint32_t index = 0, count = 1;
+    /// Whether the run at this place of the whole plan is part of it.
+    bool has(std::size_t run) const { return run % count == index; }
+};
+/// The part "I/N", I from 1 to N; empty if that is none.
+std::optional<Shard> parseShard(const std::string& text);
 
 inline constexpr std::uint32_t defaultFrames = 30; ///< for scenes that are not shipped
 

@@ -43,9 +43,12 @@ std::vector<sim::Settings> restSettings(const StudyScene& scene) {
     return list;
 }
 
-std::vector<RestRun> studyRest(Session& session, const StudyScene& scene, const Store& store) {
+std::vector<RestRun> studyRest(Session& session, const StudyScene& scene, const Store& store,
+                               const Shard& shard) {
     std::vector<RestRun> runs;
+    std::size_t place = 0;
     for (const sim::Settings& settings : restSettings(scene)) {
+        if (!shard.has(place++)) continue;
         const sim::StepProgram program = sim::compile(scene.loaded.scene, settings);
         runs.push_back({.settings = settings,
                         .identity = identityOfRest(scene, settings, program, session.device.description())});

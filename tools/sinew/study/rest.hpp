@@ -12,7 +12,8 @@ inline constexpr std::uint32_t restLength = 8;
 std::vector<sim::Settings> restSettings(const StudyScene& scene);
 
 /// Runs what is not stored. After an interruption some runs are missing.
-std::vector<RestRun> studyRest(Session& session, const StudyScene& scene, const Store& store);
+std::vector<RestRun> studyRest(Session& session, const StudyScene& scene, const Store& store,
+                               const Shard& shard = {});
 
 /// Largest penetration over the samples from `from` [s] on; empty without such a figure, or if the run
 /// diverged.

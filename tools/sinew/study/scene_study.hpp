@@ -18,9 +18,11 @@ struct SceneResult {
         notes; ///< sentences: how the scene differs from its file, which trials could not run, and why
 };
 
-/// Runs missing trials and prints progress on stderr. Trials of all solvers take turns. After an interruption
-/// the result holds what has finished.
-SceneResult study(Session& session, const StudyScene& scene, std::uint32_t points, const Store& store);
+/// Runs missing trials of a part and prints progress on stderr. Trials of all solvers take turns. After an
+/// interruption the result holds what has finished. A trial on the front of all is on that of its part, so
+/// that parts leave nothing to time.
+SceneResult study(Session& session, const StudyScene& scene, std::uint32_t points, const Store& store,
+                  const Shard& shard = {});
 
 /// The error of a trial over the frames before chaos; empty = diverged.
 struct TrialError {

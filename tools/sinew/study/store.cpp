@@ -169,6 +169,22 @@ fs::path Store::fileOf(const std::string& identity) const {
     return folder_ / (hash.text() + ".json");
 }
 
+void Store::merge(const fs::path& folder) const {
+    std::error_code error;
+    const auto entries = fs::directory_iterator(folder, error);
+    if (error)
+        throw app::Failure(app::badInput, "cannot merge: " + folder.string() + ": " + error.message() +
+                                              ": name the output folder of a study");
+    for (const fs::directory_entry& entry : entries) {
+        if (entry.path().extension() != ".json") continue;
+        fs::copy_file(entry.path(), folder_ / entry.path().filename(), fs::copy_options::skip_existing,
+                      error);
+        if (error)
+            throw app::Failure(app::outputFailed,
+                               "cannot write: " + folder_.string() + ": " + error.message());
+    }
+}
+
 bool Store::load(Trial& trial) const {
     const Json json = read(fileOf(trial.identity), trial.identity);
     if (json.is_null()) return false;

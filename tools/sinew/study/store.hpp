@@ -23,6 +23,10 @@ public:
     /// Creates the folder. Throws app::Failure (outputFailed) on failure.
     explicit Store(std::filesystem::path folder);
 
+    /// Copies the files of another store that this one lacks. Throws app::Failure if there is no such folder
+    /// (badInput) or a copy fails.
+    void merge(const std::filesystem::path& folder) const;
+
     /// Fills in the stored result for trial.identity; false if there is none. Ignores an unreadable file, or
     /// one with another identity.
     bool load(Trial& trial) const;

@@ -25,6 +25,8 @@ struct StudyOptions {
     std::string folder = "out/study";
     std::uint32_t points = study::mostPoints;
     std::optional<std::uint32_t> frames;
+    std::string shard;
+    std::vector<std::string> merged;
     DeviceOptions device;
 };
 
@@ -73,14 +75,22 @@ int runStudy(const StudyOptions& options) {
     requireScene(options.scene);
     const OutputFolder folder(options.folder);
     const study::Store store(folder.path() / "runs");
+    for (const std::string& other : options.merged) store.merge(fs::path(other) / "runs");
+    const study::Shard shard =
+        options.shard.empty() ? study::Shard{} : study::parseShard(options.shard).value();
     const std::vector<study::StudyScene> scenes = study::studyScenes(options.scene, options.frames);
     Session session(options.device);
     study::StudyRecord record{.device = session.device.description(), .scenes = {}};
     for (const study::StudyScene& scene : scenes)
         if (!app::isInterrupted())
-            record.scenes.push_back(study::study(session, scene, options.points, store));
+            record.scenes.push_back(study::study(session, scene, options.points, store, shard));
     record.isComplete = !app::isInterrupted();
     const app::Writing writing;
+    if (!options.shard.empty()) {
+        TextOutput("-").write(fmt::format("part {} is in {}: give it to --merge when all parts are there\n",
+                                          options.shard, folder.path().string()));
+        return record.isComplete ? app::done : app::interrupted;
+    }
     writeAll(folder.path(), record);
     TextOutput("-").write(toText(record) +
                           fmt::format("page: {}\n", (folder.path() / "study.html").string()));
@@ -109,6 +119,16 @@ void addStudy(CLI::App& app, Chosen& chosen) {
         ->capture_default_str();
     command.add_option("--frames", options->frames, "length of the motion, instead of the scene's own")
         ->check(CLI::Range(1u, 600u));
+    const auto isPart = [](const std::string& text) {
+        return study::parseShard(text) ? std::string() : text + " is no part such as 1/4";
+    };
+    command
+        .add_option("--shard", options->shard,
+                    "run a part of the study, I/N, and write no page; for N programs or machines with equal "
+                    "devices, each with a folder of its own")
+        ->check(CLI::Validator(isPart, "I/N"));
+    command.add_option("--merge", options->merged,
+                       "output folders of parts, whose results are copied first; runs that none has follow");
     addDeviceOptions(command, options->device);
     command.callback([options, &chosen] { chosen = [options] { return runStudy(*options); }; });
 }
