@@ -31,7 +31,7 @@ const std::vector<std::string> exactFunctions{
     "wayOf(f1;vf3", "frameOf(", "cellOf(", "isHurrying(", "motionOf(vf3", "mostMotion(",
     // contacts, restitution, interlocked bodies
     "isApart(", "touches(", "meetingOf(vf3", "axisFor(", "directionOf(vf3", "passes(vf3", "passedDirection(",
-    "bounceFrom(", "partingOf(",
+    "bounceFrom(", "partingOf(", "held(u1;", "impulseOf(u1;struct-Pair",
     // blades
     "volumeOf(", "edgeHit(", "rayHit(", "hitOf(", "isNearBlade(",
     // forms of `split`
