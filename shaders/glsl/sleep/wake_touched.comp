@@ -15,13 +15,13 @@ layout(std430, binding = 4) buffer Marks { uint marks[]; };
 layout(std430, binding = 5) buffer State { SleepState state; };
 layout(std430, binding = 6) readonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 7) readonly buffer Lists { uvec2 lists[]; };
-layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
-layout(std140, binding = 9) uniform Step { StepParams step; };
+layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { SleepPush push; };
 
-// True if two particles touch at the end of the substep, or on their paths if contacts may lie there.
+// True if two particles touch at the end of the substep, or on their paths: also where none is fast, so that a
+// particle elsewhere that is fast wakes nobody.
 bool meets(vec3 d, vec3 v, float reach) {
-    return touches(d, reach) || bounds.isSwept != 0u && nearestSquared(d, step.h * v) < reach * reach;
+    return touches(d, reach) || nearestSquared(d, step.h * v) < reach * reach;
 }
 
 void main() {

@@ -215,7 +215,7 @@ void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
     program.dispatchIndirect(k::wakeTouched, itemsOf(sleep, SLEEP_MIXED, sleep.push.count, GROUP_ITEMS),
                              {sleep.weights, predicted.velocities, predicted.positions, sleep.islands,
                               sleep.marks, sleep.state, sleep.pairs.contacts, sleep.pairs.lists,
-                              sleep.pairs.bounds, predicted.step, sleep.listed},
+                              predicted.step, sleep.listed},
                              sleep.push);
     addWakingTouched(program, sleep, predicted.velocities);
 }

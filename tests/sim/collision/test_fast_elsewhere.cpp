@@ -151,5 +151,21 @@ TEST_P(FastElsewhere, ChangesNoBit) {
     }
 }
 
+// A ball passes another one that sleeps. It touches it in the middle of a substep, not at the ends.
+TEST(FastElsewhere, DecidesNotWhoWakes) {
+    constexpr float way = 0.01f; // of a substep
+    for (const bool isFast : {false, true}) {
+        Scene scene = test::weightless();
+        const float substep = scene.dt / 8;
+        scene.particles = {ballAt({0, 0, 0}),
+                           ballAt({-800.5f * way, 2 * radius - 1e-4f, 0}, {way / substep, 0, 0}),
+                           ballAt({-6, 4, 0}, {0, isFast ? 60.0f : 0.0f, 0})};
+        test::Runner runner(scene, {.substeps = 8, .sleeps = true});
+        EXPECT_GE(runner.run(90).sleeping, 1u) << "before";
+        const Status status = runner.run(20);
+        EXPECT_EQ(status.sleeping, isFast ? 0u : 1u) << "fast: " << isFast;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, FastElsewhere, testing::ValuesIn(cases()),
                          [](const testing::TestParamInfo<Case>& one) { return std::string(one.param.name); });
