@@ -109,8 +109,10 @@ Inexact inspect(const std::vector<std::uint32_t>& words) {
 
 std::vector<fs::path> kernelsIn(const fs::path& folder) {
     std::vector<fs::path> files;
-    for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder))
-        if (file.path().string().ends_with(".comp.spv")) files.push_back(file.path());
+    for (fs::recursive_directory_iterator file(folder), end; file != end; ++file) {
+        if (file->path().filename() == "archive") file.disable_recursion_pending(); // of another time
+        if (file->path().string().ends_with(".comp.spv")) files.push_back(file->path());
+    }
     return files;
 }
 
