@@ -1,13 +1,19 @@
 // Tests of boundary planes on the device: rest, restitution and friction (analytic cases 16 to 18).
 #include "sim/compile/compile.hpp"
+#include "sim/reference/elasticity.hpp"
+#include "sim/reference/reference.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <vector>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -44,6 +50,36 @@ Heights heightsOf(const std::vector<Vector3d>& x) {
     Heights heights{.lowest = low->y(), .highest = high->y()};
     for (const Vector3d& p : x) heights.mean += p.y() / static_cast<double>(x.size());
     return heights;
+}
+
+// Mean height after each step of springs that fall on the plane y = 0, where particles stop dead. [m]
+std::vector<double> meanHeights(const Scene& scene, int steps, int substeps) {
+    const reference::Problem problem(scene);
+    reference::State state = reference::initialState(scene);
+    const double h = double{scene.dt} / substeps;
+    std::vector<double> heights;
+    std::vector<Vector3d> force(state.x.size());
+    for (int step = 0; step < steps; ++step) {
+        for (int s = 0; s < substeps; ++s) {
+            std::ranges::fill(force, Vector3d::Zero());
+            reference::addElasticForces(problem, state.x, force);
+            for (std::size_t i = 0; i < state.x.size(); ++i) {
+                state.v[i] += h * (force[i] * double{scene.particles[i].inverseMass} - Vector3d(0, g, 0));
+                state.x[i] += h * state.v[i];
+                if (state.x[i].y() >= 0) continue;
+                state.x[i].y() = 0;
+                state.v[i].y() = std::max(0.0, state.v[i].y());
+            }
+        }
+        heights.push_back(heightsOf(state.x).mean);
+    }
+    return heights;
+}
+
+// How far the mean height rises after its lowest value. [m]
+double reboundOf(const std::vector<double>& heights) {
+    const auto lowest = std::ranges::min_element(heights);
+    return *std::max_element(lowest, heights.end()) - *lowest;
 }
 
 } // namespace
@@ -164,3 +200,27 @@ TEST(RestingCube, KeepsItsHeightWithinOnePercentAfterFourSeconds) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Contact, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });
+
+// A soft body rebounds by the elastic energy that its links take up in the impact, though the plane has no
+// restitution. The truth is the motion of its springs, whose particles stop dead, in short steps in double.
+TEST(SoftBody, ReboundsByTheEnergyOfItsLinks) {
+    for (const std::array<std::uint32_t, 3> cells : {std::array{3u, 3u, 3u}, {1u, 8u, 1u}}) {
+        Scene scene;
+        addLattice(scene, {.origin = {0, 0.3f, 0}, .cells = cells, .spacing = 0.05f, .youngModulus = 5e4f});
+        constexpr int steps = 45;
+        const double truth = reboundOf(meanHeights(scene, steps, 1600));
+        scene.planes = {{}};
+        for (const std::uint32_t substeps : {16u, 64u}) {
+            test::Runner runner(scene, {.substeps = substeps, .theta = 0});
+            std::vector<double> heights;
+            for (int step = 0; step < steps; ++step) {
+                runner.run(1);
+                heights.push_back(heightsOf(runner.positions()).mean);
+            }
+            const double rise = reboundOf(heights);
+            std::printf("%u cells high, %u substeps: rises by %.4f m (%.4f)\n", cells[1], substeps, rise,
+                        truth);
+            EXPECT_NEAR(rise, truth, 0.003 * truth);
+        }
+    }
+}
