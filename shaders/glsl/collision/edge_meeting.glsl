@@ -12,6 +12,19 @@ float nearest2(Lines lines) {
     return dot(d, d);
 }
 
+// True if the two come within reach on their way, of which an end moves `way` against one of the other: as comesNear() of
+// face_meeting_marks.glsl.
+bool comesNear(Lines lines, Lines rates, float reach, float way, bool isAsked) {
+    float back = isAsked ? 1.0 : 0.0;
+    bool isNear = false;
+    for (uint turn = 0u; turn < 16u && back > 0.0 && !isNear; ++turn) {
+        const float distance = sqrt(nearest2(Lines(lines.ca - back * rates.ca, lines.ab - back * rates.ab, lines.cd - back * rates.cd)));
+        isNear = distance < reach;
+        back -= (distance - 0.999 * reach) / way;
+    }
+    return isNear;
+}
+
 // `rates`: displacements in the substep.
 void noteMeeting(Lines lines, Lines rates, float reach) {
     const vec3 ac = rates.ca, bc = ac + rates.ab, ad = ac - rates.cd, bd = bc - rates.cd;
@@ -20,7 +33,8 @@ void noteMeeting(Lines lines, Lines rates, float reach) {
     const Lines before = Lines(lines.ca - rates.ca, lines.ab - rates.ab, lines.cd - rates.cd);
     const bool hasSwapped = dot(cross(lines.ab, lines.cd), lines.ca) > 0.0 != dot(cross(before.ab, before.cd), before.ca) > 0.0;
     vec2 st;
-    if (min(nearest2(lines), nearest2(before)) >= reach2 && !(isFast && hasSwapped && hasPassed(lines, rates, st))) return;
+    const bool isNear = min(nearest2(lines), nearest2(before)) < reach2 || isFast && hasSwapped && hasPassed(lines, rates, st);
+    if (!isNear && !comesNear(lines, rates, reach, sqrt(way2), isFast && !isNear)) return;
     meets = meetingMark(way2, reach);
     mayPass = mayPass || isFast;
 }

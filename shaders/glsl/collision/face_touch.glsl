@@ -1,6 +1,7 @@
 // Narrow phase of a point and a face in a substep: their contact, and the side of the point. Requires the names and
 // buffers of find_face_contacts.
 #include "collision/face_meeting.glsl"
+#include "collision/face_meeting_marks.glsl"
 
 struct Touch {
     vec3 n;
@@ -102,17 +103,6 @@ Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
     if (isThrough) touch = touchAt(m, element, m.front, b, true, hasTouched ? exitOf(i, list, element, m, false) : noExit);
     touch.isThrough = false; // faces around it have the same front
     return touch;
-}
-
-// Notes whether a pair comes within reach, and whether it is so fast that it may pass, or be made to by others. Pairs that
-// come within reach are in lists whatever the margin: no other may decide anything.
-void noteMeeting(Meeting m) {
-    const vec3 one = m.vp - m.vb, other = m.vp - m.vc;
-    const float way2 = step.h * step.h * max(dot(m.vp, m.vp), max(dot(one, one), dot(other, other)));
-    vec3 b, start = nearestBefore(m).d;
-    if (!isWithinReach(m) && dot(start, start) >= m.reach * m.reach && !(m.height * m.heightBefore < 0.0 && wentThrough(m, b))) return;
-    meets = meetingMark(way2, m.reach);
-    mayPass = mayPass || way2 > push.quick * push.quick;
 }
 
 // The contact with the face of a candidate. `through`: the side from which the point passes through a neighbouring
