@@ -1,6 +1,8 @@
 // The module `sinew._sinew`: classes over the C interface. sinew/__init__.pyi documents them.
 #include "scene.hpp"
 
+#include <variant>
+
 namespace sinew::python {
 
 namespace {
@@ -141,7 +143,19 @@ void addSettings(py::module_& module) {
     add("frames_in_flight", &SinewSettings::framesInFlight);
     add("omega", &SinewSettings::omega);
     add("theta", &SinewSettings::theta);
-    add("levels", &SinewSettings::levels);
+    type.def_property(
+        "levels",
+        [](const Settings& settings) -> py::object {
+            if (settings.values.levels == SINEW_AUTO_LEVELS) return py::str("auto");
+            return py::int_(settings.values.levels);
+        },
+        [](Settings& settings, const std::variant<std::uint32_t, std::string>& levels) {
+            if (const std::string* word = std::get_if<std::string>(&levels); word && *word != "auto")
+                throw py::value_error("levels is \"" + *word +
+                                      "\": must be a number from 0 to 6, or \"auto\"");
+            const std::uint32_t* number = std::get_if<std::uint32_t>(&levels);
+            settings.values.levels = number ? *number : SINEW_AUTO_LEVELS;
+        });
     add("weight", &SinewSettings::weight);
     add("over_relaxation", &SinewSettings::overRelaxation);
     add("warm_start", &SinewSettings::warmStart);

@@ -337,6 +337,10 @@ constexpr Forms completed(Forms forms, DeviceKind kind) {
 /// Default of Settings::framesInFlight.
 inline constexpr std::uint32_t usualFramesInFlight = 4;
 
+/// Value of Settings::levels: as many as win at equal error, from the kind of body, its size and the
+/// substeps.
+inline constexpr std::uint32_t autoLevels = ~0u;
+
 /// How to solve a scene; determines the step program. Ranges are in ranges.hpp.
 struct SINEW_API Settings {
     Solver solver = Solver::split;
@@ -347,7 +351,7 @@ struct SINEW_API Settings {
     float theta = 0.1f;           ///< `split`: 0 symplectic .. 1 PBD order; damps like theta h k
     /// `split`: coarse levels of every body on a grid, 0..6. A level has a block for 2 x 2 x 2 nodes of the
     /// one below, and links between blocks carry the stiffness that a substep is too long for below. 0 =
-    /// none.
+    /// none; autoLevels = chosen (chooseSubsteps).
     std::uint32_t levels = 0;
     float weight = 0;         ///< `jacobi`: factor on a particle's summed corrections; 0 = 1 / their number
     float overRelaxation = 1; ///< `jacobi`: second factor on that sum, below 4/3 with averaging

@@ -373,9 +373,11 @@ typedef struct SinewSettings {
     float weight, overRelaxation;          // of `jacobi`
     float warmStart;                       // of `gauss_seidel`
     uint32_t isReversed;                   // runs kernels in reversed order, with the same results
-    uint32_t levels;                       // of `split`: coarse levels of bodies on grids, 0 to 6
+    uint32_t levels;                       // of `split`: coarse levels of bodies on grids, 0 to 6, or SINEW_AUTO_LEVELS
     uint32_t events, eventRoom;            // kinds listed, and events kept of a step: sinew_events.h
 } SinewSettings;
+// As many levels as win at equal error, by the kind of body, its size and the substeps.
+#define SINEW_AUTO_LEVELS 0xffffffffu
 SINEW_C_API SinewSettings sinewDefaultSettings(void);
 // The settings of a scene that sinewLoadScene() read; else the default ones.
 SINEW_C_API SinewResult sinewGetSceneSettings(SinewScene scene, SinewSettings* settings);

@@ -27,8 +27,8 @@ typedef struct SinewPart {
 } SinewPart;
 
 // Makes a world and the simulation of `base`, whose elements stay for good. `base` may be changed or
-// destroyed afterwards. `settings` hold for all simulations; with 0 substeps their number is chosen for
-// `base`, and grows with parts that need more. Errors: as sinewCreateSimulation().
+// destroyed afterwards. `settings` hold for all simulations; with 0 substeps or SINEW_AUTO_LEVELS the number
+// is chosen for `base`, and grows with parts that need more. Errors: as sinewCreateSimulation().
 SINEW_C_API SinewResult sinewCreateWorld(SinewDevice device, SinewScene base, const SinewSettings* settings,
                                          SinewWorld* world);
 // Destroys the simulation too; waits for the library's thread. All commands recorded with its simulations,

@@ -51,6 +51,7 @@ enum class SubstepReason : std::uint8_t {
 struct SINEW_API SubstepChoice {
     std::uint32_t substeps = 1;
     std::uint32_t wanted = 1; ///< before the limits fewestChosen and mostChosen
+    std::uint32_t levels = 0; ///< Settings::levels, chosen if that is autoLevels
     SubstepReason reason = SubstepReason::asked;
     SubstepReason rule = SubstepReason::asked; ///< the rule behind `wanted`, if the reason is `most`
     double own = 1; ///< share of its stiffness that the deciding link must have itself; levels carry the rest
@@ -70,9 +71,9 @@ SINEW_API std::uint32_t dragSubsteps(const Scene& scene);
 
 /// The number of substeps if settings.substeps is 0: the smallest one with which, at scene.dt,
 /// - every elastic link has k_eff >= (1 - tolerance) k, of links on grids a quarter with one of
-///   Settings::levels and a ninth with more, as levels carry the rest; if the share s_m = 1 - (1 -
-///   s)^iterations of `jacobi` alone is below 1 - tolerance, which no substep changes, then k_eff >= (1 -
-///   tolerance) s_m k, and toText() reports it,
+///   Settings::levels and a ninth with more or in a sheet, as levels carry the rest; if the share s_m = 1 -
+///   (1 - s)^iterations of `jacobi` alone is below 1 - tolerance, which no substep changes, then k_eff >= (1
+///   - tolerance) s_m k, and toText() reports it,
 /// - every rigid link stretches by at most tolerance x its length under the weight that hangs on it: from
 ///   static particles, from attachments, or above colliders (stiffness/tensions.hpp; bodies that hang on
 ///   nothing need nothing),
@@ -84,9 +85,13 @@ SINEW_API std::uint32_t dragSubsteps(const Scene& scene);
 /// - it is at least ranges::fewestTouching if particles may touch each other or faces.
 /// The result is limited to the range from fewestChosen to mostChosen; a scene with only free particles has
 /// the number that drag needs. Longer or shorter steps keep the number.
+///
+/// The number of levels if settings.levels is autoLevels: by how many substeps are lacking for the whole
+/// stiffness of links on grids, as levels win at equal error; 0 where nothing wins, and where levels would be
+/// refused. With both numbers to choose, a third of the substeps and the levels for it, or all and none.
 SINEW_API SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings);
 
-/// Returns `settings` with the chosen number if substeps is 0.
+/// Returns `settings` with the chosen numbers if substeps is 0 or levels is autoLevels.
 SINEW_API Settings withSubsteps(const Scene& scene, Settings settings);
 
 /// The effect of more substeps than were chosen, and an alternative: "would keep the tolerance of 5 %",
@@ -99,6 +104,9 @@ SINEW_API SubstepCure cureOf(const SubstepChoice& choice, const Settings& settin
 /// The number that contacts alone need, as `wanted`, by the rule `contacts` or `folds`, without the limits of
 /// chooseSubsteps(). 1 if nothing may touch.
 SINEW_API SubstepChoice contactSubsteps(const Scene& scene);
+
+/// The numbers as text: "64 substeps", "16 substeps and 2 levels".
+SINEW_API std::string toText(const Settings& settings);
 
 /// The choice as a sentence: "64 substeps: so that no link is more than 5 % softer than asked".
 SINEW_API std::string toText(const SubstepChoice& choice, const Settings& settings);

@@ -35,7 +35,7 @@ struct SINEW_API PartRange {
 /// and the new scene has the same kernels; other bodies may lead to another order of sums, or to another unit
 /// of integer sums, and then to another last digit. With `gauss_seidel` the multipliers of the last step are
 /// lost. All that sleeps wakes if a part is removed, if one with colliders or planes arrives, or if the
-/// number of substeps grows.
+/// number of substeps or levels grows.
 ///
 /// A material that was changed by Simulation::recordChange() lasts until the next take-over.
 ///
@@ -43,8 +43,8 @@ struct SINEW_API PartRange {
 class SINEW_API World {
 public:
     /// Makes the simulation of `base`, whose elements stay for good; as the constructor of Simulation.
-    /// `settings` hold for all simulations; with 0 substeps, their number is chosen for `base`, and grows
-    /// with the parts that need more. The caller records Simulation::recordReset().
+    /// `settings` hold for all simulations; with 0 substeps or autoLevels, the number is chosen for `base`,
+    /// and grows with the parts that need more. The caller records Simulation::recordReset().
     World(const vk::Device& device, Scene base, const Settings& settings);
     /// Waits for the thread. All commands recorded with the simulations, also with those that were replaced,
     /// must have finished.
@@ -102,8 +102,8 @@ private:
     struct Slot {
         std::uint32_t generation = 0;
         bool isWanted = false;
-        std::uint32_t arrival = 0;  ///< Body::arrival of its bodies
-        std::uint32_t substeps = 0; ///< that it needs; 0 = any number, or the host asked for one
+        std::uint32_t arrival = 0;              ///< Body::arrival of its bodies
+        std::uint32_t substeps = 0, levels = 0; ///< that it needs, or the host asked for
         std::shared_ptr<const Scene> scene{};
     };
     /// A part in a scene: its slot and generation, and its place.
@@ -123,7 +123,7 @@ private:
     vk::KeptKernels kernels_; ///< those of the take-over, and of parts that return
     Settings asked_;          ///< by the host, with the rooms of the next simulation
     Settings settings_;       ///< of simulation_
-    bool choosesSubsteps_;
+    bool choosesSubsteps_, choosesLevels_;
     std::shared_ptr<const Scene> base_;
     std::vector<Slot> slots_;
     std::vector<std::uint32_t> freeSlots_;

@@ -36,7 +36,7 @@ class Settings:
     frames_in_flight: int
     omega: float
     theta: float
-    levels: int  # coarse levels of bodies on grids, at most 6
+    levels: Union[int, Literal["auto"]]  # coarse levels of bodies on grids, at most 6; "auto" = as many as win at equal error
     weight: float
     over_relaxation: float
     warm_start: float

@@ -62,7 +62,7 @@ void readSettings(LoadedScene& loaded, const Section& solver, const std::string&
                        .iterations = solver.count("iterations"),
                        .omega = solver.number("omega"),
                        .theta = solver.number("theta"),
-                       .levels = solver.count("levels"),
+                       .levels = solver.countOrAuto("levels").value_or(sim::autoLevels),
                        .weight = solver.number("weight"),
                        .overRelaxation = solver.number("over_relaxation"),
                        .warmStart = solver.number("warm_start"),
@@ -325,6 +325,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     requireValid(loaded, source.file);
     loaded.substeps = sim::chooseSubsteps(loaded.scene, loaded.settings);
     loaded.settings.substeps = loaded.substeps.substeps;
+    loaded.settings.levels = loaded.substeps.levels;
     warnAboutSizes(loaded);
     warnOfUntouched(loaded, top);
     const std::vector<std::string> ofScene = sim::warnings(loaded.scene);

@@ -51,7 +51,7 @@ struct Defaults {
 
 struct LoadedScene {
     sim::Scene scene;
-    sim::Settings settings;      ///< substeps is a number
+    sim::Settings settings;      ///< substeps and levels are numbers
     sim::SubstepChoice substeps; ///< where it comes from
     /// Where the scene's (0, 0, 0) is in the coordinates of the file [m]; 0 but for scenes farther than 16 m
     /// away.
@@ -75,7 +75,7 @@ struct Overrides {
     std::optional<std::string> solver;
     std::optional<std::uint32_t> substeps; ///< 0 = chosen
     std::optional<std::uint32_t> iterations;
-    std::optional<std::uint32_t> levels; ///< coarse levels of `split`
+    std::optional<std::uint32_t> levels; ///< coarse levels of `split`; sim::autoLevels = chosen
     std::optional<float> dt;
     std::optional<float> voxel; ///< cell edge of mesh bodies [m]
     bool isReversed = false;

@@ -185,6 +185,14 @@ TEST(CApiScene, DescribesAStep) {
     ASSERT_TRUE(isOk(sinewDescribe(scene, &settings, &size, text.data())));
     EXPECT_EQ(text.find('\0'), size - 1);
     EXPECT_NE(text.find("gather_lattice"), std::string::npos) << text;
+    settings.levels = SINEW_AUTO_LEVELS; // none for a body so small
+    std::string again(size, 'x');
+    ASSERT_TRUE(isOk(sinewDescribe(scene, &settings, &size, again.data())));
+    EXPECT_EQ(again, text);
+    settings.levels = 7;
+    EXPECT_TRUE(
+        failsWith(SINEW_ERROR_INVALID_SCENE, "levels", sinewDescribe(scene, &settings, &size, nullptr)));
+    settings = sinewDefaultSettings();
     settings.substeps = 2000;
     EXPECT_TRUE(
         failsWith(SINEW_ERROR_INVALID_SCENE, "substeps", sinewDescribe(scene, &settings, &size, nullptr)));

@@ -160,6 +160,14 @@ class Module(unittest.TestCase):
             self.assertTrue((pathlib.Path(folder) / "study.json").exists())
         self.assertIsInstance(report, dict)
 
+    def test_levels_are_a_number_or_auto(self):
+        settings = sinew.Settings(substeps=8, levels="auto")
+        self.assertEqual(settings.levels, "auto")
+        settings.levels = 2
+        self.assertEqual(settings.levels, 2)
+        with self.assertRaisesRegex(ValueError, 'levels is "many": must be a number from 0 to 6, or "auto"'):
+            settings.levels = "many"
+
     def test_bodies_come_and_go_and_the_others_keep_their_bits(self):
         def box(x, cells=2):
             scene = sinew.Scene()

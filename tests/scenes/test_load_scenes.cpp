@@ -388,6 +388,19 @@ TEST_F(Load, LetsTheCommandLineHaveItsSay) {
               "correct this");
 }
 
+TEST_F(Load, ChoosesLevelsWhereTheFileAsksForIt) {
+    const std::string box = "[[box]]\nparticles = [16, 16, 16]\nspacing = 0.02\ncenter = [0, 1, 0]\n";
+    EXPECT_EQ(load("[solver]\nsubsteps = 8\nlevels = \"auto\"\n" + box).settings.levels, 2u);
+    EXPECT_EQ(load("[solver]\nsubsteps = 8\n" + box).settings.levels, 0u);
+    const scenes::LoadedScene both = load("[solver]\nlevels = \"auto\"\n" + box);
+    EXPECT_EQ(both.settings.substeps, 8u);
+    EXPECT_EQ(both.settings.levels, 2u);
+    EXPECT_EQ(
+        scenes::load(write("scene.toml", "[solver]\nsubsteps = 11\n" + box), {.levels = sim::autoLevels})
+            .settings.levels,
+        1u);
+}
+
 TEST_F(Load, ChoosesSubstepsWhereTheFileDoesNotSay) {
     const std::string box = "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\n";
     for (const char* solver : {"", "[solver]\nsubsteps = \"auto\"\n"}) {
@@ -407,6 +420,9 @@ TEST_F(Load, ChoosesSubstepsWhereTheFileDoesNotSay) {
                 "scene.toml:2: solver.substeps is 1e+09: must be from 1 to 1000");
     expectError("[solver]\nsubsteps = \"many\"\n" + box,
                 "scene.toml:2: solver.substeps is text \"many\": write a whole number or \"auto\"");
+    expectError("[solver]\nlevels = \"many\"\n" + box,
+                "scene.toml:2: solver.levels is text \"many\": write a whole number or \"auto\"");
+    expectError("[solver]\nlevels = 7\n" + box, "scene.toml:2: solver.levels is 7: must be from 0 to 6");
     expectError("[solver]\ntolerance = 0\n" + box,
                 "scene.toml:2: solver.tolerance is 0: must be above 0 and below 1");
     expectError("dt = 1e-7\n" + box, "scene.toml:1: dt is 1e-07 s: must be from 1e-06 to 0.1 s");

@@ -1,4 +1,4 @@
-// Tests of `sinew run --error`.
+// Tests of what `sinew run` chooses: substeps by --error, levels.
 #include "tools/program.hpp"
 
 using namespace sinew;
@@ -58,4 +58,20 @@ TEST_F(PilotRun, TakesTheSubstepsThatReachAnError) {
           "gravity = [0, 0, 0]\n[[box]]\nparticles = [3, 3, 3]\nspacing = 0.05\ncenter = [0, 0, 0]\n");
     expectOneError(run({"run", "hanging.toml", "--frames", "2", "--error", "1%"}), 3,
                    "cannot reach an error");
+}
+
+// Reports and saved states have the number.
+TEST_F(PilotRun, TakesTheLevelsThatWin) {
+    write("beam.toml", "[[box]]\nparticles = [24, 6, 6]\nspacing = 0.02\nyoung_modulus = 2e5\n[solver]\n"
+                       "substeps = 8\nlevels = \"auto\"\n");
+    const json chosen = report({"beam.toml", "--frames", "4", "--save", "half.state"});
+    EXPECT_EQ(chosen["levels"], 2);
+    EXPECT_EQ(report({"beam.toml", "--frames", "2", "--levels", "0"})["levels"], 0);
+    EXPECT_EQ(report({"beam.toml", "--frames", "2", "--substeps", "64"})["levels"], 0);
+    const json few = report({"beam.toml", "--frames", "2", "--substeps", "auto", "--levels", "auto"});
+    EXPECT_EQ(few["substeps"], 11);
+    EXPECT_EQ(few["levels"], 2);
+    const json rest = report({"half.state", "--frames", "4"});
+    EXPECT_EQ(rest["levels"], 2);
+    EXPECT_EQ(rest["state_hash"], report({"beam.toml", "--frames", "8", "--levels", "2"})["state_hash"]);
 }

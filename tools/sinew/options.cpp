@@ -1,6 +1,7 @@
 // Ranges are those of the table that validates scenes.
 #include "sinew/options.hpp"
 
+#include "app/count_option.hpp"
 #include "sim/compile/compile.hpp"
 #include "sinew/material.hpp"
 #include "sinew/ranges.hpp"
@@ -15,13 +16,6 @@ namespace {
 
 CLI::Range within(const sim::Range& range) {
     return {static_cast<std::uint32_t>(range.low), static_cast<std::uint32_t>(range.high)};
-}
-
-// Empty if correct (the form that CLI11 requires).
-std::string checkSubsteps(const std::string& text) {
-    if (text == "auto") return {};
-    const std::string complaint = within(sim::ranges::substeps)(text);
-    return complaint.empty() ? "" : "is " + text + ", must be " + toText(sim::ranges::substeps) + ", or auto";
 }
 
 // Sets one "key=number" of --forms. Throws CLI::ValidationError.
@@ -99,20 +93,15 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->required();
     command.add_option("--solver", overrides.solver, "solver, instead of the scene's")
         ->check(CLI::IsMember(sim::solverNames()));
-    command
-        .add_option_function<std::string>(
-            "--substeps",
-            [&overrides](const std::string& text) {
-                overrides.substeps = text == "auto" ? 0 : static_cast<std::uint32_t>(std::stoul(text));
-            },
-            "substeps per step, instead of the scene's; auto: as many as its tolerance needs")
-        ->check(checkSubsteps);
+    app::addCountOrAuto(command, "--substeps", overrides.substeps, sim::ranges::substeps, 0,
+                        "substeps per step, instead of the scene's; auto: as many as its tolerance needs");
     command
         .add_option("--iterations", overrides.iterations,
                     "sweeps per substep of jacobi and gauss_seidel, instead of the scene's")
         ->check(within(sim::ranges::iterations));
-    command.add_option("--levels", overrides.levels, "coarse levels of split, instead of the scene's")
-        ->check(within(sim::ranges::levels));
+    app::addCountOrAuto(
+        command, "--levels", overrides.levels, sim::ranges::levels, sim::autoLevels,
+        "coarse levels of split, instead of the scene's; auto: as many as win at equal error");
     command
         .add_option("--voxel", overrides.voxel,
                     "edge of the voxels of mesh bodies [m], instead of the scene's")

@@ -339,11 +339,11 @@ std::string debrisText(const CutFigures& cuts) {
 
 std::string toText(const RunRecord& record) {
     const sim::Settings& settings = record.loaded.settings;
-    std::string text = fmt::format(
-        "{}: {}, {}, {} with {}, on {} ({})\n", record.loaded.scene.name,
-        sim::counted(record.program.particleCount, "particle"),
-        sim::counted(record.program.constraintCount, "constraint"), sim::solverName(settings.solver),
-        sim::counted(settings.substeps, "substep"), record.device.name, record.device.type);
+    std::string text = fmt::format("{}: {}, {}, {} with {}, on {} ({})\n", record.loaded.scene.name,
+                                   sim::counted(record.program.particleCount, "particle"),
+                                   sim::counted(record.program.constraintCount, "constraint"),
+                                   sim::solverName(settings.solver), sim::toText(settings),
+                                   record.device.name, record.device.type);
     if (const auto frame = summarise(record.frameMs))
         text += fmt::format("{}: {:.2f} ms each (median), {:.2f} ms at most in 99 %\n",
                             sim::counted(record.frames, "step"), frame->p50, frame->p99);

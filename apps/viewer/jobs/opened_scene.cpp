@@ -100,9 +100,8 @@ vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>
 std::string headline(const OpenedScene& opening, const vk::Device& device) {
     const sim::Settings& settings = opening.loaded.settings;
     return opening.loaded.scene.name + ": " + grouped(opening.loaded.scene.particles.size()) +
-           " particles, solver " + sim::solverName(settings.solver) + " with " +
-           std::to_string(settings.substeps) + " substeps, on " + device.description().name + " (" +
-           device.description().type + ")";
+           " particles, solver " + sim::solverName(settings.solver) + " with " + sim::toText(settings) +
+           ", on " + device.description().name + " (" + device.description().type + ")";
 }
 
 PictureText pictureText(const OpenedScene& opening, const vk::Device& device, std::uint64_t step) {

@@ -1,6 +1,7 @@
 // The options, and checks of their combinations.
 #include "viewer/jobs/options.hpp"
 
+#include "app/count_option.hpp"
 #include "app/guard.hpp"
 #include "sinew/ranges.hpp"
 #include "sinew/solver_names.hpp"
@@ -53,20 +54,17 @@ Section parseSection(const std::vector<float>& numbers) {
     return {normal.normalized(), numbers[3]};
 }
 
-CLI::Range within(const sim::Range& range) {
-    return {static_cast<std::uint32_t>(range.low), static_cast<std::uint32_t>(range.high)};
-}
-
 void addSceneOptions(CLI::App& app, Options& options) {
     app.add_option("SCENE|MESH|STATE", options.scene,
                    "scene file, mesh or saved state; without one the built-in scenes/organ_draped.toml");
     app.add_option("--device", options.device, "index as `sinew devices` prints it, or part of a name");
     app.add_option("--solver", options.overrides.solver, "solver, instead of the scene's")
         ->check(CLI::IsMember(sim::solverNames()));
-    app.add_option("--substeps", options.overrides.substeps, "substeps per step, instead of the scene's")
-        ->check(within(sim::ranges::substeps));
-    app.add_option("--levels", options.overrides.levels, "coarse levels of split, instead of the scene's")
-        ->check(within(sim::ranges::levels));
+    app::addCountOrAuto(app, "--substeps", options.overrides.substeps, sim::ranges::substeps, 0,
+                        "substeps per step, instead of the scene's; auto: as many as its tolerance needs");
+    app::addCountOrAuto(
+        app, "--levels", options.overrides.levels, sim::ranges::levels, sim::autoLevels,
+        "coarse levels of split, instead of the scene's; auto: as many as win at equal error");
     options.hasValidation = SINEW_VALIDATION_DEFAULT;
     app.add_flag(
         "--validation,!--no-validation", options.hasValidation,

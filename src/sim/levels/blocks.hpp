@@ -32,9 +32,8 @@
 
 namespace sinew::sim::levels {
 
-/// The bound of omega with levels, and the largest eigenvalue of h^2 M^-1 K that they leave, by that of
-/// stability.
-inline constexpr double mostOmega = 0.9, mostEigenvalue = 0.95;
+/// The largest eigenvalue of h^2 M^-1 K with levels, by that of stability.
+inline constexpr double mostEigenvalue = 0.95;
 
 /// A node of a level: a particle, or a block.
 struct Node {

@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "sim/lattice/link_masks.hpp"
 #include "sim/levels/blocks.hpp"
+#include "sim/stiffness/level_choice.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -174,17 +175,11 @@ void keepCuts(Build& build, BufferId links, Cuts given) {
 } // namespace
 
 void check(const Scene& scene, const Settings& settings, Complaints& complaints) {
-    const auto complain = [&](const std::string& why) { complaints.add("settings.levels", why); };
+    if (settings.levels == autoLevels) return;
     complaints.check(static_cast<double>(settings.levels), ranges::levels, [] { return "settings.levels"; });
     if (settings.levels == 0 || settings.solver != Solver::split) return;
-    const double most = mostOmega * ranges::omegaBound(double{settings.theta});
-    const std::string is = "is " + number(settings.levels) + ", but ";
-    if (double{settings.omega} >= most)
-        complain(is + "levels are stable only with an omega below " + number(static_cast<float>(most)));
-    if (scene.dampingTime > 0)
-        complain(is + "levels have no internal damping: use levels 0, or a dampingTime of 0");
-    if (settings.keepsForces)
-        complain(is + "impulses of levels on fixed particles are not kept: use levels 0, or keep no forces");
+    for (const std::string& obstacle : stiffness::obstaclesToLevels(scene, settings))
+        complaints.add("settings.levels", "is " + number(settings.levels) + ", but " + obstacle);
 }
 
 std::optional<Levels> add(Build& build, const stiffness::Shares& shares) {

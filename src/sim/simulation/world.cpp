@@ -148,8 +148,9 @@ struct World::Making {
 
 World::World(const vk::Device& device, Scene base, const Settings& settings)
     : device_(device.anchored()), kernels_(device_), asked_(withSubsteps(base, settings)), settings_(asked_),
-      choosesSubsteps_(settings.substeps == 0), base_(std::make_shared<const Scene>(std::move(base))),
-      arrivals_(lastArrival(*base_)), rooms_(settings_),
+      choosesSubsteps_(settings.substeps == 0), choosesLevels_(settings.levels == autoLevels),
+      base_(std::make_shared<const Scene>(std::move(base))), arrivals_(lastArrival(*base_)),
+      rooms_(settings_),
       scene_(*base_), placed_{{.part = {}, .range = {.first = {}, .count = countsOf(*base_)}}},
       simulation_(std::make_unique<Simulation>(device_, scene_, settings_)) {}
 
@@ -166,8 +167,9 @@ PartId World::add(Scene part) {
     requireNone(validate(alone, asked_));
     requireBodies(part);
     Settings chosen = asked_;
-    chosen.substeps = 0;
-    const std::uint32_t substeps = choosesSubsteps_ ? withSubsteps(alone, chosen).substeps : 0;
+    if (choosesSubsteps_) chosen.substeps = 0;
+    if (choosesLevels_) chosen.levels = autoLevels;
+    chosen = withSubsteps(alone, chosen);
     auto scene = std::make_shared<const Scene>(std::move(part));
     if (freeSlots_.empty()) {
         freeSlots_.reserve(slots_.size() + 1); // forget() allocates nothing
@@ -179,7 +181,8 @@ PartId World::add(Scene part) {
     Slot& slot = slots_[index];
     slot.isWanted = true;
     slot.arrival = ++arrivals_;
-    slot.substeps = substeps;
+    slot.substeps = chosen.substeps;
+    slot.levels = chosen.levels;
     slot.scene = std::move(scene);
     hasChanged_ = true;
     return {index, slot.generation};
@@ -259,12 +262,14 @@ void World::begin() {
     auto making = std::make_unique<Making>();
     making->settings = asked_;
     making->settings.substeps = settings_.substeps; // never less than before
+    making->settings.levels = settings_.levels;
     std::vector<Making::Part> parts;
     for (std::uint32_t index = 0; index < slots_.size(); ++index) {
         const Slot& slot = slots_[index];
         if (!slot.isWanted) continue;
         parts.push_back({{index, slot.generation}, slot.arrival, slot.scene});
         making->settings.substeps = std::max(making->settings.substeps, slot.substeps);
+        making->settings.levels = std::max(making->settings.levels, slot.levels);
     }
     std::ranges::sort(parts, {}, &Making::Part::arrival);
     std::size_t particles = base_->particles.size(), faces = base_->faces.size();
@@ -279,7 +284,7 @@ void World::begin() {
     }
     for (const Placed& placed : placed_)
         making->hasLost = making->hasLost || (placed.part != PartId{} && slotOf(placed.part) == nullptr);
-    making->wakes = making->wakes || making->hasLost;
+    making->wakes = making->wakes || making->hasLost || making->settings.levels > settings_.levels;
     making->settings.contactRoom = contactRoomFor(particles, faces);
     making->made = std::async(std::launch::async,
                               [&making = *making, &device = device_, base = base_, parts = std::move(parts),

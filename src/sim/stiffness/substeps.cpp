@@ -8,6 +8,7 @@
 #include "sim/model/links.hpp"
 #include "sim/model/touching.hpp"
 #include "sim/stiffness/folds.hpp"
+#include "sim/stiffness/level_choice.hpp"
 #include "sim/stiffness/shares.hpp"
 #include "sim/stiffness/terms.hpp"
 #include "sinew/ranges.hpp"
@@ -247,6 +248,45 @@ std::string percentOf(const Settings& settings) {
     return std::to_string(std::lround(100 * double{settings.tolerance})) + " %";
 }
 
+// The choice with settings.levels, which are a number.
+SubstepChoice chooseFor(const Scene& scene, const Settings& settings) {
+    if (settings.substeps > 0)
+        return {.substeps = settings.substeps, .wanted = settings.substeps, .levels = settings.levels};
+    const std::uint32_t drag = dragSubsteps(scene);
+    if (hasOnlyFreeParticles(scene))
+        return {.substeps = std::min(drag, ranges::mostChosen),
+                .wanted = drag,
+                .levels = settings.levels,
+                .reason = drag > ranges::mostChosen ? SubstepReason::most
+                          : drag > 1                ? SubstepReason::drag
+                                                    : SubstepReason::fewest,
+                .rule = SubstepReason::drag};
+    // The shares of `split` depend slightly on h, so that this is a fixed-point iteration of a few rounds.
+    const Load load = loadOf(scene, double{settings.tolerance});
+    const std::uint32_t fewest = fewestFor(scene);
+    const ContactLimits contacts = limitsOfContacts(scene, load);
+    Settings tried = settings;
+    tried.substeps = fewest;
+    SubstepChoice choice;
+    for (int round = 0; round < mostRounds; ++round) {
+        choice = choiceOf(limitsOf({scene, tried, load}), contacts, scene);
+        const std::uint32_t next = std::clamp(choice.wanted, fewest, ranges::mostChosen);
+        if (next == tried.substeps || (round + 2 > mostRounds && next < tried.substeps)) break;
+        tried.substeps = next;
+    }
+    choice.substeps = tried.substeps;
+    if (drag > choice.substeps) {
+        choice.wanted = std::max(choice.wanted, drag);
+        choice.reason = SubstepReason::drag;
+        choice.body.clear();
+        choice.substeps = std::min(drag, ranges::mostChosen);
+    }
+    if (choice.wanted < choice.substeps && choice.substeps == fewest) choice.reason = SubstepReason::fewest;
+    if (choice.wanted > choice.substeps) choice.rule = std::exchange(choice.reason, SubstepReason::most);
+    choice.levels = settings.levels;
+    return choice;
+}
+
 } // namespace
 
 SplitBudget splitBudget(const Scene& scene, const Settings& settings) {
@@ -275,39 +315,17 @@ std::uint32_t dragSubsteps(const Scene& scene) {
     return countFor(double{scene.dt}, scene.damping > 0 ? most / double{scene.damping} : infinite);
 }
 
-SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
-    if (settings.substeps > 0) return {.substeps = settings.substeps, .wanted = settings.substeps};
-    const std::uint32_t drag = dragSubsteps(scene);
-    if (hasOnlyFreeParticles(scene))
-        return {.substeps = std::min(drag, ranges::mostChosen),
-                .wanted = drag,
-                .reason = drag > ranges::mostChosen ? SubstepReason::most
-                          : drag > 1                ? SubstepReason::drag
-                                                    : SubstepReason::fewest,
-                .rule = SubstepReason::drag};
-    // The shares of `split` depend slightly on h, so that this is a fixed-point iteration of a few rounds.
-    const Load load = loadOf(scene, double{settings.tolerance});
-    const std::uint32_t fewest = fewestFor(scene);
-    const ContactLimits contacts = limitsOfContacts(scene, load);
-    Settings tried = settings;
-    tried.substeps = fewest;
-    SubstepChoice choice;
-    for (int round = 0; round < mostRounds; ++round) {
-        choice = choiceOf(limitsOf({scene, tried, load}), contacts, scene);
-        const std::uint32_t next = std::clamp(choice.wanted, fewest, ranges::mostChosen);
-        if (next == tried.substeps || (round + 2 > mostRounds && next < tried.substeps)) break;
-        tried.substeps = next;
-    }
-    choice.substeps = tried.substeps;
-    if (drag > choice.substeps) {
-        choice.wanted = std::max(choice.wanted, drag);
-        choice.reason = SubstepReason::drag;
-        choice.body.clear();
-        choice.substeps = std::min(drag, ranges::mostChosen);
-    }
-    if (choice.wanted < choice.substeps && choice.substeps == fewest) choice.reason = SubstepReason::fewest;
-    if (choice.wanted > choice.substeps) choice.rule = std::exchange(choice.reason, SubstepReason::most);
-    return choice;
+SubstepChoice chooseSubsteps(const Scene& scene, const Settings& asked) {
+    Settings settings = asked;
+    if (settings.levels != autoLevels) return chooseFor(scene, settings);
+    settings.levels = stiffness::levelsOfFewSubsteps;
+    SubstepChoice choice = chooseFor(scene, settings);
+    settings.substeps = choice.substeps;
+    choice.levels = stiffness::levelsFor(scene, settings, loadOf(scene));
+    if (choice.levels > 0 || asked.substeps > 0) return choice;
+    settings = asked;
+    settings.levels = 0;
+    return chooseFor(scene, settings);
 }
 
 SubstepChoice contactSubsteps(const Scene& scene) {
@@ -319,7 +337,9 @@ SubstepChoice contactSubsteps(const Scene& scene) {
 }
 
 Settings withSubsteps(const Scene& scene, Settings settings) {
-    settings.substeps = chooseSubsteps(scene, settings).substeps;
+    const SubstepChoice choice = chooseSubsteps(scene, settings);
+    settings.substeps = choice.substeps;
+    settings.levels = choice.levels;
     return settings;
 }
 
@@ -381,6 +401,11 @@ std::string byLevels(double own) {
     return own == 1      ? ""
            : own == 0.25 ? ", one level carrying three quarters"
                          : ", levels carrying eight ninths";
+}
+
+std::string toText(const Settings& settings) {
+    const std::string levels = settings.levels > 0 ? " and " + counted(settings.levels, "level") : "";
+    return counted(settings.substeps, "substep") + levels;
 }
 
 std::string toText(const SubstepChoice& choice, const Settings& settings) {

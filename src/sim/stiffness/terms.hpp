@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/lattice/cells.hpp"
+#include "sim/lattice/placement.hpp"
 #include "sim/stiffness/shares.hpp"
 #include "sinew/scene.hpp"
 
@@ -33,13 +34,13 @@ struct Term {
 };
 
 // The share of stiffness that a link of a grid must have itself: one level carries three quarters at twice
-// the longest substep, two and more carry eight ninths at three times it. A grid has a level if that has two
-// blocks.
+// the longest substep, two and more, and one in a sheet, carry eight ninths at three times it. A grid has a
+// level if that has two blocks.
 inline double ownShare(const Settings& settings, const Grid& grid) {
     if (settings.solver != Solver::split) return 1;
     const std::uint32_t most = std::max({grid.nodes[0], grid.nodes[1], grid.nodes[2]});
     const std::uint32_t levels = std::min(settings.levels, most > 4 ? 2u : most > 2 ? 1u : 0u);
-    return levels == 0 ? 1 : levels == 1 ? 1 / 4.0 : 1 / 9.0;
+    return levels == 0 ? 1 : levels == 1 && !lattice::isSheet(grid) ? 1 / 4.0 : 1 / 9.0;
 }
 
 // Properties of a scene that do not depend on the number of substeps; by particle.
