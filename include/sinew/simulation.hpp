@@ -118,6 +118,7 @@ struct SINEW_API SavedState {
     std::uint32_t changes = 0;      ///< number of recordChange() before it
     bool isUncut = false;           ///< nothing can have been cut since the reset
     std::optional<float> undoneH{}; ///< substep of the undone steps after that one [s]
+    float longestH = 0;             ///< substep that `split` clamped links for in the last step [s]
 };
 
 /// Vertices that recordSkin() makes of skins that were split so that they may be cut: all of them, or only

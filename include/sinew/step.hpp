@@ -99,8 +99,9 @@ struct SINEW_API RayCut {
 
 /// Input of one step.
 struct SINEW_API Step {
-    float dt =
-        1.0f / 60.0f; ///< length of the step [s], 1e-6 to 0.1; a value outside is taken as the nearer end
+    /// Length of the step [s], 1e-6 to 0.1; a value outside is taken as the nearer end. Steps may differ:
+    /// with `split`, links that a longer step had to soften regain their stiffness within seconds.
+    float dt = 1.0f / 60.0f;
     Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]
     std::uint64_t frame = 0;    ///< increases by one with every step
     /// Targets of the scene's attachments at the end of the step [m], in their order; the points move there

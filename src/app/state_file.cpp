@@ -24,9 +24,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "state files are little endian");
 
-constexpr std::string_view title = "sinew state 4\n", titleWithoutLevels = "sinew state 3\n",
-                           titleWithoutView = "sinew state 2\n"; // of equal size
-static_assert(title.size() == titleWithoutView.size() && title.size() == titleWithoutLevels.size());
+// By version, from `firstVersion` on: each appends to the one before a view, levels, and the substep of
+// clamps.
+constexpr std::string_view titles[] = {"sinew state 2\n", "sinew state 3\n", "sinew state 4\n",
+                                       "sinew state 5\n"};
+constexpr std::size_t firstVersion = 2, withView = 3, withLevels = 4, withClamps = 5;
+static_assert(withClamps == firstVersion + std::size(titles) - 1);
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
     throw Failure(badInput, "cannot read a state: " + file.string() + ": " + why);
@@ -192,10 +195,11 @@ void writeRun(const std::filesystem::path& file, const SavedRun& run) {
     writer(std::uint32_t{run.view.has_value()});
     if (run.view) visitView(*run.view, writer);
     writer(run.settings.levels);
+    writer(run.host.longestH);
     const std::vector<std::byte> bytes = writer.take();
     const std::uint64_t hash = sim::fnv1a(bytes);
     mesh::writeWhole(file, [&](std::ostream& stream) {
-        stream << title;
+        stream << titles[withClamps - firstVersion];
         stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         stream.write(reinterpret_cast<const char*>(&hash), sizeof(hash));
     });
@@ -206,11 +210,11 @@ SavedRun readRun(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file, error)) refuse(file, "there is no such file");
     if (!std::filesystem::is_regular_file(file, error)) refuse(file, "it is not a file");
     std::ifstream stream(file, std::ios::binary);
-    std::string head(title.size(), ' '); // other files, which may be large, are not read
+    std::string head(titles[0].size(), ' '); // other files, which may be large, are not read
     stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-    const bool hasLevels = head == title, mayHaveView = hasLevels || head == titleWithoutLevels;
-    if (!mayHaveView && head != titleWithoutView)
-        refuse(file, "it does not begin like a state of this version");
+    const auto title = std::ranges::find(titles, head);
+    if (title == std::end(titles)) refuse(file, "it does not begin like a state of this version");
+    const std::size_t version = firstVersion + static_cast<std::size_t>(title - std::begin(titles));
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     std::span<const std::byte> bytes = std::as_bytes(std::span(text));
     std::uint64_t hash = 0;
@@ -222,8 +226,9 @@ SavedRun readRun(const std::filesystem::path& file) {
     SavedRun run;
     Reader reader(bytes);
     visit(run, reader);
-    if (mayHaveView) readView(run, reader);
-    if (hasLevels) reader(run.settings.levels);
+    if (version >= withView) readView(run, reader);
+    if (version >= withLevels) reader(run.settings.levels);
+    if (version >= withClamps) reader(run.host.longestH);
     if (!reader.isWhole() || (run.view && !isView(*run.view)) ||
         run.settings.solver > sim::Solver::gaussSeidel)
         refuse(file, "its contents do not match its version");

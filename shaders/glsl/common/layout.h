@@ -34,8 +34,8 @@ struct StepParams {
     float dampingShare; // `split`: h x damping coefficient of a link, at most this x k~ x the smaller tau of its ends
     float multiplierScale; // `gauss_seidel`: scale of the multipliers kept from the step before, min(1, (h / hPrevious)^2)
     float thetaHStored; // `split`: thetaH, or 0 where contacts follow the gather: it then stores x
-    uint wakes; // WAKES_...
-    uint lists; // bits of LISTS_...
+    uint wakes, lists; // WAKES_..., bits of LISTS_...
+    float longestH, unused0, unused1, unused2; // `split`: H, for which links are clamped [s]: at least h and hPrevious
 };
 
 #include "common/lists_layout.h"

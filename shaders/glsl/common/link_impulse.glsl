@@ -10,7 +10,7 @@ struct Substep {
 };
 
 Substep substepOf(bool isFirst) {
-    const float h = step.h, longest = isFirst ? max(step.hPrevious, h) : h;
+    const float h = step.h, longest = step.longestH;
     const float kick = isFirst ? 0.5 * (step.hPrevious + h) : h;
     return Substep(longest * longest, kick, kick / (longest * longest), isFirst ? step.thetaHPrevious : step.thetaH);
 }

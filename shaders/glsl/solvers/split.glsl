@@ -7,8 +7,8 @@
 //   drift  x' = x + h v',  y' = x' + theta h v'
 //
 // k is h, but (hPrevious + h) / 2 in a step's first substep: v is half a substep behind x (leapfrog), which starts
-// the motion with a half-kick and follows a changing h. H is h, in that substep the longer of both: it bounds the
-// effect of links in the whole kick. tau_i = omega / (2 w_i sum_c k~_c) is stored in positions.w: a link's share of a
+// the motion with a half-kick and follows a changing h. H is the longest h of late (sim/simulation/pace.hpp): at least
+// the two of the kick, whose effect it bounds. tau_i = omega / (2 w_i sum_c k~_c) is stored in positions.w: a link's share of a
 // particle is k~_c / sum k~ (solvers/shares.hpp).
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_spirv_intrinsics : require

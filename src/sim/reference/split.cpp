@@ -150,6 +150,8 @@ std::vector<Eigen::Vector3d> forces(const Problem& problem, const Split& split, 
 
 } // namespace
 
+constexpr double clampMemory = 2; // [s]
+
 void stepSplit(const Scene& scene, const Settings& settings, double dt, State& state) {
     const Problem problem(scene);
     const double h = dt / settings.substeps, theta = double{settings.theta}, omega = double{settings.omega};
@@ -157,14 +159,13 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
     const Split split(problem, omega, double{scene.dt} / settings.substeps, spare); // shares ignore dt
     const Levels levels(scene, settings, problem, split.links(problem), double{scene.dt} / settings.substeps);
     const double kept = std::exp(-problem.damping * h);
+    const double longest = std::max({h, state.previousH, state.longestH * std::exp(-dt / clampMemory)});
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         // v belongs to the middle of the last substep, which had this length.
         const double hBefore = substep == 0 ? state.previousH : h;
         std::vector<Eigen::Vector3d> y(state.x);
         for (std::size_t i = 0; i < problem.size(); ++i) y[i] += theta * hBefore * state.v[i];
-        const double longest = std::max(hBefore, h);
-        const double share =
-            dampingShare(problem, split.most(problem), omega, theta, std::max(state.previousH, h));
+        const double share = dampingShare(problem, split.most(problem), omega, theta, longest);
         std::vector<Eigen::Vector3d> force = forces(problem, split, longest, share, y, state.v);
         levels.addForces(longest, y, force);
         addBendForces(problem, omega, theta, longest, y, force);
@@ -186,6 +187,7 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
     }
     settleAnchors(problem, dt, state);
     state.previousH = h;
+    state.longestH = longest;
 }
 
 } // namespace sinew::sim::reference

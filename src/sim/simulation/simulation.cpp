@@ -47,7 +47,7 @@ Simulation::~Simulation() {
 // it is repeated. There must be passes to leave out. An undone step must leave the state as it was before, in
 // bits, which it does not with a substep of another length.
 bool Simulation::State::mayBeCalm(float h) const noexcept {
-    return isKeptWhereUndone && h == previousH && calmSteps.areCalm() && grabs.areFree() &&
+    return isKeptWhereUndone && h == pace.h && calmSteps.areCalm() && grabs.areFree() &&
            !program.grids.empty();
 }
 
@@ -70,7 +70,7 @@ void Simulation::State::readSteps() noexcept {
 void Simulation::State::noteBefore(std::uint64_t frame) noexcept {
     Before& slot = befores[ring.slotOf(frame)];
     const rigid::HostColliders& hostColliders = colliders.hostColliders();
-    slot.h = previousH;
+    slot.pace = pace;
     slot.time = colliders.time();
     slot.hostColliders = hostColliders.states();
     std::ranges::copy(anchors.values(), slot.anchors.begin());
@@ -89,8 +89,8 @@ void Simulation::State::goBack() noexcept {
     const Before& slot = befores[ring.slotOf(*lackedLists)];
     if (slot.frame != lackedLists) return; // too many steps were in flight
     isBack = true;
-    undoneH = previousH;
-    previousH = slot.h;
+    undoneH = pace.h;
+    pace = slot.pace;
     colliders.moveTo(slot.time, slot.hostColliders);
     anchors.restore(slot.anchors);
     grabs.restore(*slot.grabs);
@@ -106,7 +106,7 @@ void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
 }
 
 void Simulation::State::reset() noexcept {
-    previousH = 0;
+    pace = {};
     settledEnd = {};
     forgetUnsettled();
     hasState = true;
@@ -155,7 +155,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     const rigid::ColliderPaths& colliders = state_->colliders;
     const auto hostColliderArguments = state_->hostColliderArguments();
     state_->unsettled[state_->ring.slotOf(step.frame)] = {
-        true, {parameters.h, colliders.time(), colliders.hostColliders().states()}};
+        true, {{parameters.h, parameters.longestH}, colliders.time(), colliders.hostColliders().states()}};
     state_->isUncut = state_->isUncut && !hasBlade;
     vk::Commands commands(state_->device, buffer);
     if (timestamps) timestamps->reset(commands);
@@ -173,7 +173,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     commands.endStepForHost();
     state_->recordEnd(commands, step.frame);
     commands.hostBarrier();
-    state_->previousH = parameters.h;
+    state_->pace = {parameters.h, parameters.longestH};
     state_->gravity = step.gravity;
     state_->undoneH.reset();
     state_->hasNewTopology = state_->isChanged = state_->isCarried = state_->isNewState = false;

@@ -17,6 +17,7 @@
 #include "sim/simulation/calm_steps.hpp"
 #include "sim/simulation/carrying.hpp"
 #include "sim/simulation/misuse.hpp"
+#include "sim/simulation/pace.hpp"
 #include "sim/simulation/simulation_ring.hpp"
 #include "sim/simulation/skin_ranges.hpp"
 #include "sim/solvers/split.hpp"
@@ -70,14 +71,14 @@ struct Simulation::State {
     SplitBudget budget;
     float theta, omega, damping;
     std::uint32_t substeps;
-    bool storesPlaces;   // gathers of `split` store x, not x + theta h v: if contacts follow, or forces are
-                         // kept
-    bool hasContacts;    // of particles or faces
-    float previousH = 0; // 0 before the first step: the leapfrog starts with a half kick
-    Vec3 gravity{};      // of the last step [m/s^2]
-    // A finished step: its h, and the poses of colliders and host colliders at its end.
+    bool storesPlaces; // gathers of `split` store x, not x + theta h v: if contacts follow, or forces are
+                       // kept
+    bool hasContacts;  // of particles or faces
+    Pace pace;         // of the last step; the leapfrog starts with a half kick
+    Vec3 gravity{};    // of the last step [m/s^2]
+    // A finished step: its substeps, and the poses of colliders and host colliders at its end.
     struct Settled {
-        float h = 0;
+        Pace pace{};
         double time = 0;
         rigid::HostColliderStates hostColliders{};
     };
@@ -92,7 +93,7 @@ struct Simulation::State {
     Settled settledEnd;
     // The host's part of the state before a step, by slot of the ring, for hosts that repeat steps.
     struct Before {
-        float h = 0;
+        Pace pace{};
         double time = 0;
         rigid::HostColliderStates hostColliders{};
         std::vector<layout::vec4> anchors;
@@ -144,24 +145,24 @@ struct Simulation::State {
     bool mayBeCut() const noexcept { return program.cutting.counts != BufferId{}; }
 
     layout::StepParams parameters(const Step& step, float dt, std::uint32_t lists) const {
-        const float h = dt / static_cast<float>(substeps);
-        const double longest = double{std::max(h, previousH)};
+        const float h = dt / static_cast<float>(substeps), longest = pace.longestOf(dt, h);
         const Vec3& g = step.gravity;
         return {.gravity = {g.x, g.y, g.z, fields.key()},
                 .h = h,
-                .hPrevious = previousH,
+                .hPrevious = pace.h,
                 .thetaH = theta * h,
-                .thetaHPrevious = theta * undoneH.value_or(previousH),
+                .thetaHPrevious = theta * undoneH.value_or(pace.h),
                 .velocityFactor = std::exp(-damping * h),
                 .restSpeed = 2 * (std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z) + fields.acceleration()) * h,
                 .frame = static_cast<std::uint32_t>(step.frame),
                 .dampingShare =
-                    static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
-                .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
+                    static_cast<float>(dampingBudget(budget, double{theta}, double{longest}) / double{omega}),
+                .multiplierScale = pace.h > 0 ? std::min(1.0f, h * h / (pace.h * pace.h)) : 0,
                 .thetaHStored = storesPlaces ? 0 : theta * h,
                 .wakes = (step.wakes || hasNewTopology || isChanged ? WAKES_ALL : 0u) |
                          (isCarried ? WAKES_LISTS : 0u),
-                .lists = lists};
+                .lists = lists,
+                .longestH = longest};
     }
 
     // The last finished step before `frame`: the one in this slot of the ring if it has finished and was not
@@ -389,11 +390,11 @@ struct Simulation::State {
 
     // Sets the host's part of the state.
     void moveTo(const SavedState& saved) noexcept {
-        previousH = saved.h;
+        pace = {saved.h, saved.longestH};
         rigid::HostColliderStates hostColliders{};
         std::copy_n(saved.hostColliders.begin(), std::min(saved.hostColliders.size(), hostColliders.size()),
                     hostColliders.begin());
-        settledEnd = {saved.h, saved.colliderTime, hostColliders};
+        settledEnd = {pace, saved.colliderTime, hostColliders};
         forgetUnsettled();
         undoneH = saved.undoneH;
         anchors.moveTo(saved.anchors);

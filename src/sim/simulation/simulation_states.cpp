@@ -77,13 +77,13 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
     state_->isChanged = true;
     if (saved != nullptr) {
         state_->moveTo(*saved);
-        if (!isAlike) state_->previousH = state_->settledEnd.h = 0;
+        if (!isAlike) state_->pace = state_->settledEnd.pace = {};
         state_->undoneH.reset(); // the copy contains the saved values of the last finite step
         return;
     }
     const State::Settled end = other.lastSettled();
     state_->settledEnd = end;
-    state_->previousH = isAlike ? end.h : 0;
+    state_->pace = isAlike ? end.pace : Pace{};
     state_->anchors = other.anchors;
     if (isAlike) state_->grabs = other.grabs;
     state_->isUncut = other.isUncut;
@@ -100,7 +100,8 @@ std::unique_ptr<Carrying> Simulation::makeCarrying(const Simulation& to, const O
 void Simulation::State::carry(const State& other, const Origins& origins) noexcept {
     const Settled end = other.lastSettled();
     settledEnd = end;
-    previousH = end.h;
+    // Steps in flight have one h, else nothing is carried (isEndKnown()); H follows them, undone or not.
+    pace = {end.pace.h, other.pace.longest};
     gravity = other.gravity;
     anchors.carry(other.anchors, origins.attachments);
     grabs.carry(other.grabs, origins.particles);
@@ -127,8 +128,8 @@ void Simulation::recordCarried(VkCommandBuffer buffer, const Simulation& from, c
     commands.barrier();
     own.carry(other, origins);
     own.isChanged = own.isChanged || wakes;
-    if (own.chosen.solver == Solver::split && own.previousH > 0) {
-        const float h = own.previousH, half = 0.5f * h;
+    if (own.chosen.solver == Solver::split && own.pace.h > 0) {
+        const float h = own.pace.h, half = 0.5f * h;
         const Vec3& g = own.gravity;
         carrying.recordArrivals(commands, {half * g.x, half * g.y, half * g.z}, own.theta * h);
         commands.barrier();
@@ -157,7 +158,8 @@ bool Simulation::State::isEndKnown() const noexcept {
     for (std::uint64_t i = 0; i < ring.slots(); ++i) {
         const RecordedStep& step = ring.step(nextFrame + i);
         if (!step.isRecorded || ring.isFinished(step.frame)) continue;
-        if (step.repeats || !colliders.ways().empty() || unsettled[ring.slotOf(step.frame)].end.h != known.h)
+        if (step.repeats || !colliders.ways().empty() ||
+            unsettled[ring.slotOf(step.frame)].end.pace.h != known.pace.h)
             return false;
     }
     return true;
@@ -247,10 +249,11 @@ SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferV
     state_->copy(commands, state_->written, to, State::Way::out);
     commands.endStep();
     const auto hostColliders = this->hostColliders(); // restores the host's part if steps must be repeated
-    return {state_->previousH,        state_->colliders.time(),
+    return {state_->pace.h,           state_->colliders.time(),
             state_->anchors.places(), {hostColliders.begin(), hostColliders.end()},
             state_->hasNewTopology,   state_->changes,
-            state_->isUncut,          state_->undoneH};
+            state_->isUncut,          state_->undoneH,
+            state_->pace.longest};
 }
 
 void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& from,
