@@ -62,8 +62,10 @@ TEST_F(PilotRun, TakesTheSubstepsThatReachAnError) {
 
 // Reports and saved states have the number.
 TEST_F(PilotRun, TakesTheLevelsThatWin) {
-    write("beam.toml", "[[box]]\nparticles = [24, 6, 6]\nspacing = 0.02\nyoung_modulus = 2e5\n[solver]\n"
-                       "substeps = 8\nlevels = \"auto\"\n");
+    write(
+        "beam.toml",
+        "[[box]]\nparticles = [24, 6, 6]\nspacing = 0.02\norigin = [0, 0, 0]\nyoung_modulus = 2e5\n[solver]\n"
+        "substeps = 8\nlevels = \"auto\"\n");
     const json chosen = report({"beam.toml", "--frames", "4", "--save", "half.state"});
     EXPECT_EQ(chosen["levels"], 2);
     EXPECT_EQ(report({"beam.toml", "--frames", "2", "--levels", "0"})["levels"], 0);
