@@ -190,7 +190,7 @@ struct SkinPrism {
 // A vertex of a bound skin.
 struct HungVertex {
     vec4 rest;    // [m]; w = index of the skin
-    vec4 weights; // in its cell; w = links of its anchor in the uncut body
+    vec4 weights; // in its cell
     vec4 normal;  // at rest, as used for lighting; w = spacing of the grid [m]
     uint vertex;  // index in all skins
     uint cell, anchor; // slots
@@ -234,11 +234,14 @@ struct SkinSlotsPush {
 };
 
 // State bits of an anchor slot: the blade was near it in this stroke; it belongs to a listed prism; its vertices were
-// listed in the last step with a blade; and in this stroke.
+// listed in the last step with a blade; and in this stroke; its particle lost links in this step; and in an earlier one
+// of this stroke.
 #define SLOT_MET 1u
 #define SLOT_ASKED 2u
 #define SLOT_LISTED 4u
 #define SLOT_OF_STROKE 8u
+#define SLOT_LOSES 16u
+#define SLOT_LOST 32u
 
 // Position of a vertex in this step with a blade, and in the last one; it moves straight between them, so that tests
 // against the blade see a continuous path. now.w = 0: it was not near the blade in the last one.
@@ -246,10 +249,12 @@ struct PlacedVertex {
     vec4 before, now; // [m]
 };
 
-// Values of w in the rest position of a vertex on the wrong side of a blade: VERTEX_MOVES = it moves there once its
-// anchor has lost a link, VERTEX_MOVED = it has moved.
+// Values of w in the place at rest of a vertex beside a cut. VERTEX_MOVES = the blade has passed between it and its
+// anchor, and it moves there once the anchor loses a link. From VERTEX_MOVED on it has moved: VERTEX_AHEAD = to where
+// the blade will pass if it goes straight on.
 #define VERTEX_MOVES 1.0
 #define VERTEX_MOVED 2.0
+#define VERTEX_AHEAD 3.0
 
 // Pieces of a sheet's skin beside cuts (surface/sheet_pieces.hpp). A triangle of such a skin is half of the cell
 // above a slot: corners a, c = a + z, d = a + x + z, or a, d, b = a + x.

@@ -17,7 +17,7 @@ FETCHED_UINT(6, Partitions, partitionAt)
 layout(std430, binding = 7) writeonly buffer States { uint states[]; }; // one per whole triangle
 layout(push_constant) uniform Push { PrismPush push; };
 
-bool isBesideCut(uint v) { return PARTITION(hungAt(v).cell) != 0u || MOVED(v).w == VERTEX_MOVED; }
+bool isBesideCut(uint v) { return PARTITION(hungAt(v).cell) != 0u || MOVED(v).w >= VERTEX_MOVED; }
 
 void main() {
     const uint i = itemIndex(push.count);

@@ -14,6 +14,6 @@ void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const uint v = push.first + item;
-    if (partitions[hung[v].cell] != 0u || moved[v].w == VERTEX_MOVED)
+    if (partitions[hung[v].cell] != 0u || moved[v].w >= VERTEX_MOVED)
         listed[push.first + atomicAdd(counts[SKIN_LISTS * push.run + SKIN_SPLIT], 1u)] = v;
 }

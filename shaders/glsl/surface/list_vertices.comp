@@ -13,6 +13,8 @@ layout(std430, binding = 8) writeonly buffer Listed { uint listed[]; }; // each 
 layout(std430, binding = 9) writeonly buffer Placed { PlacedVertex placed[]; };
 #define POINTS_BINDING 10
 #include "common/blade_points.glsl"
+layout(std430, binding = 11) readonly buffer SavedLinks { uint savedLinks[]; };
+layout(std430, binding = 12) readonly buffer Links { uint links[]; };
 layout(push_constant) uniform Push { SkinSlotsPush push; };
 
 #include "surface/near_skin.glsl"
@@ -26,7 +28,10 @@ void main() {
     const bool isNear = (word & SLOT_ASKED) != 0u || isNearBlade(slot.slot), wasListed = (word & SLOT_LISTED) != 0u;
     const bool isOfStroke = isNear || blade.isCarried != 0u && (word & SLOT_OF_STROKE) != 0u;
     const bool isListed = isNear || !isOfStroke && (word & SLOT_OF_STROKE) != 0u; // a new stroke clears the state of earlier ones
-    flags[slot.slot] = word & SLOT_MET | (isListed ? SLOT_LISTED : 0u) | (isOfStroke ? SLOT_OF_STROKE : 0u);
+    const bool hasLost = blade.isCarried != 0u && (word & (SLOT_LOSES | SLOT_LOST)) != 0u;
+    const bool loses = links[slot.slot] != savedLinks[slot.slot];
+    flags[slot.slot] = word & SLOT_MET | (isListed ? SLOT_LISTED : 0u) | (isOfStroke ? SLOT_OF_STROKE : 0u) |
+                       (hasLost ? SLOT_LOST : 0u) | (loses ? SLOT_LOSES : 0u);
     if (!isListed && !wasListed) return;
     const uint first = slot.first + slot.corners;
     uint place = 0u;

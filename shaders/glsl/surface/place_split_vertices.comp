@@ -28,7 +28,7 @@ void main() {
     const uint v = listed[push.first + item];
     const HungVertex vertex = hungAt(v);
     const vec4 to = MOVED(v);
-    if (to.w == VERTEX_MOVED) { // it moved onto a rim
+    if (to.w >= VERTEX_MOVED) { // it moved onto a rim
         const SkinGrid grid = SkinGrid(push.rowStride, push.sliceStride, push.spacing, 0u);
         vertices[vertex.vertex].position.xyz = nearbyOf(vertex.anchor, to.xyz, to.xyz, grid).place;
         return;

@@ -2,5 +2,5 @@
 // moved_vertex.glsl.
 vec4 restOf(uint vertex) {
     const vec4 to = MOVED(vertex), before = hungAt(vertex).rest;
-    return vec4(to.w == VERTEX_MOVED ? to.xyz : before.xyz, before.w);
+    return vec4(to.w >= VERTEX_MOVED ? to.xyz : before.xyz, before.w);
 }

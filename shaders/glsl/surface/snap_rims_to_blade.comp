@@ -1,7 +1,9 @@
 #version 460
-// Moves skin vertices that a blade has separated from their anchors: once the anchor has lost a link, such a vertex
-// moves along the skin to the place where the blade passed, so that both rims of the cut are there; the skin beyond
-// belongs to the other side.
+// Moves skin vertices that a blade separates from their anchors along the skin onto the surface of the blade, so that
+// both rims of the cut are there; the skin beyond belongs to the other side. Links die as a whole, so the skin before a
+// slow blade parts before the blade is there. A vertex is therefore tested when its anchor loses its first link of a
+// stroke, while the skin is still closed, as if the blade went straight on (planeMeeting). If the blade turns, it
+// meets the vertex elsewhere, and that place replaces the first one.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/cut.glsl"
@@ -15,7 +17,7 @@
 #include "surface/hung_vertex.glsl"
 #define POINTS_BINDING 7
 #include "common/blade_points.glsl"
-layout(std430, binding = 8) readonly buffer Links { uint links[]; };
+layout(std430, binding = 8) readonly buffer Flags { uint flags[]; }; // one per slot
 layout(std430, binding = 9) buffer Moved { vec4 moved[]; };
 layout(std430, binding = 10) buffer Rims { uint rims[]; };
 layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
@@ -26,28 +28,55 @@ layout(std430, binding = 15) readonly buffer Planes { vec4 planes[]; };         
 
 #include "surface/near_skin.glsl"
 #include "common/blade_sweep.glsl"
+#include "surface/blade_plane.glsl"
 
 const float mostWay = 1.5;      // [cells]
 const float leastVolume = 1e-3; // relative to its rest volume: flatter material gives no rest position
 const float leastTangent = 0.2; // part of the blade's normal in the plane of the skin, squared: a blade at a smaller angle shaves along the skin
 
-// The rest position to which the blade between the vertex and its anchor moves the vertex; w = 0 if it does not.
-vec4 behindBlade(HungVertex self, PlacedVertex vertex, vec3 plane) {
-    const uint i = self.anchor;
-    const vec3 x = vertex.now.xyz;
-    const Meeting meeting = stripMeeting(Ends(vertex.before.xyz, placeBefore(i), x, PLACE(i)));
-    const float size = length(meeting.normal);
-    if (meeting.at > 1.0 || !(size > 0.0)) return vec4(0.0);
+// The material around a particle: the best affine motion of it and its neighbours on both sides of the blade.
+struct Around {
+    vec3 rest, now; // means
+    vec3 drift;     // mean motion in this step
+};
+
+Around aroundOf(uint i) {
+    Around mean = Around(REST(i), AT(i), PLACE(i) - placeBefore(i));
+    for (uint alive = SAVED(i); alive != 0u; alive &= alive - 1u) {
+        const uint j = uint(int(i) + offsetOf(directionOf(findLSB(alive))));
+        mean.rest += REST(j);
+        mean.now += AT(j);
+        mean.drift += PLACE(j) - placeBefore(j);
+    }
+    const float share = 1.0 / float(1 + bitCount(SAVED(i)));
+    return Around(share * mean.rest, share * mean.now, share * mean.drift);
+}
+
+// The place of a vertex after this step, with its state in w.
+vec4 nextPlace(uint v, HungVertex self, vec4 to) {
+    const uint i = self.anchor, state = flags[i];
+    const PlacedVertex vertex = placed[v];
+    vec3 x = vertex.now.xyz;
+    Meeting meeting = stripMeeting(Ends(vertex.before.xyz, placeBefore(i), x, PLACE(i)));
+    const bool isMet = meeting.at <= 1.0;
+    if (isMet && to.w == VERTEX_MOVES) return vec4(0.0); // it came back
+    if (!isMet && (state & (SLOT_LOSES | SLOT_LOST)) != SLOT_LOSES) return to; // only the first loss of a stroke counts
+    if (!isMet && to.w == VERTEX_MOVES) return vec4(to.xyz, VERTEX_MOVED);
     const mat3 turn = gradientAt(i);
-    if (!(abs(determinant(turn)) > leastVolume)) return vec4(0.0);
-    const vec3 n = meeting.normal / size;
-    const vec3 skin = cofactor(turn) * plane; // zero if its triangles are folded upon each other
-    const float area = dot(skin, skin);
-    vec3 way = area > 0.0 ? n - dot(n, skin) / area * skin : n;
-    if (dot(way, way) < leastTangent) way = n;
-    way *= dot(n, meeting.at * (PLACE(i) - x)) / dot(n, way);
+    if (!(abs(determinant(turn)) > leastVolume)) return to;
+    if (!isMet) {
+        const Around around = aroundOf(i);
+        x = around.now + turn * (self.rest.xyz - around.rest);
+        meeting = planeMeeting(x, PLACE(i), around.drift);
+    }
+    const vec3 normal = transpose(turn) * meeting.normal, skin = planes[v].xyz; // at rest
+    const float size = length(normal);
+    if (!(size > 0.0) || !(meeting.at >= 0.0 && meeting.at <= 1.0)) return to;
+    vec3 way = normal - dot(normal, skin) / max(dot(skin, skin), 1e-30) * skin; // in the skin, which may face no way
+    if (dot(way, way) < leastTangent * size * size) way = normal;
+    way *= meeting.at * dot(meeting.normal, PLACE(i) - x) / dot(normal, way);
     way *= min(1.0, mostWay * push.spacing / max(length(way), 1e-30));
-    return vec4(self.rest.xyz + inverse(turn) * way, VERTEX_MOVES);
+    return vec4(self.rest.xyz + way, !isMet ? VERTEX_AHEAD : (state & (SLOT_LOSES | SLOT_LOST)) != 0u ? VERTEX_MOVED : VERTEX_MOVES);
 }
 
 void main() {
@@ -57,16 +86,9 @@ void main() {
     const uint v = listed[push.first + item];
     const HungVertex self = hungAt(v);
     vec4 to = moved[v];
-    const bool isNear = isNearBlade(self.anchor);
-    if (to.w == VERTEX_MOVED || !isNear && to.w == 0.0) return;
-    if (blade.isCarried == 0u) to = vec4(0.0);
-    if (isNear && (rims[v] == 0u || blade.isCarried != 0u)) { // at an older cut, the first step of a stroke does not move the rim
-        const vec4 behind = behindBlade(self, placed[v], planes[v].xyz);
-        if (behind.w > 0.0) to = to.w == 0.0 ? behind : vec4(0.0); // else the vertex came back
-    }
-    if (to.w > 0.0 && bitCount(links[self.anchor]) < int(self.weights.w)) {
-        to.w = VERTEX_MOVED;
-        rims[v] = 1u;
-    }
+    if (to.w == VERTEX_AHEAD && blade.isCarried == 0u) to.w = VERTEX_MOVED; // by an earlier stroke
+    if (to.w == VERTEX_MOVES && blade.isCarried == 0u) to = vec4(0.0);
+    if (to.w != VERTEX_MOVED && isNearBlade(self.anchor)) to = nextPlace(v, self, to);
+    if (to.w >= VERTEX_MOVED) rims[v] = 1u;
     moved[v] = to;
 }

@@ -28,7 +28,7 @@ float shareOf(SkinPrism prism, uint self, uint n) {
     const SkinEdge edge = edgeOf(prism, self, n);
     const uint value = bitfieldExtract(skinHits[edge.prism], int(8u * edge.edge), 8);
     if (value > 0u) return edge.isReversed ? 1.0 - float(value) / 255.0 : float(value) / 255.0;
-    const bool isStart = MOVED(prism.vertices[n]).w == VERTEX_MOVED, isEnd = MOVED(prism.vertices[(n + 1u) % 3u]).w == VERTEX_MOVED;
+    const bool isStart = MOVED(prism.vertices[n]).w >= VERTEX_MOVED, isEnd = MOVED(prism.vertices[(n + 1u) % 3u]).w >= VERTEX_MOVED;
     return isStart == isEnd ? 0.5 : isStart ? 0.02 : 0.98;
 }
 

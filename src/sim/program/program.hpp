@@ -246,7 +246,7 @@ struct CutSurfaceBuffers {
     BufferId draws;     ///< layout::DrawArguments of the inside and of the outside
     BufferId particles; ///< by slot: the particle that CutVertex::corners refer to
     BufferId hung;      ///< layout::HungVertex of clipped skins of meshes; invalid without such skins
-    BufferId moved;     ///< of each of these: position at rest, if w is VERTEX_MOVED
+    BufferId moved;     ///< of each of these: position at rest, if w is VERTEX_MOVED or more
 };
 
 /// Contact candidates: lists by slot of layout::ContactCandidate (collision/contact_lists.hpp,

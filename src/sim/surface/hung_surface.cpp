@@ -46,7 +46,7 @@ void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId blade
     for (const HungRange& range : hung.ranges)
         program.dispatch(k::listVertices, range.slots.count,
                          {bladePlaces, placesBefore, blade, hung.slots, hung.hanging, status, hung.slotFlags,
-                          hung.counts, hung.listed, hung.placed, points},
+                          hung.counts, hung.listed, hung.placed, points, cutting.savedLinks, cutting.links},
                          range.slots);
     addPlan(program, hung);
 }
@@ -141,7 +141,7 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
     for (const HungRange& range : hung.ranges)
         program.dispatchIndirect(k::snapRimsToBlade, listOf(hung, range.vertices, SKIN_VERTICES),
                                  {bladePlaces, placesBefore, blade, cutting.savedLinks, cutting.places,
-                                  surface.rest, hung.vertices, points, cutting.links, hung.moved, hung.rims,
+                                  surface.rest, hung.vertices, points, hung.slotFlags, hung.moved, hung.rims,
                                   program.program().status, hung.counts, hung.listed, hung.placed,
                                   hung.planes},
                                  range.vertices);

@@ -7,7 +7,6 @@
 #include "sim/surface/rest_normals.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <tuple>
 
@@ -87,8 +86,7 @@ private:
                 vertex.rest.z += share * x.z;
             }
             vertex.rest.w = static_cast<float>(place_.index);
-            vertex.weights = {w.x, w.y, w.z,
-                              static_cast<float>(std::popcount(lattice::linksAt(grid_, nodes_[v])))};
+            vertex.weights = {w.x, w.y, w.z, 0};
             vertex.vertex = place_.firstVertex + v;
             vertex.cell = slot(*cell);
             vertex.anchor = slot(nodes_[v]);

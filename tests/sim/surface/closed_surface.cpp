@@ -62,7 +62,7 @@ std::map<std::uint32_t, Vector3d> ClosedSurface::movedVertices(CutBody& body) {
     const auto hung = read<layout::HungVertex>(body, buffers.hung, hash_);
     const auto moved = read<layout::vec4>(body, buffers.moved, hash_);
     for (std::size_t v = 0; v < hung.size(); ++v)
-        if (moved[v].w == VERTEX_MOVED) vertices.emplace(hung[v].vertex, xyz(moved[v]));
+        if (moved[v].w >= VERTEX_MOVED) vertices.emplace(hung[v].vertex, xyz(moved[v]));
     return vertices;
 }
 
