@@ -3,9 +3,17 @@
 
 #include <cmath>
 #include <fstream>
+#include <string>
+
+#include <unistd.h>
 
 namespace sinew::test {
 namespace {
+
+// In a folder that other tests use at the same time.
+std::string scratchFile(const char* name) {
+    return ::testing::TempDir() + "sinew_capi_" + std::to_string(::getpid()) + "_" + name;
+}
 
 SinewSceneCounts countsOf(SinewScene scene) {
     SinewSceneCounts counts{};
@@ -208,7 +216,7 @@ TEST(CApiFiles, ScenesAndMeshesAreRead) {
     EXPECT_GT(settings.substeps, 0u); // the number that the scene needs
     EXPECT_TRUE(isOk(sinewValidate(scene, &settings)));
 
-    const std::string file = ::testing::TempDir() + "sinew_capi_tetrahedron.obj";
+    const std::string file = scratchFile("tetrahedron.obj");
     std::ofstream(file)
         << "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nv 0 0 1000\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
     SinewMesh mesh = sinewDefaultMesh();
@@ -226,7 +234,7 @@ TEST(CApiFiles, FaultsHaveTheirLine) {
     SinewScene scene{};
     EXPECT_TRUE(
         failsWith(SINEW_ERROR_FILE, "no such file.toml", sinewLoadScene("no such file.toml", &scene)));
-    const std::string file = ::testing::TempDir() + "sinew_capi_fault.toml";
+    const std::string file = scratchFile("fault.toml");
     std::ofstream(file) << "name = \"fault\"\n[[box]]\nspacign = 1\n";
     EXPECT_TRUE(failsWith(SINEW_ERROR_FILE, ":3", sinewLoadScene(file.c_str(), &scene)));
     std::remove(file.c_str());

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <unistd.h>
+
 namespace sinew::test {
 
 namespace {
@@ -68,7 +70,7 @@ Words read(const fs::path& path) {
 std::optional<std::set<std::uint32_t>>
 accessedBindings(const vk::ShaderCode& code, const std::map<std::uint32_t, std::uint32_t>& constants) {
     const fs::path folder = fs::temp_directory_path();
-    const std::string stem = "sinew_specialised_" + std::to_string(std::hash<std::string>{}(code.name));
+    const std::string stem = "sinew_specialised_" + std::to_string(::getpid()) + "_" + code.name;
     const fs::path from = folder / (stem + ".spv"), to = folder / (stem + ".out.spv");
     write(from, withDefaults({code.words.begin(), code.words.end()}, constants));
     const std::string command =

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <unistd.h>
+
 namespace sinew::viewer {
 namespace {
 
@@ -32,7 +34,8 @@ protected:
     }
     using Names = std::vector<std::string>;
 
-    const fs::path folder = fs::canonical(fs::temp_directory_path()) / "sinew_file_browser";
+    const fs::path folder =
+        fs::canonical(fs::temp_directory_path()) / ("sinew-file-browser-" + std::to_string(::getpid()));
     FileBrowser browser;
 };
 

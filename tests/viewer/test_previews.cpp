@@ -15,6 +15,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include <unistd.h>
+
 namespace sinew::viewer {
 namespace {
 
@@ -113,13 +115,16 @@ TEST(ShippedPicture, IsThatOfAnUnchangedScene) {
     EXPECT_GT(red, picture->pixels.size() / 4 / 10) << "of the organ";
     options.scene = SINEW_SOURCE_FOLDER "/scenes/organ_draped.toml";
     EXPECT_TRUE(shippedPicture(options));
-    const std::filesystem::path copy = std::filesystem::temp_directory_path() / "organ_draped.toml";
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("sinew-previews-" + std::to_string(::getpid()));
+    std::filesystem::create_directory(folder);
+    const std::filesystem::path copy = folder / "organ_draped.toml";
     std::filesystem::copy_file(options.scene, copy, std::filesystem::copy_options::overwrite_existing);
     options.scene = copy.string();
     EXPECT_TRUE(shippedPicture(options));
     std::ofstream(copy, std::ios::app) << "damping = 3\n";
     EXPECT_FALSE(shippedPicture(options));
-    std::filesystem::remove(copy);
+    std::filesystem::remove_all(folder);
     options.scene.clear();
     options.builtIn = "no_such_scene";
     EXPECT_FALSE(shippedPicture(options));
