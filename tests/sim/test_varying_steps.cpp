@@ -97,16 +97,49 @@ TEST(Pace, IsTheSubstepWhereStepsAreEqualAndForgetsLongerOnes) {
     Pace pace;
     for (const float h : {1e-3f, 1e-3f, 1e-3f}) {
         ASSERT_EQ(pace.longestOf(8 * h, h), h);
-        pace = {h, h};
+        pace = pace.next(8 * h, h);
+        ASSERT_EQ(pace.longest, h);
     }
-    pace = {4e-3f, pace.longestOf(32e-3f, 4e-3f)};
+    pace = pace.next(32e-3f, 4e-3f);
     EXPECT_EQ(pace.longest, 4e-3f) << "at once";
     EXPECT_EQ(pace.longestOf(8e-3f, 1e-3f), 4e-3f) << "the first kick spans half of the last substep";
     const int steps = 125; // 1 s
-    for (int s = 0; s < steps; ++s) pace = {1e-3f, pace.longestOf(8e-3f, 1e-3f)};
+    for (int s = 0; s < steps; ++s) pace = pace.next(8e-3f, 1e-3f);
     EXPECT_NEAR(pace.longest, 4e-3 * std::exp(-0.5), 5e-5);
-    for (int s = 0; s < 2 * steps; ++s) pace = {1e-3f, pace.longestOf(8e-3f, 1e-3f)};
+    for (int s = 0; s < 2 * steps; ++s) pace = pace.next(8e-3f, 1e-3f);
     EXPECT_EQ(pace.longest, 1e-3f) << "after 3 s";
+}
+
+TEST(Pace, CountsTheLongSubstepsOfAnotherProgramInTheFirstKickAlone) {
+    Pace pace = Pace{8e-3f, 8e-3f}.inSubsteps(1, 8);
+    EXPECT_EQ(pace.longestOf(8e-3f, 1e-3f), 8e-3f);
+    pace = pace.next(8e-3f, 1e-3f);
+    EXPECT_EQ(pace.longestOf(8e-3f, 1e-3f), 1e-3f);
+    EXPECT_EQ((Pace{1e-3f, 1e-3f}.inSubsteps(7, 7).longest), 1e-3f) << "to the bit";
+}
+
+// A beam that was too soft for lack of substeps is as stiff as they make it within a second.
+TEST(VaryingSteps, ATakeOverWithMoreSubstepsIsSoonStiff) {
+    Scene scene = beam();
+    scene.damping = 20;
+    const auto meanSag = [](test::Runner& runner) { // over half a second
+        double sum = 0;
+        for (int s = 0; s < 30; ++s) {
+            runner.run(1);
+            double lowest = 0;
+            for (const auto& x : runner.positions()) lowest = std::min(lowest, x[1]);
+            sum += lowest / 30;
+        }
+        return sum;
+    };
+    test::Runner few(scene, {.substeps = 16}), more(scene, {.substeps = 32}), all(scene, {.substeps = 32});
+    few.run(60);
+    all.run(60);
+    more.takeOver(few);
+    more.run(60);
+    const double sag = meanSag(all), softSag = meanSag(few);
+    EXPECT_LT(softSag, 1.5 * sag) << "16 substeps are too few";
+    EXPECT_NEAR(meanSag(more), sag, -0.1 * sag) << "from " << softSag;
 }
 
 } // namespace

@@ -9,17 +9,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace sinew::sim {
 
 struct Pace {
     float h = 0;       ///< of the last step [s]; 0 before the first one
-    float longest = 0; ///< H of that step [s]
+    float longest = 0; ///< the longest of late [s]
 
-    /// H of the next step, of length `dt`, in substeps of `of` [s].
-    float longestOf(float dt, float of) const {
+    /// H of the next step, of length `dt`, in substeps of `of` [s]: its first kick spans half of the last
+    /// one.
+    float longestOf(float dt, float of) const { return std::max(h, next(dt, of).longest); }
+
+    /// After that step.
+    Pace next(float dt, float of) const {
         constexpr float memory = 2; // [s]; with 1 s, one long step in 300 feeds a beam
-        return std::max({of, h, longest * std::exp(-dt / memory)});
+        return {of, std::max(of, longest * std::exp(-dt / memory))};
+    }
+
+    /// For a program that takes over and has other substeps: its links were not stretched by a stiffness that
+    /// these could not bear.
+    Pace inSubsteps(std::uint32_t from, std::uint32_t to) const {
+        return {h, longest * (static_cast<float>(from) / static_cast<float>(to))};
     }
 };
 

@@ -154,8 +154,9 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->colliders.advance(dt, step.hostColliders);
     const rigid::ColliderPaths& colliders = state_->colliders;
     const auto hostColliderArguments = state_->hostColliderArguments();
+    const Pace pace = state_->pace.next(dt, parameters.h);
     state_->unsettled[state_->ring.slotOf(step.frame)] = {
-        true, {{parameters.h, parameters.longestH}, colliders.time(), colliders.hostColliders().states()}};
+        true, {pace, colliders.time(), colliders.hostColliders().states()}};
     state_->isUncut = state_->isUncut && !hasBlade;
     vk::Commands commands(state_->device, buffer);
     if (timestamps) timestamps->reset(commands);
@@ -173,7 +174,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     commands.endStepForHost();
     state_->recordEnd(commands, step.frame);
     commands.hostBarrier();
-    state_->pace = {parameters.h, parameters.longestH};
+    state_->pace = pace;
     state_->gravity = step.gravity;
     state_->undoneH.reset();
     state_->hasNewTopology = state_->isChanged = state_->isCarried = state_->isNewState = false;

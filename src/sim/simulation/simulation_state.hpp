@@ -388,6 +388,12 @@ struct Simulation::State {
         return lackedLists && frame >= *lackedLists + ring.slots();
     }
 
+    // Goes on at the pace of another program; anew if it is not alike.
+    void follow(const Pace& before, const State& other, bool isAlike) noexcept {
+        pace = isAlike ? before.inSubsteps(other.substeps, substeps) : Pace{};
+        settledEnd.pace = pace;
+    }
+
     // Sets the host's part of the state.
     void moveTo(const SavedState& saved) noexcept {
         pace = {saved.h, saved.longestH};

@@ -77,13 +77,13 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
     state_->isChanged = true;
     if (saved != nullptr) {
         state_->moveTo(*saved);
-        if (!isAlike) state_->pace = state_->settledEnd.pace = {};
+        state_->follow(state_->pace, other, isAlike);
         state_->undoneH.reset(); // the copy contains the saved values of the last finite step
         return;
     }
     const State::Settled end = other.lastSettled();
     state_->settledEnd = end;
-    state_->pace = isAlike ? end.pace : Pace{};
+    state_->follow(end.pace, other, isAlike);
     state_->anchors = other.anchors;
     if (isAlike) state_->grabs = other.grabs;
     state_->isUncut = other.isUncut;
@@ -101,7 +101,7 @@ void Simulation::State::carry(const State& other, const Origins& origins) noexce
     const Settled end = other.lastSettled();
     settledEnd = end;
     // Steps in flight have one h, else nothing is carried (isEndKnown()); H follows them, undone or not.
-    pace = {end.pace.h, other.pace.longest};
+    follow({end.pace.h, other.pace.longest}, other, true);
     gravity = other.gravity;
     anchors.carry(other.anchors, origins.attachments);
     grabs.carry(other.grabs, origins.particles);
