@@ -77,6 +77,15 @@ TEST(LevelChoice, TakesAThirdOfTheSubstepsWhereThatIsToBeChosenToo) {
     EXPECT_EQ(toText(Settings{.substeps = 16}), "16 substeps");
 }
 
+// One level, which suits most particles, carries less of a solid than two do.
+TEST(LevelChoice, TakesSubstepsForTheLevelsThatItTakes) {
+    Scene scene = box({15, 15, 15});
+    addLattice(scene, {.origin = {1, 0, 0}, .cells = {8, 8, 8}, .spacing = 0.02f, .youngModulus = 2e5f});
+    const Settings chosen = withSubsteps(scene, {.levels = autoLevels});
+    EXPECT_EQ(chosen.levels, 1u);
+    EXPECT_EQ(inspectStiffness(scene, chosen).soft, 0u);
+}
+
 TEST(LevelChoice, IsNoneWhereLevelsCannotBe) {
     Scene scene = sheet(32);
     EXPECT_EQ(chosenFor(scene, {8}, {.solver = Solver::jacobi}), (Numbers{{8, 0}}));

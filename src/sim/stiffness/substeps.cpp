@@ -322,9 +322,9 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& asked) {
     SubstepChoice choice = chooseFor(scene, settings);
     settings.substeps = choice.substeps;
     choice.levels = stiffness::levelsFor(scene, settings, loadOf(scene));
-    if (choice.levels > 0 || asked.substeps > 0) return choice;
+    if (choice.levels >= stiffness::levelsOfFewSubsteps || asked.substeps > 0) return choice;
     settings = asked;
-    settings.levels = 0;
+    settings.levels = choice.levels; // which carry less than those that the substeps were chosen for
     return chooseFor(scene, settings);
 }
 
