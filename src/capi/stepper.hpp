@@ -88,7 +88,10 @@ private:
         if (!status.isFinished)
             throw std::logic_error("the status of step " + std::to_string(frame) + " is not there");
         if (status.contactRoom > 0 || status.lacksLists || status.nonFinite > 0) queue_->waitIdle();
-        if (status.contactRoom > 0) growContacts(status);
+        if (status.contactRoom > 0) {
+            keepEvents(frame); // that it lacks room; the repeated step will not
+            growContacts(status);
+        }
         if (status.contactRoom > 0 || status.lacksLists) return false;
         if (status.nonFinite > 0)
             throw Failed{SINEW_ERROR_DIVERGED, "step " + std::to_string(frame) + ": the state of " +

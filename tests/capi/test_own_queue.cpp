@@ -1,4 +1,6 @@
 // Programs without an engine: steps, copies, states and impulses on a device and a queue of their own.
+#include "sinew/sinew_events.h"
+
 #include "capi/support.hpp"
 
 #include <cmath>
@@ -87,6 +89,7 @@ TEST_F(CApiOwnQueue, StepsThatLackRoomAreRepeatedWithMore) {
     Simulation roomy, scarce;
     ASSERT_TRUE(isOk(sinewCreateSimulation(device, scene, &settings, &roomy)));
     settings.contactRoom = 1;
+    settings.events = 1u << SINEW_EVENT_LACKS_ROOM;
     ASSERT_TRUE(isOk(sinewCreateSimulation(device, scene, &settings, &scarce)));
     const void *before = nullptr, *after = nullptr;
     std::size_t size = 0;
@@ -97,6 +100,12 @@ TEST_F(CApiOwnQueue, StepsThatLackRoomAreRepeatedWithMore) {
     EXPECT_EQ(infoOf(roomy).contactRoom, 64u);
     EXPECT_GT(infoOf(scarce).contactRoom, 1u);
     EXPECT_EQ(infoOf(scarce).stepsDone, 40u);
+    std::uint32_t lacks = 1;
+    SinewEvent lack{};
+    ASSERT_TRUE(isOk(sinewGetStepEvents(scarce, &lacks, &lack, nullptr)));
+    EXPECT_GE(lacks, 1u);
+    EXPECT_EQ(lack.kind, static_cast<std::uint32_t>(SINEW_EVENT_LACKS_ROOM));
+    EXPECT_GT(lack.count, 1u) << "the room needed";
     EXPECT_EQ(download(device, roomy, SINEW_POSITIONS), download(device, scarce, SINEW_POSITIONS));
     ASSERT_TRUE(isOk(sinewMap(scarce, SINEW_POSITIONS, &after, &size)));
     EXPECT_NE(before, after);
