@@ -1,6 +1,7 @@
 // Arrays and vectors between Python and the C interface.
 #include "arrays.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace sinew::python {
@@ -53,6 +54,7 @@ py::list eventsOf(SinewSimulation simulation) {
     check(sinewGetStepEvents(simulation, &count, nullptr, nullptr));
     std::vector<SinewEvent> events(count);
     check(sinewGetStepEvents(simulation, &count, events.data(), nullptr));
+    events.resize(std::min<std::size_t>(count, events.size())); // another thread may have stepped in between
     using namespace py::literals;
     py::list list;
     for (const SinewEvent& event : events) {
