@@ -70,6 +70,7 @@ TEST(PredictCards, AreReadOrRefusedWithTheLine) {
         EXPECT_EQ(errorOf(heading + "mine,1,2,3,4,5,6," + wrong + "\n"),
                   "cannot read cards: my.csv:2: \"" + std::string(wrong) + "\" is no number above 0");
     EXPECT_THROW(tools::loadCards("/nowhere/cards.csv"), app::Failure);
+    EXPECT_THROW(tools::loadCards("/proc/self/mem/cards.csv"), app::Failure);
     EXPECT_THROW(tools::loadCards("/"), app::Failure);
 }
 

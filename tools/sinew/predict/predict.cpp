@@ -162,13 +162,16 @@ std::vector<Card> readCards(std::string_view text, const std::string& file) {
 }
 
 std::vector<Card> loadCards(const std::string& file) {
+    std::error_code error;
     std::ifstream stream;
-    if (std::filesystem::is_regular_file(file)) stream.open(file, std::ios::binary);
+    if (!std::filesystem::is_directory(file, error)) stream.open(file, std::ios::binary);
     std::string text(std::istreambuf_iterator<char>(stream), {});
     if (!stream.is_open() || stream.bad())
-        throw app::Failure(app::badInput, "cannot read cards: " + file +
-                                              ": no such file, or no permission: " +
-                                              "name a table like tools/sinew/predict/cards.csv");
+        throw app::Failure(app::badInput,
+                           "cannot read cards: " + file +
+                               ": it is missing, no file, or not to be read: name a table like "
+                               "tools/sinew/predict/cards.csv");
+    std::erase(text, '\r');
     return readCards(text, file);
 }
 
