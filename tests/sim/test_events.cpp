@@ -426,6 +426,26 @@ TEST(Events, AreTheSameAfterALoad) {
     EXPECT_EQ(first, second);
 }
 
+// A host collider shifts the place of colliders among the partners of a body: contacts begin anew, none ends.
+TEST(Events, OfATakeOverWithOtherPartnersEndNothing) {
+    Scene scene = weightless();
+    scene.colliders = {{.radius = 0.2f}};
+    addBall(scene, {0, 0.299f, 0});
+    Settings settings = listing(contactEvents);
+    test::Runner none(scene, settings), same(scene, settings);
+    settings.hostColliders = 1;
+    test::Runner one(scene, settings);
+    EXPECT_EQ(ofKind(run(none, 4), Kind::contactBegins).size(), 1u);
+    same.takeOver(none);
+    EXPECT_TRUE(run(same, 6).empty());
+    one.takeOver(none);
+    const std::vector<Timed> all = run(one, 6);
+    EXPECT_EQ(ofKind(all, Kind::contactEnds).size(), 0u);
+    ASSERT_EQ(ofKind(all, Kind::contactBegins).size(), 1u);
+    EXPECT_EQ(all[0].event.partner, Partner::collider);
+    EXPECT_EQ(all[0].event.other, 0u);
+}
+
 TEST(Events, GoOnInAWorldWhoseBodiesComeAndGo) {
     Scene base = test::ground();
     base.damping = 20; // boxes would bounce

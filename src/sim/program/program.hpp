@@ -309,6 +309,11 @@ struct EventBuffers {
     /// Partners of a body, in this order. Numbers of planes and colliders are 0 if contacts are not listed.
     std::uint32_t bodies = 0, planes = 0, hostColliders = 0, colliders = 0;
     std::uint32_t rowWords = 0; ///< a body has 32 of these partners, and unused ones
+
+    bool hasPartnersOf(const EventBuffers& other) const {
+        return bodies == other.bodies && planes == other.planes && hostColliders == other.hostColliders &&
+               colliders == other.colliders;
+    }
 };
 
 /// The pass lists of a program. Each is recorded by itself; any but the first may be empty.

@@ -331,6 +331,9 @@ struct Simulation::State {
                 if (!isAlike || found == program.stateBuffers.size()) return;
                 own = program.stateBuffers[found].to;
                 next = found + 1;
+                if (program.stateBuffers[found].carry.of == Elements::bodyPartners &&
+                    !program.events.hasPartnersOf(other.program.events))
+                    return; // the entries of other partners
                 // a saved copy that only this program has, because it keeps forces, starts as the value taken
                 // over
                 const StateBuffer& theirs = other.program.stateBuffers[index - 2];
