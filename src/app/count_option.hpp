@@ -5,11 +5,20 @@
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <system_error>
 
 namespace sinew::app {
+
+/// A number of decimal digits alone.
+inline std::optional<std::uint32_t> wholeNumber(const std::string& text) {
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc{} && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
 
 /// Adds an option that sets `value`; "auto" sets it to `chosen`. `value` must live until the command line is
 /// parsed.
@@ -19,13 +28,12 @@ inline void addCountOrAuto(CLI::App& command, const std::string& name, std::opti
         .add_option_function<std::string>(
             name,
             [&value, chosen](const std::string& text) {
-                value = text == "auto" ? chosen : static_cast<std::uint32_t>(std::stoul(text));
+                value = text == "auto" ? chosen : wholeNumber(text).value();
             },
             help)
         ->check([range](const std::string& text) -> std::string {
-            const CLI::Range within(static_cast<std::uint32_t>(range.low),
-                                    static_cast<std::uint32_t>(range.high));
-            if (text == "auto" || within(text).empty()) return {};
+            const std::optional<std::uint32_t> number = wholeNumber(text);
+            if (text == "auto" || (number && *number >= range.low && *number <= range.high)) return {};
             return "is " + text + ", must be " + toText(range) + ", or auto";
         });
 }

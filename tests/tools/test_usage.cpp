@@ -47,6 +47,8 @@ TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
         {"run", "a.toml", "--frames"},
         {"run", "a.toml", "--substeps", "0"},
         {"run", "a.toml", "--substeps", "1001"},
+        {"run", "a.toml", "--substeps", "0x10"},
+        {"run", "a.toml", "--levels", "7"},
         {"run", "a.toml", "--levels", "7"},
         {"run", "a.toml", "--levels", "many"},
         {"run", "a.toml", "--iterations", "0"},
