@@ -10,7 +10,7 @@ namespace sinew::sim {
 
 /// Kinds of events, in the order in which a step lists them.
 enum class EventKind : std::uint8_t {
-    contactBegins, ///< a body touches another body, plane or collider for the first time
+    contactBegins, ///< a body touches another body, plane or collider that it did not touch before
     contactEnds,   ///< they have not touched for two steps
     cut,           ///< a blade or a ray has cut links of a body
     tear,          ///< links of a body have torn
@@ -53,7 +53,9 @@ struct SINEW_API Event {
 };
 
 /// The events of a step, by kind, body, kind of partner and partner. None if the step was undone, except
-/// lacksRoom.
+/// lacksRoom. A take-over by another solver, or with other planes, colliders or host colliders, begins
+/// contacts anew: they are told once more. Contacts of a part that leaves a World end untold, with its
+/// indices.
 struct SINEW_API Events {
     bool isFinished = false; ///< as Status::isFinished; if false the list is empty
     std::vector<Event> list;

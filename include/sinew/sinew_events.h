@@ -14,7 +14,7 @@ extern "C" {
 
 // Kinds; bit 1 << kind of SinewSettings::events asks for one. In a list they stand in this order.
 enum {
-    SINEW_EVENT_CONTACT_BEGINS = 0, // a body touches a partner for the first time
+    SINEW_EVENT_CONTACT_BEGINS = 0, // a body touches a partner that it did not touch before
     SINEW_EVENT_CONTACT_ENDS = 1,   // they have not touched for two steps
     SINEW_EVENT_CUT = 2,            // a blade or a ray has cut links of a body
     SINEW_EVENT_TEAR = 3,           // links of a body have torn
@@ -56,7 +56,7 @@ SINEW_C_API SinewResult sinewGetWorldEvents(SinewWorld world, uint64_t frame, ui
 
 // --- Programs without an engine
 // All events of the steps that the last sinewStep(), or sinewStepWorld(), of the simulation took, oldest first, as
-// sinewGetEvents(). Steps that were repeated are listed once.
+// sinewGetEvents(). A repeated step is listed once, behind the LACKS_ROOM of its first try.
 SINEW_C_API SinewResult sinewGetStepEvents(SinewSimulation simulation, uint32_t* count, SinewEvent* events,
                                            uint32_t* lost);
 
