@@ -7,6 +7,7 @@
 #include "scenes/load.hpp"
 #include "sim/compile/compile.hpp"
 #include "sinew/gpu_tune.hpp"
+#include "sinew/predict/predict.hpp"
 #include "sinew/report.hpp"
 #include "sinew/runner.hpp"
 #include "sinew/statistics.hpp"
@@ -26,7 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t stepsOfTurn = 4;
-constexpr double directUs = 2.5, emptyUs = 2; // on a GPU: a direct dispatch; an indirect one without groups
+constexpr const char* predictedCard = "h200"; // of the column "GPU us"
 
 std::string organText(const char* gravity, const char* height, const char* below) {
     return fmt::format(R"(damping = 1.5
@@ -166,6 +167,7 @@ private:
 
 Json ContactRun::toJson() const {
     const Statistics step = summarise(stepMs_).value_or(Statistics{});
+    const Card card = findCard(shippedCards(), predictedCard);
     const SubstepCounts counts = countSubstep(program()), calm = countSubstep(program(), sim::calmStep);
     return {{"steps", stepMs_.size()},
             {"ms_p50", step.p50},
@@ -176,14 +178,14 @@ Json ContactRun::toJson() const {
             {"indirect_dispatches_per_substep", counts.indirect},
             {"barriers_per_substep", counts.barriers},
             {"list_builds", listBuilds_},
-            {"gpu_dispatch_us_predicted", predictedUs(program())},
+            {"gpu_dispatch_us_predicted", launchUs(program(), card, sim::plainStep)},
             {"calm",
              {{"steps", calm_},
               {"repeated_steps", repeated_},
               {"passes_per_substep", calm.passes},
               {"indirect_dispatches_per_substep", calm.indirect},
               {"barriers_per_substep", calm.barriers},
-              {"gpu_dispatch_us_predicted", predictedUs(program(), sim::calmStep)}}},
+              {"gpu_dispatch_us_predicted", launchUs(program(), card, sim::calmStep)}}},
             {"finite", !runner_.divergence()}};
 }
 
@@ -241,14 +243,6 @@ SubstepCounts countSubstep(const sim::StepProgram& program, sim::Recording recor
     return counts;
 }
 
-double predictedUs(const sim::StepProgram& program, sim::Recording recording) {
-    double us = 0;
-    for (const sim::Pass& pass : program[sim::List::step])
-        if (pass.kind == sim::PassKind::dispatch && isIn(recording, pass))
-            us += pass.isIndirect ? emptyUs : directUs;
-    return us;
-}
-
 std::vector<std::string> contactRows() {
     std::vector<std::string> names;
     for (const ContactRow& row : rowsOfContacts) names.emplace_back(row.name);
@@ -296,9 +290,10 @@ std::string contactsTable(const Json& measured) {
                "passes, in a calm step; builds: list builds per step; B/part.: contact buffers per particle\n"
                "calm %: steps without list passes after their first substep; again: steps that were "
                "repeated, because such a pass or room was missing\n"
-               "GPU us: predicted, not measured: direct dispatches of a step x {} us + indirect ones, "
-               "as if empty, x {} us\n",
-               directUs, emptyUs);
+               "GPU us: predicted, not measured: launches of a step on {}, indirect dispatches empty, "
+               "without "
+               "the work of kernels\n",
+               predictedCard);
 }
 
 } // namespace sinew::tools

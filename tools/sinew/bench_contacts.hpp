@@ -21,10 +21,6 @@ struct SubstepCounts {
 };
 SubstepCounts countSubstep(const sim::StepProgram& program, sim::Recording recording = sim::plainStep);
 
-/// Predicted GPU overhead of the dispatches of a step [us]: 2.5 for a direct dispatch, 2 for an indirect one,
-/// as if it had no groups. Excludes the work of kernels.
-double predictedUs(const sim::StepProgram& program, sim::Recording recording = sim::plainStep);
-
 /// The names of the rows.
 std::vector<std::string> contactRows();
 

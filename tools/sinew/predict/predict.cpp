@@ -113,6 +113,11 @@ private:
     std::vector<KernelCost> costs_;
 };
 
+double leastLaunchUs(const Card& card, const sim::Pass& pass, sim::Recording recording) {
+    if (!sim::hasBarrier(recording, pass)) return 0;
+    return pass.isIndirect ? card.emptyUs : card.dispatchUs;
+}
+
 const char* toText(Bound bound) {
     constexpr const char* names[] = {"the dispatch", "latency", "instructions", "memory"};
     return names[static_cast<std::size_t>(bound)];
@@ -197,6 +202,12 @@ double workUs(const Card& card, const KernelCost& kernel, double items, double b
     return longest.second;
 }
 
+double launchUs(const sim::StepProgram& program, const Card& card, sim::Recording recording) {
+    double us = 0;
+    for (const sim::Pass& pass : program[sim::List::step]) us += leastLaunchUs(card, pass, recording);
+    return us;
+}
+
 Prediction predict(const sim::StepProgram& program, const Card& card, const KernelCosts& kernels,
                    sim::Recording recording) {
     Costs costs(program, kernels);
@@ -204,15 +215,15 @@ Prediction predict(const sim::StepProgram& program, const Card& card, const Kern
     std::map<std::string, PassCost> byLabel;
     for (const sim::Pass& pass : program[sim::List::step]) {
         if (!sim::isIn(recording, pass)) continue;
-        const bool waits = sim::hasBarrier(recording, pass);
         PassCost& cost = byLabel[pass.label];
+        const bool waits = sim::hasBarrier(recording, pass);
         const double launch = waits ? card.dispatchUs : 0;
         const double work = workUs(card, costs.of(pass), itemsOf(pass), bytesOf(program, pass), cost.bound);
         if (work < launch) cost.bound = Bound::dispatch;
         cost.label = pass.label;
         ++cost.count;
         cost.mostUs += launch + work;
-        cost.leastUs += pass.isIndirect ? (waits ? card.emptyUs : 0) : launch + work;
+        cost.leastUs += pass.isIndirect ? leastLaunchUs(card, pass, recording) : launch + work;
         prediction.dispatches += pass.kind == sim::PassKind::dispatch ? 1 : 0;
         prediction.indirect += pass.isIndirect ? 1 : 0;
         prediction.barriers += waits ? 1 : 0;

@@ -24,7 +24,8 @@ struct Card {
     double emptyUs = 0;    ///< an indirect dispatch of no groups [us]
 };
 
-/// What a compiler says of a kernel in waves of 32 invocations: the median of its specialisations by latency.
+/// Costs of a kernel in waves of 32 invocations, as a compiler estimates them: those of the specialisation
+/// with the median latency.
 struct KernelCost {
     double waves = 0;   ///< that fit into a SIMD, of 32
     double latency = 0; ///< of one wave [cycles]
@@ -64,6 +65,9 @@ struct Prediction {
 
 /// The time of a dispatch's work alone [us]: `items` invocations of a kernel that touch `bytes`.
 double workUs(const Card& card, const KernelCost& kernel, double items, double bytes, Bound& bound);
+
+/// The launches of a step alone, with empty indirect dispatches [us].
+double launchUs(const sim::StepProgram& program, const Card& card, sim::Recording recording);
 
 /// A pass that waits for another takes dispatchUs and its work; one without a barrier before it runs beside
 /// those before, and takes its work alone. Fills and copies are dispatches that only touch memory.
