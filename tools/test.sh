@@ -29,7 +29,7 @@ tests() {
     ctest --preset "$preset" --output-on-failure -j2 "$@" | tee "$log" && return
     failed=$(sed -n '/The following tests FAILED/,$s/^[[:space:]]*[0-9]* - \([^ ]*\) .*/\1/p' "$log")
     echo "why tests failed:"
-    grep -aE '(^|: )(FAILED:|Failure$|error:|AddressSanitizer|Segmentation)' "$log" | tail -n 20 || true
+    sed -nE '/(^|: )(FAILED:|Failure$|error:|AddressSanitizer|Segmentation)/p' "$log" | tail -n 20
     if [[ -n $failed ]] && ! grep -qvFx -f <(window_tests "$preset") <<<"$failed"; then
         echo "only tests that play in a window failed: again, alone"
         ctest --preset "$preset" --output-on-failure -j1 --rerun-failed | tee -a "$log"
