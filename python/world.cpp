@@ -106,7 +106,7 @@ struct World : Owned<SinewWorld, sinewDestroyWorld> {
         return array;
     }
 
-    /// Where a ray meets the bodies, or None.
+    /// The first hit of a ray on the bodies, or None.
     py::object pick(const Vector& origin, const Vector& direction, float length, bool skipsFixed) {
         const SinewRay ray{toVec3(origin), toVec3(direction), length, skipsFixed ? 1u : 0u};
         SinewRayHit hit{};

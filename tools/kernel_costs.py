@@ -10,8 +10,8 @@ import csv
 import pathlib
 import sys
 
-HEADING = """# What Mesa 22.3's compiler ACO says of each kernel for NAVI21 (RDNA 2), in waves of 32; tools/kernel_costs.py makes this
-# file. waves: that fit into a SIMD, of 32; latency: of one wave [cycles]; issue: cycles of a SIMD a wave
+HEADING = """# Costs of each kernel on NAVI21 (RDNA 2) in waves of 32, as Mesa 22.3's compiler ACO estimates them; made by
+# tools/kernel_costs.py. waves: that fit into a SIMD, of 32; latency: of one wave [cycles]; issue: cycles of a SIMD a wave
 kernel,waves,latency,issue
 """
 

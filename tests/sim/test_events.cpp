@@ -413,7 +413,7 @@ TEST(Events, OfAnUndoneStepAreNoneButTheLackOfRoom) {
     EXPECT_TRUE(isUndone);
 }
 
-// What events are compared with is part of the state.
+// The record that events are compared with is part of the state.
 TEST(Events, AreTheSameAfterALoad) {
     test::Runner runner(meeting(), listing());
     run(runner, 30);

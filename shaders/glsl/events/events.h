@@ -24,7 +24,7 @@ namespace sinew::sim::layout {
 // A contact ends in the step in which nothing has touched for so many steps: a contact at rest opens and closes.
 #define EVENT_STEPS_APART 2u
 
-// What happened to a body in a step.
+// The events of a body in a step, as counts.
 struct BodyEvents {
     uint awake, asleep; // 1 = some of its particles are, at the end of the step
     uint cut, torn;     // links

@@ -1,7 +1,7 @@
 // Part of the kernels that place the rims of a cut. Requires blade_sweep.glsl.
 
-// Where the plane of the strip beside the middle of a link meets its line: as if the blade went on straight, ahead of
-// its strip and beyond its ends. `drift` is the motion of the material in this step. `at` is outside of 0 to 1, or not
+// The meeting of a link's line with the plane of the strip beside its middle: as if the blade went on straight, ahead
+// of its strip and beyond its ends. `drift` is the motion of the material in this step. `at` is outside of 0 to 1, or not
 // a number, if the plane does not pass between the ends.
 Meeting planeMeeting(vec3 from, vec3 to, vec3 drift) {
     const vec3 shift = push.spacing * bladeShift, middle = 0.5 * (from + to) - shift;

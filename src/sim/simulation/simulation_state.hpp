@@ -134,7 +134,7 @@ struct Simulation::State {
         for (Before& one : befores) one.anchors.resize(anchors.values().size());
     }
 
-    // What a step reads back beside its status.
+    // Sizes of the results that a step reads back beside its status.
     static ResultSizes resultSizes(const StepProgram& of) {
         const auto countOf = [&](BufferId buffer) -> std::size_t {
             return buffer == BufferId{} ? 0 : of.buffers[buffer.index].count;

@@ -22,7 +22,7 @@ namespace {
 constexpr float radius = test::ballRadius;
 using test::ballAt, test::fixedBallAt;
 
-// What lies far from the others.
+// The body that lies far from the others.
 enum class Far : std::uint8_t { rests, fastBall, fastBody };
 
 Scene pile(const ContactSettings& contacts) {

@@ -267,7 +267,7 @@ TEST(Rims, LieOnThePathOfTheBladeAtEndsAndCrossings) {
     }
 }
 
-// Where a particle loses its first link, places are found for all of the skin that hangs on it, as if the
+// When a particle loses its first link, places are found for all of the skin that hangs on it, as if the
 // blade went straight on. Where it turns, later steps correct them.
 TEST(Rims, FollowACurve) {
     Scene scene = hangingOrgan();
