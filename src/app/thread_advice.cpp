@@ -81,11 +81,11 @@ ThreadTimes compareThreads(const std::function<double()>& threaded, const std::f
 std::optional<std::string> threadAdvice(const ThreadTimes& times) {
     if (!(times.single < worthSaying * times.threaded)) return {};
     char text[256];
-    std::snprintf(text, sizeof text,
-                  "steps of this scene are about %.1f times as fast with %s=0 in the environment: measured "
-                  "just now, a trial "
-                  "step took %.3g ms with the driver's threads and %.3g ms without",
-                  times.threaded / times.single, driverThreadsVariable, times.threaded, times.single);
+    std::snprintf(
+        text, sizeof text,
+        "steps of this scene are about %.1f times as fast with %s=0 in the environment: measured just "
+        "now, a trial step took %.3g ms with the driver's threads and %.3g ms without",
+        times.threaded / times.single, driverThreadsVariable, times.threaded, times.single);
     return text;
 }
 

@@ -1,8 +1,8 @@
 // Whether a point and a face come within reach in a substep, and are so fast or so deep that they may pass each other, for
 // impact zones. Requires face_meeting.glsl, meeting_marks.glsl, and the names mayPass and meets of a kernel.
 
-// True if the two come within reach on their way. `isAsked`: else false, in no time. The search goes on by as much as
-// the two can have come nearer, so it never leads beyond the first touch; what only slides along may be missed.
+// True if the two come within reach on their way; false without a search unless `isAsked`. The search goes on by as much
+// as the two can have come nearer, so it never leads beyond the first touch. It may miss two that only slide along.
 bool comesNear(Meeting m, bool isAsked) {
     const Passage p = passageOf(m);
     const float way = sqrt(wayOf2(p));
