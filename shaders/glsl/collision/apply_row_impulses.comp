@@ -9,6 +9,9 @@
 #include "common/kernel.glsl"
 #include "common/remainder.glsl"
 #include "collision/rows_of.glsl"
+#define TOUCHED_LIST TOUCHED_PARTICLES
+#include "collision/touched.h"
+#include "collision/touched.glsl"
 #include "common/fetched.glsl"
 FETCHED_VEC4(7, Impulses, impulseAt) // [kg m]
 #define IMPULSE(k) impulseAt(k)
@@ -55,7 +58,8 @@ void main() {
 }
 #else
 void main() {
-    const uint i = itemIndex(push.count);
+    const uint i = touchedItem(push.count);
+    if (i == ~0u) return;
     const vec3 x = predicted[i].xyz, impulse = impulseOn(i), correction = velocities[i].w * impulse;
     addContactForce(i, impulse / step.h);
     addStopForces(i, 1.0 / step.h, x);

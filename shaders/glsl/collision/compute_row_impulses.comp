@@ -28,6 +28,9 @@ layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // o
 layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
 layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
 #include "collision/row_items.glsl"
+#include "collision/touched.h"
+#include "collision/touched.glsl"
+layout(std430, binding = 14) readonly buffer Touched { uint touched[]; };
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
 #include "collision/row.glsl"
@@ -55,8 +58,9 @@ void press(uint owner, uint element) {
 }
 
 void main() {
-    FOR_EACH_ROW(row) {
-        const uint element = elementOf(row);
+    const uint rows = touchedSlots == 0u ? bounds.entries : touched[TOUCHED_ROWS];
+    for (uint row = gl_GlobalInvocationID.x; row < rows; row += gl_NumWorkGroups.x * GROUP_SIZE) {
+        const uint k = isReversed ? rows - 1u - row : row, element = touchedSlots == 0u ? k : touched[firstTouched(TOUCHED_ROWS) + k];
         press(owners[element], element);
     }
 }

@@ -11,7 +11,6 @@
 //   C = n . (x - sum_k b_k x_k) - reach,   dC/dx = beta n.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#define RUNS_LISTED
 #include "common/kernel.glsl"
 #include "common/triangle.glsl"
 
@@ -25,21 +24,25 @@ layout(std430, binding = 7) buffer Weights { vec4 weights[]; };       // b; w: s
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FacePush push; };
 #define MARKS_BINDING 9
-layout(constant_id = 5) const bool hasZones = false; // the scene has impact zones; else bindings 10 to 12 are empty
+layout(constant_id = 5) const bool hasZones = false; // the scene has impact zones; else bindings 10 and 11 are empty
 layout(constant_id = 3) const uint firstInner = ~0u; // faces from there to before push.moving can be opened by a cut; ~0 = there are none
 #include "collision/keeps_rest.glsl"
 #include "collision/recovery.glsl"
 #include "collision/hidden_faces.glsl"
 bool mayPass = false; // whether the point is so fast or so deep that it may pass a face
 uint meets = 0u;      // mark of the pair that was looked at last (meeting_marks.glsl)
-#define SHEETS_BINDING 13
+#define SHEETS_BINDING 12
 #include "collision/one_sheet.glsl"
 #include "collision/meeting_marks.glsl"
 #include "collision/face_touch.glsl"
-layout(std430, binding = 10) writeonly buffer Finding { DispatchArguments finding[]; }; // of the search for points that pass
-layout(std430, binding = 11) writeonly buffer Solving { DispatchArguments solving[]; };
-layout(std430, binding = 12) writeonly buffer Meets { uint meeting[]; }; // by element, see meeting_marks.glsl
+layout(std430, binding = 10) buffer Finding { DispatchArguments finding[]; }; // of the search for points that pass
+layout(std430, binding = 11) writeonly buffer Meets { uint meeting[]; }; // by element, see meeting_marks.glsl
 #include "collision/held_behind.glsl"
+#define TOUCHED_BINDING 13
+#define FIRST_TOUCHED TOUCHED_PARTICLES
+#define TOUCHED_LIST TOUCHED_POINTS
+#include "collision/touched.h"
+#include "collision/touched.glsl"
 
 void write(uint element, Touch touch) {
     directions[element] = vec4(touch.n, touch.depth);
@@ -55,18 +58,24 @@ uint besides(uint from, uint end, uint passed, ContactFace face) {
     return bits;
 }
 
-// The first search for points that pass runs if one may; each solution and each other search runs if the pass before it has run or found any.
-void planSearch() {
-    if (gl_WorkGroupID.x == 0u && gl_LocalInvocationID.x == 0u) {
-        for (uint round = 0u; round < ZONE_ROUNDS; ++round) solving[round].groupsX = 0u;
-        finding[ZONE_GROUPS].groupsX = gl_NumWorkGroups.x;
+// Lists what the next passes visit. Other rows change nothing.
+void listRows(uint i, uvec2 list) {
+    for (uint element = list.x; element < list.x + list.y; ++element) {
+        const bool touches = directions[element].w != 0.0;
+        if (!touches && weights[element].w == 0.0 && MEMORY(element) == vec4(0.0)) continue;
+        listTouched(TOUCHED_ROWS, element);
+        if (!touches) continue;
+        listTouchedParticle(i);
+        const uint face = CONTACT(element).x;
+        if (face >= push.moving) continue;
+        const ContactFace corners = faceAt(face);
+        listTouchedParticle(corners.a);
+        listTouchedParticle(corners.b);
+        listTouchedParticle(corners.c);
     }
-    if (mayPass) finding[0].groupsX = gl_NumWorkGroups.x;
 }
 
-void main() {
-    const uint i = itemIndex(push.count);
-    const uvec2 list = lists[i];
+void findContacts(uint i, uvec2 list) {
     const uint end = list.x + list.y;
     uint passed = ~0u;
     Touch passing;
@@ -94,5 +103,13 @@ void main() {
         through = passing.n;
     }
     if (passed == ~0u) hide(i, list.x, end);
-    if (hasZones) planSearch();
+}
+
+void main() {
+    const uint i = touchedItem(push.count);
+    if (i == ~0u) return;
+    const uvec2 list = lists[i];
+    findContacts(i, list);
+    listRows(i, list);
+    if (hasZones && mayPass) finding[0].groupsX = finding[ZONE_GROUPS].groupsX;
 }

@@ -17,6 +17,9 @@ layout(std140, binding = 8) uniform Step { StepParams step; };
 #define SPEEDS_BINDING 9
 layout(std430, binding = 12) readonly buffer Lists { uvec2 lists[]; };
 layout(push_constant) uniform Push { FacePush push; };
+#define TOUCHED_LIST TOUCHED_POINTS
+#include "collision/touched.h"
+#include "collision/touched.glsl"
 #include "collision/separation.glsl"
 
 void separate(Corner point, vec3 along, uvec2 candidate, bool touches) {
@@ -37,9 +40,9 @@ void separate(Corner point, vec3 along, uvec2 candidate, bool touches) {
 }
 
 void main() {
-    const uint i = itemIndex(push.count);
+    const uint i = touchedItem(push.count);
+    if (i == ~0u || sheets[i] == 0u) return;
     const uvec2 list = lists[i];
-    if (list.y == 0u || sheets[i] == 0u) return;
     const Corner point = cornerOf(i);
     const vec3 along = step.h * sheetSpeedOf(i);
     for (uint element = list.x; element < list.x + list.y; ++element) {

@@ -6,14 +6,27 @@
 #include "common/kernel.glsl"
 #include "common/math.glsl"
 #include "collision/body_frames.glsl"
+#include "collision/touched.h"
 
 layout(std430, binding = 0) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 1) writeonly buffer Arguments { DispatchArguments arguments[]; };
 layout(std430, binding = 2) buffer Frames { BodyFrame frames[FRAME_MOST_BODIES]; };
 layout(std430, binding = 4) writeonly buffer Touching { DispatchArguments touching[]; }; // groups with contacts
 layout(std430, binding = 5) buffer Status { StatusWords status; };
+layout(constant_id = 5) const bool listsTouched = false; // else the next three are empty
+layout(std430, binding = 6) writeonly buffer TouchedPoints { DispatchArguments touchedPoints[]; };
+layout(std430, binding = 7) writeonly buffer TouchedArguments { DispatchArguments touchedArguments[]; };
+layout(std430, binding = 8) buffer Touched { uint touched[]; };
 layout(std140, binding = 3) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
+
+// Empties the lists of what touches in the substep.
+void clearTouched() {
+    const DispatchArguments none = DispatchArguments(0u, 1u, 1u, 0u);
+    touchedArguments[TOUCHED_PARTICLES] = touchedArguments[TOUCHED_ROWS] = touchedPoints[0] = none;
+    for (uint list = 0u; list < TOUCHED_LISTS; ++list) touched[list] = 0u;
+    ++touched[TOUCHED_SUBSTEP];
+}
 
 uint groupsOf(uint items) { return (items - 1u) / GROUP_SIZE + 1u; }
 
@@ -98,5 +111,6 @@ void main() {
     barrier();
     if (b == 0u) planPasses(moved > 0u, strayed == 0u);
     if (b == 0u && push.bodies > 0u) planHeadings(moved > 0u);
+    if (b == 0u && listsTouched) clearTouched();
     if (b < push.bodies) planFrame(b, moved, stands);
 }

@@ -5,6 +5,9 @@
 #define RUNS_LISTED
 #include "common/kernel.glsl"
 #include "collision/rows_of.glsl"
+#define TOUCHED_LIST TOUCHED_PARTICLES
+#include "collision/touched.h"
+#include "collision/touched.glsl"
 layout(std430, binding = 7) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
 layout(std430, binding = 8) writeonly buffer Shares { float shares[]; };       // S w [1/kg]
 
@@ -14,7 +17,8 @@ void visit(uint element, uint place) {
 }
 
 void main() {
-    const uint i = itemIndex(push.count);
+    const uint i = touchedItem(push.count);
+    if (i == ~0u) return;
     visitRows(i);
     shares[i] = sum * velocities[i].w;
 }

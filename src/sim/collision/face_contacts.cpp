@@ -241,7 +241,23 @@ ProgramBuilder::Constants touchConstants(const Contacts& contacts, bool isFirst)
     constants[hasSolidId] = contacts.hasSolid();
     constants[hasZonesId] = contacts.zones.exist();
     constants.merge(contacts.separations.constants());
+    constants.merge(contacts.rows.touched.constants());
     return constants;
+}
+
+// Appends the pass that lists points which may touch a face.
+void addPoints(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
+    constexpr std::uint32_t keepsRestId = 1, hasZonesId = 5; // constant_ids in find_points.comp
+    const row_contacts::Rows& rows = contacts.rows;
+    ProgramBuilder::Constants constants = rows.touched.constants();
+    constants[keepsRestId] = rows.keepsRest;
+    constants[hasZonesId] = contacts.zones.exist();
+    row_contacts::addOverParticles(
+        program, rows, k::findPoints,
+        {predicted.positions, predicted.velocities, rows.shapes, rows.lists.contacts, rows.lists.ranges,
+         rows.lists.memory->memory, rows.directions, predicted.step, contacts.zones.finding,
+         contacts.zones.solving, contacts.zones.meeting, rows.touched.points, rows.touched.lists},
+        constants);
 }
 
 // Faces beyond which a loose point is tested with those of its list alone.
@@ -267,6 +283,7 @@ row_contacts::Rows addRows(ProgramBuilder& program, const SceneModel& model, con
                             .elements = lists.grid.entries,
                             .bounds = lists.grid.bounds,
                             .particles = {lists.grid.touchingParticles, lists.touching},
+                            .touched = lists.grid.touched,
                             .surfaces = surfaces::addTable(program, scene, model.layout, "faces.surface"),
                             .keepsRest = keepRest(scene)};
     rows.push = {.count = find.points,
@@ -342,6 +359,8 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const ParticleBuf
                       .faces = static_cast<std::uint32_t>(faces.faces.size()),
                       .firstInner = faces.firstInner,
                       .isOfCells = faces.isOfCells};
+    contacts.lists.grid.touched = row_contacts::addTouched(
+        program, "faces", static_cast<std::uint32_t>(model.layout.count), contacts.lists.pooled.room);
     contacts.rows = addRows(program, model, particles, faces, contacts.lists);
     ContactBuffers& shown = program.program().contacts;
     shown.faces = contacts.lists.faces;
@@ -353,8 +372,8 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const ParticleBuf
                                             contacts.lists.grid.frames);
     contacts.zones = impact_zones::add(
         program, zonesOf(model.scene, model.layout, faces, contacts.lists, contacts.separations));
-    contacts.rows.touching = {contacts.zones.finding, contacts.zones.solving, contacts.zones.meeting,
-                              contacts.separations.sheets};
+    contacts.rows.touching = {contacts.zones.finding, contacts.zones.meeting, contacts.separations.sheets,
+                              contacts.rows.touched.arguments};
     if (contacts.hasStops()) addStopBuffers(program, model, particles, faces, contacts);
     // Without static or driven faces no kernel reads the first two.
     const bool hasRows = contacts.stopRows != BufferId{};
@@ -372,6 +391,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
         program.copy(predicted.positions, contacts.linkedPositions);
         program.copy(predicted.velocities, contacts.linkedVelocities);
     }
+    addPoints(program, contacts, predicted);
     row_contacts::addPasses(program, contacts.rows, predicted, touchConstants(contacts, isFirst));
 }
 

@@ -13,7 +13,8 @@ namespace sinew::sim::collision::hash_grid {
 
 namespace {
 
-constexpr std::uint32_t hasHeadingsId = 1; // constant_id in count_cells.comp and check_surface_lists.comp
+constexpr std::uint32_t listsTouchedId = 5; // constant_id in plan_grid.comp
+constexpr std::uint32_t hasHeadingsId = 1;  // constant_id in count_cells.comp and check_surface_lists.comp
 
 // Slots of the table: with twice as many as particles, rows rarely share slots unless the grid is dense.
 // scan_sums needs whole groups of chunks.
@@ -34,8 +35,9 @@ void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step, bool isLa
     if (!isLast) push.bodies = 0; // frames advance once a substep
     program.dispatch(kernels::planGrid, GROUP_ITEMS,
                      {grid.bounds, grid.arguments, grid.frames.frames, step, grid.touching.arguments,
-                      program.program().status},
-                     push);
+                      program.program().status, grid.touched.points, grid.touched.arguments,
+                      grid.touched.lists},
+                     push, {{listsTouchedId, grid.touched.slots > 0}});
 }
 
 // Velocities change too much after that for lists to last longer.

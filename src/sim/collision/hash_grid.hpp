@@ -58,8 +58,23 @@ constexpr std::size_t mostLarge = 64;
 
 constexpr std::uint32_t hasWaysId = 14; // constant_id of kernels that check particles or read `ways`
 
+/// Lists that a substep makes of what touches (shaders/glsl/collision/touched.h), which plan_grid empties.
+struct Touched {
+    BufferId points = unbound;    ///< arguments of passes over points: one element
+    BufferId arguments = unbound; ///< of passes over particles and over rows
+    BufferId lists = unbound;
+    std::uint32_t slots = 0; ///< of the state; 0 = no such lists
+
+    /// Constants of the kernels that make or visit the lists.
+    ProgramBuilder::Constants constants() const {
+        constexpr std::uint32_t touchedSlotsId = 9; // constant_id in touched.glsl
+        return {{touchedSlotsId, slots}};
+    }
+};
+
 struct Grid {
     layout::GridPush push{};
+    Touched touched;
     BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
     BufferId ways;     ///< by which particles may come near others in the substep [m]; unbound = none
     BufferId headings; ///< velocities of particles relative to frames when lists were made; unbound = none

@@ -1,6 +1,7 @@
 // The host side of contacts with faces and between edges: their buffers, and the order of the passes.
 #include "sim/collision/row_contacts.hpp"
 
+#include "collision/touched.h"
 #include "kernels.hpp"
 #include "sim/events/events.hpp"
 
@@ -10,18 +11,30 @@ namespace {
 
 namespace k = kernels;
 
+// The particles that a pass visits: those of rows that touch, or those of all rows.
+enum class Visited : bool { touching, all };
+
+void addOverVisited(ProgramBuilder& program, const Rows& rows, Visited visited, const vk::ShaderCode& code,
+                    std::vector<BufferId> buffers, ProgramBuilder::Constants constants) {
+    if (visited == Visited::all || rows.touched.slots == 0)
+        addOverParticles(program, rows, code, std::move(buffers), constants);
+    else
+        addOverTouched(program, rows, TOUCHED_PARTICLES, code, std::move(buffers), std::move(constants));
+}
+
 // Appends the pass that divides particles among the rows whose last word of `directions` is not 0.
-void addShares(ProgramBuilder& program, const Rows& rows, BufferId directions,
+void addShares(ProgramBuilder& program, const Rows& rows, Visited visited, BufferId directions,
                const ParticleBuffers& particles) {
-    addOverParticles(program, rows, k::sumRowWeights,
-                     {rows.lists.ranges, directions, rows.weights, rows.corners, rows.lists.links->elements,
-                      rows.lists.links->ranges, rows.cornerEnds, particles.velocities, rows.shares},
-                     rows.kind->constants());
+    addOverVisited(program, rows, visited, k::sumRowWeights,
+                   {rows.lists.ranges, directions, rows.weights, rows.corners, rows.lists.links->elements,
+                    rows.lists.links->ranges, rows.cornerEnds, particles.velocities, rows.shares},
+                   rows.kind->constants());
 }
 
 // Appends the pass that applies impulses to particles.
-void addImpulses(ProgramBuilder& program, const Rows& rows, BufferId directions, const vk::ShaderCode& code,
-                 const ParticleBuffers& particles, ProgramBuilder::Constants constants = {}) {
+void addImpulses(ProgramBuilder& program, const Rows& rows, Visited visited, BufferId directions,
+                 const vk::ShaderCode& code, const ParticleBuffers& particles,
+                 ProgramBuilder::Constants constants = {}) {
     std::vector<BufferId> buffers{rows.lists.ranges,
                                   directions,
                                   rows.weights,
@@ -37,7 +50,7 @@ void addImpulses(ProgramBuilder& program, const Rows& rows, BufferId directions,
     const bool hasStops = particles.forces != nullptr && !rows.kind->areEdges;
     for (const BufferId buffer : rows.forceRows) buffers.push_back(hasStops ? buffer : unbound);
     constants.merge(rows.kind->constants());
-    addOverParticles(program, rows, code, std::move(buffers), constants);
+    addOverVisited(program, rows, visited, code, std::move(buffers), std::move(constants));
 }
 
 sleep::SeenRows seenOf(const Rows& rows) {
@@ -49,7 +62,7 @@ sleep::SeenRows seenOf(const Rows& rows) {
 } // namespace
 
 constinit const Kind faces{
-    .name = "faces", .touch = &k::findFaceContacts, .touchesLists = true, .forces = &forces::Forces::ofStops};
+    .name = "faces", .touch = &k::findFaceContacts, .forces = &forces::Forces::ofStops};
 
 constinit const Kind edges{
     .name = "edges", .areEdges = true, .touch = &k::findEdgeContacts, .forces = &forces::Forces::ofContacts};
@@ -64,6 +77,25 @@ void addOverRows(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode
                  std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants) {
     buffers.push_back(rows.bounds);
     program.dispatchIndirect(code, rows.elements, buffers, rows.push, constants);
+}
+
+void addOverTouched(ProgramBuilder& program, const Rows& rows, std::uint32_t list, const vk::ShaderCode& code,
+                    std::vector<BufferId> buffers, ProgramBuilder::Constants constants) {
+    buffers.push_back(rows.touched.lists);
+    constants.merge(rows.touched.constants());
+    const bool arePoints = list == TOUCHED_POINTS;
+    const IndirectItems items{arePoints ? rows.touched.points : rows.touched.arguments, arePoints ? 0 : list,
+                              rows.touched.slots};
+    program.dispatchIndirect(code, items, buffers, rows.push, constants);
+}
+
+hash_grid::Touched addTouched(ProgramBuilder& program, const std::string& name, std::uint32_t slots,
+                              std::uint32_t room) {
+    const std::uint64_t words = TOUCHED_MARKS + std::uint64_t{slots} * 3 + room;
+    return {.points = program.scratch<layout::DispatchArguments>(name + ".touched.points", 1),
+            .arguments = program.scratch<layout::DispatchArguments>(name + ".touched.arguments", 2),
+            .lists = program.scratch<std::uint32_t>(name + ".touched", words),
+            .slots = slots};
 }
 
 Corners cornersOf(std::span<const std::vector<std::uint32_t>> first,
@@ -112,19 +144,24 @@ void addPasses(ProgramBuilder& program, const Rows& rows, const ParticleBuffers&
         lists.memory->memory, rows.directions,      rows.weights, predicted.step, rows.marks};
     buffers.insert(buffers.end(), rows.touching.begin(), rows.touching.end());
     const vk::ShaderCode& touch = *rows.kind->touch;
-    if (rows.kind->touchesLists)
-        addOverParticles(program, rows, touch, std::move(buffers), constants);
+    if (rows.touched.slots > 0)
+        addOverTouched(program, rows, TOUCHED_POINTS, touch, std::move(buffers), constants);
     else
         addOverRows(program, rows, touch, std::move(buffers), constants);
     sleep::addRowTouches(program, predicted, seenOf(rows));
     events::addRows(program, predicted, seenOf(rows));
-    addShares(program, rows, rows.directions, predicted);
-    addOverRows(program, rows, k::computeRowImpulses,
-                {predicted.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.directions,
-                 rows.weights, rows.shares, lists.memory->memory, rows.impulses, rows.before, predicted.step,
-                 rows.surfaces.ofParticles, rows.surfaces.pairs},
-                rows.kind->constants());
-    addImpulses(program, rows, rows.directions, k::applyRowImpulses, predicted,
+    addShares(program, rows, Visited::touching, rows.directions, predicted);
+    ProgramBuilder::Constants impulseConstants = rows.kind->constants();
+    impulseConstants.merge(rows.touched.constants());
+    const bool hasTouched = rows.touched.slots > 0;
+    program.dispatchIndirect(
+        k::computeRowImpulses,
+        hasTouched ? IndirectItems{rows.touched.arguments, TOUCHED_ROWS, rows.elements.most} : rows.elements,
+        {predicted.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.directions,
+         rows.weights, rows.shares, lists.memory->memory, rows.impulses, rows.before, predicted.step,
+         rows.surfaces.ofParticles, rows.surfaces.pairs, rows.bounds, rows.touched.lists},
+        rows.push, impulseConstants);
+    addImpulses(program, rows, Visited::touching, rows.directions, k::applyRowImpulses, predicted,
                 remainderConstants(predicted.layout));
 }
 
@@ -135,18 +172,21 @@ void addBounces(ProgramBuilder& program, const Rows& rows, const ParticleBuffers
                 {rows.before, rows.shapes, lists.contacts, lists.links->owners, rows.directions, rows.weights,
                  rows.surfaces.ofParticles, rows.surfaces.pairs, state.step, rows.bounces},
                 rows.kind->constants());
-    addShares(program, rows, rows.bounces, state);
+    addShares(program, rows, Visited::all, rows.bounces, state);
     addOverRows(program, rows, k::solveRowRebounds,
                 {state.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.bounces,
                  rows.weights, rows.shares, rows.impulses},
                 rows.kind->constants());
-    addImpulses(program, rows, rows.bounces, k::applyRowRebounds, state);
+    addImpulses(program, rows, Visited::all, rows.bounces, k::applyRowRebounds, state);
 }
 
 void addPublishing(ProgramBuilder& program, const Rows& rows, const hash_grid::Grid& grid) {
     pooled_lists::addPublishing(program, rows.lists, grid);
     // Lists stay while everything sleeps, when no pass plans the number of groups.
     if (rows.sleeps) program.fill(grid.touching.arguments, 0);
+    if (!rows.sleeps || rows.touched.slots == 0) return;
+    program.fill(rows.touched.points, 0);
+    program.fill(rows.touched.arguments, 0);
 }
 
 } // namespace sinew::sim::collision::row_contacts

@@ -31,8 +31,8 @@ namespace sinew::sim::collision::row_contacts {
 struct Kind {
     const char* name = nullptr; ///< of buffers
     bool areEdges = false;
-    const vk::ShaderCode* touch = nullptr; ///< finds contacts
-    bool touchesLists = false; ///< whether `touch` runs over owners of lists, not over single rows
+    const vk::ShaderCode* touch =
+        nullptr; ///< finds contacts: over Rows::touched if that exists, else over rows
     ProgramBuilder::Constants (forces::Forces::*forces)() const = nullptr; ///< elements of impulses
     /// Constants of all kernels of rows.
     ProgramBuilder::Constants constants() const {
@@ -63,10 +63,11 @@ struct Rows {
     const Kind* kind = nullptr;
     layout::FacePush push{};
     pooled_lists::Lists lists;
-    BufferId shapes;        ///< layout::ContactFace or layout::ContactEdge
-    IndirectItems elements; ///< used entries of `lists`
-    BufferId bounds;        ///< of the grid: holds the number of entries
-    Groups particles;       ///< work groups with a particle in a row
+    BufferId shapes;            ///< layout::ContactFace or layout::ContactEdge
+    IndirectItems elements;     ///< used entries of `lists`
+    BufferId bounds;            ///< of the grid: holds the number of entries
+    Groups particles;           ///< work groups with a particle in a row
+    hash_grid::Touched touched; ///< what touches in a substep; without it passes visit all candidates
     surfaces::Surfaces surfaces;
     BufferId marks;         ///< contact_lists::linkedMarks; another buffer if the kernels read none
     bool keepsRest = false; ///< of any particle
@@ -91,6 +92,14 @@ void addOverParticles(ProgramBuilder& program, const Rows& rows, const vk::Shade
                       std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {});
 void addOverRows(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode& code,
                  std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {});
+
+/// Appends a pass over what touches: `list` as in touched.h, of particles or points.
+void addOverTouched(ProgramBuilder& program, const Rows& rows, std::uint32_t list, const vk::ShaderCode& code,
+                    std::vector<BufferId> buffers, ProgramBuilder::Constants constants = {});
+
+/// The lists of what touches, for `rows` that have `room` candidates and as many slots as the state.
+hash_grid::Touched addTouched(ProgramBuilder& program, const std::string& name, std::uint32_t slots,
+                              std::uint32_t room);
 
 /// Constants of kernels with pairs that may keep their rest distance. `isFirst`: first substep of a step.
 ProgramBuilder::Constants restConstants(bool keepsRest, bool isFirst);

@@ -2,6 +2,7 @@
 #include "sim/collision/separations.hpp"
 
 #include "collision/sheet_marks.h"
+#include "collision/touched.h"
 #include "kernels.hpp"
 
 #include <algorithm>
@@ -36,8 +37,8 @@ void addSearch(ProgramBuilder& program, const Separations& separations, const ro
                                   speedConstants(separations));
     } else {
         buffers.push_back(lists.ranges);
-        row_contacts::addOverParticles(program, rows, k::findFaceSeparations, std::move(buffers),
-                                       speedConstants(separations));
+        row_contacts::addOverTouched(program, rows, TOUCHED_POINTS, k::findFaceSeparations,
+                                     std::move(buffers), speedConstants(separations));
     }
 }
 

@@ -1,0 +1,102 @@
+// Tests of what passes of contacts visit: what touches in a substep, and nothing else.
+#include "collision/touched.h"
+#include "common/layout.h"
+#include "sim/collision/face_scenes.hpp"
+#include "sim/runner.hpp"
+#include "sinew/bodies.hpp"
+#include "sinew/simulation.hpp"
+#include "support/device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+template <typename T> std::vector<T> read(test::Runner& runner, const std::string& label) {
+    const auto& buffers = runner.simulation().program().buffers;
+    for (std::uint32_t b = 0; b < buffers.size(); ++b)
+        if (buffers[b].label == label) return test::queue().download<T>(runner.simulation().view({b}));
+    ADD_FAILURE() << "no buffer " << label;
+    return {};
+}
+
+// What the last substep listed, and what its lists of candidates and its contacts have of it.
+struct Visited {
+    std::size_t candidates = 0;
+    std::vector<std::uint32_t> particles, rows, points;
+    std::set<std::uint32_t> inContact, touching;
+};
+
+Visited visitedBy(test::Runner& runner) {
+    const auto lists = read<layout::ListRange>(runner, "faces.lists");
+    const auto words = read<std::uint32_t>(runner, "faces.touched");
+    const auto faces = read<layout::ContactFace>(runner, "faces");
+    const auto contacts = read<layout::ContactCandidate>(runner, "faces.contacts");
+    const auto directions = read<layout::vec4>(runner, "faces.directions");
+    const auto list = [&](std::uint32_t which, std::size_t section) {
+        const auto first =
+            words.begin() + static_cast<std::ptrdiff_t>(TOUCHED_MARKS + section * lists.size());
+        return std::vector<std::uint32_t>(first, first + words[which]);
+    };
+    Visited visited{.particles = list(TOUCHED_PARTICLES, 1),
+                    .rows = list(TOUCHED_ROWS, 3),
+                    .points = list(TOUCHED_POINTS, 2)};
+    for (std::uint32_t i = 0; i < lists.size(); ++i)
+        for (std::uint32_t row = lists[i].first; row < lists[i].first + lists[i].count; ++row) {
+            ++visited.candidates;
+            if (directions[row].w == 0) continue;
+            const layout::ContactFace& face = faces[contacts[row].other];
+            visited.touching.insert(row);
+            visited.inContact.insert({i, face.a, face.b, face.c});
+        }
+    return visited;
+}
+
+} // namespace
+
+// Most candidates of cloth that swings touch nothing: a substep without a contact gives the passes behind the
+// search nothing to do.
+TEST(Touched, IsNothingInClothThatSwings) {
+    Scene scene;
+    addCloth(scene, {.size = {24, 24}, .spacing = 0.02f, .areaDensity = 0.2f, .thickness = 0.0115f});
+    for (const std::uint32_t corner : {0u, 23u}) scene.particles[corner].inverseMass = 0;
+    test::Runner runner(scene, {.substeps = 32});
+    std::size_t candidates = 0;
+    for (int step = 0; step < 10; ++step) {
+        ASSERT_EQ(runner.run(1).nonFinite, 0u);
+        const Visited visited = visitedBy(runner);
+        candidates += visited.candidates;
+        EXPECT_TRUE(visited.particles.empty()) << step;
+        EXPECT_TRUE(visited.rows.empty()) << step;
+        EXPECT_LT(10 * visited.points.size(), visited.candidates) << step;
+    }
+    EXPECT_GE(candidates, 5000u);
+}
+
+// The lists of a substep have each particle of a contact once, and all contacts, whatever is between them.
+TEST(Touched, HasEachContactAndItsParticlesOnce) {
+    const Scene scene = test::fallingFold();
+    test::Runner runner(scene, {.substeps = 48, .contactRoom = 200});
+    std::size_t contacts = 0;
+    for (int step = 0; step < 40; ++step) {
+        const Status status = runner.run(1);
+        ASSERT_EQ(status.nonFinite + status.contactRoom, 0u);
+        if (step % 4 != 3) continue;
+        const Visited visited = visitedBy(runner);
+        contacts += visited.touching.size();
+        const std::set<std::uint32_t> particles(visited.particles.begin(), visited.particles.end());
+        EXPECT_EQ(particles.size(), visited.particles.size()) << "no particle twice";
+        EXPECT_EQ(particles, visited.inContact) << "step " << step;
+        const std::set<std::uint32_t> rows(visited.rows.begin(), visited.rows.end());
+        EXPECT_EQ(rows.size(), visited.rows.size());
+        EXPECT_TRUE(std::ranges::includes(rows, visited.touching)) << "step " << step;
+        EXPECT_LT(rows.size(), visited.candidates);
+    }
+    EXPECT_GE(contacts, 100u);
+}
