@@ -32,51 +32,60 @@ bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
     return isInBox(face, x, reach) && (radius + motion <= push.most && motion <= most) != isApart && isNear(face, i, x, 0.0);
 }
 
-// The points near the box in up to 32 visits from `from` on: bit v for visit from + v.
-uint around(Box box, float range, Rows rows, uint from, uint total) {
-    const uint last = min(from + 32u, rows.all);
-    uint visits = 0u;
-    for (uint visit = from; visit < last; ++visit) {
-        const vec3 x = uintBitsToFloat(SORTED(placeOf(rows, visit, total)).xyz);
-        visits |= uint(isInBox(box.low, box.high, x, range)) << visit - from;
-    }
-    return visits;
-}
+// Points near the box of the faces, up to so many at a time. Tests of a face cost much more
+// than visits, also where a branch skips them on a software device, and most visited points are near no face.
+#define MOST_FOUND 16u
+shared uint found[MOST_FOUND * GROUP_SIZE];
+uint foundAt(uint k) { return found[k * GROUP_SIZE + gl_LocalInvocationIndex]; }
 
-// The points near the face, among these visits.
-uint nearOf(Searched face, uint visits, Rows rows, uint from, Frame frame, uint total) {
-    uint near = 0u;
-    for (; visits != 0u; visits &= visits - 1u) {
-        const int bit = findLSB(visits);
-        const uint visit = from + uint(bit);
+// A search of the cells, in turns that each end when so many points are found.
+struct Search {
+    uint done, all; // visits of the turns so far, of the whole search
+    uint found;     // points of this turn
+};
+
+void findInRows(Box box, float range, Rows rows, Frame frame, uint total, inout Search search) {
+    for (uint visit = max(search.done, search.all) - search.all; visit < rows.all && search.found < MOST_FOUND; ++visit) {
+        search.done = search.all + visit + 1u;
         const uvec4 point = SORTED(placeOf(rows, visit, total));
         const vec3 x = uintBitsToFloat(point.xyz);
-        if (isIn(rows, visit, cellOf(x, frame)) && isNearby(face, point.w, x, false)) near |= 1u << bit;
+        if (!isInBox(box.low, box.high, x, range) || !isIn(rows, visit, cellOf(x, frame))) continue;
+        found[search.found * GROUP_SIZE + gl_LocalInvocationIndex] = point.w;
+        ++search.found;
+    }
+    search.all += rows.all;
+}
+
+void findInGrid(Box box, Cells cells, Frame frame, uint total, inout Search search) {
+    const float range = rangeOf(box);
+    search.all = search.found = 0u;
+    for (int z = cells.first.z; z <= cells.last.z; ++z)
+        for (int y = cells.first.y; y <= cells.last.y; y += 3)
+            for (int x = cells.first.x; x <= cells.last.x; x += 3)
+                findInRows(box, range, rowsFrom(ivec3(x, y, z), cells.last, frame), frame, total, search);
+}
+
+// The found points that are near the face, as bits.
+uint nearOf(Searched face, uint count) {
+    uint near = 0u;
+    for (uint k = 0u; k < count; ++k) {
+        const uint i = foundAt(k);
+        near |= uint(isNearby(face, i, POSITION(i).xyz, false)) << k;
     }
     return near;
 }
 
-void listNear(Searched face, uint near, Rows rows, uint from, uint total) {
-    for (; near != 0u; near &= near - 1u)
-        listUnlessExcluded(face, SORTED(placeOf(rows, from + uint(findLSB(near)), total)).w);
-}
-
-// Branches are what costs: a batch is measured first, and only the remaining points are processed then.
-void searchRows(Searched one, Searched other, Box box, float range, Rows rows, Frame frame, uint total) {
-    for (uint from = 0u; from < rows.all && !isFull(); from += 32u) {
-        const uint visits = around(box, range, rows, from, total);
-        listNear(one, nearOf(one, visits, rows, from, frame, total), rows, from, total);
-        if (arePaired(one.index, other.index))
-            listNear(other, nearOf(other, visits, rows, from, frame, total), rows, from, total);
-    }
+void listNear(Searched face, uint near) {
+    for (; near != 0u; near &= near - 1u) listUnlessExcluded(face, foundAt(uint(findLSB(near))));
 }
 
 void searchGrid(Searched one, Searched other, Box box, Cells cells, Frame frame, uint total) {
-    const float range = rangeOf(box);
-    for (int z = cells.first.z; z <= cells.last.z; ++z)
-        for (int y = cells.first.y; y <= cells.last.y; y += 3)
-            for (int x = cells.first.x; x <= cells.last.x; x += 3)
-                searchRows(one, other, box, range, rowsFrom(ivec3(x, y, z), cells.last, frame), frame, total);
+    Search search = Search(0u, 0u, 0u);
+    do {
+        findInGrid(box, cells, frame, total, search);
+        listNear(one, nearOf(one, search.found));
+        if (arePaired(one.index, other.index)) listNear(other, nearOf(other, search.found));
+    } while (search.done < search.all && !isFull());
 }
 
 void searchApart(Searched face) {
