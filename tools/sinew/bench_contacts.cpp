@@ -207,7 +207,8 @@ Json measureRow(Session& session, const ContactRow& row, double seconds) {
             forEach([&](ContactRun& one) { one.takeTurn(std::min(stepsOfTurn, row.steps - done)); });
         forEach([&](ContactRun& one) { one.end(row.settle); });
     } while (Clock::now() < end && !app::isInterrupted());
-    const std::uint64_t more = bytesOf(with.program()) - bytesOf(sim::compile(bare, loaded.settings));
+    const std::uint64_t more =
+        bytesOf(sim::compile(loaded.scene, loaded.settings)) - bytesOf(sim::compile(bare, loaded.settings));
     Json measured{{"scene", row.name},
                   {"device", session.device.description().name},
                   {"particles", loaded.scene.particles.size()},
