@@ -84,6 +84,12 @@ bool isInBox(vec3 low, vec3 high, vec3 x, float reach) {
 }
 bool isInBox(Searched face, vec3 x, float reach) { return isInBox(face.low, face.high, x, reach); }
 
+// True if a plane square to the line from the face's center to x keeps the two more than `reach` apart.
+bool isBeyondPlane(Searched face, vec3 x, float reach) {
+    const vec3 a = x - face.a, b = a - face.triangle.ab, c = a - face.triangle.ac, d = a + b + c;
+    return min(dot(d, a), min(dot(d, b), dot(d, c))) > 1.001 * reach * length(d);
+}
+
 // Distance by which a point may approach the face, in this substep or along headings [m].
 float mostApproach(Searched face, uint i) {
     return max(step.h * length(VELOCITY(i).xyz - face.v) + face.turning, horizon * length(HEADING(i) - face.w) + face.bending);

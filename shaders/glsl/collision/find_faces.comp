@@ -27,9 +27,10 @@ bool arePaired(uint f, uint g) { return hasHeadings && g != f; }
 
 float most = hasHeadings ? mostMotion() : 1e30; // of a point that is not apart [m]
 
-bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
+// False for most points of the box that are not near.
+bool mayBeNear(Searched face, uint i, vec3 x, bool isApart) {
     const float radius = RADIUS(i), motion = motionOf(i), reach = face.still + radius + LEEWAY(i) + 1.001 * mostApproach(face, i);
-    return isInBox(face, x, reach) && (radius + motion <= push.most && motion <= most) != isApart && isNear(face, i, x, 0.0);
+    return !isCorner(face, i) && isInBox(face, x, reach) && !isBeyondPlane(face, x, reach) && (radius + motion <= push.most && motion <= most) != isApart;
 }
 
 // Points near the box of the faces, up to so many at a time. Tests of a face cost much more
@@ -65,33 +66,40 @@ void findInGrid(Box box, Cells cells, Frame frame, uint total, inout Search sear
                 findInRows(box, range, rowsFrom(ivec3(x, y, z), cells.last, frame), frame, total, search);
 }
 
-// The found points that are near the face, as bits.
-uint nearOf(Searched face, uint count) {
-    uint near = 0u;
-    for (uint k = 0u; k < count; ++k) {
-        const uint i = foundAt(k);
-        near |= uint(isNearby(face, i, POSITION(i).xyz, false)) << k;
+// Lists those of the found points with a bit in `near` that are near the face.
+void listNear(Searched face, uint near) {
+    for (; near != 0u; near &= near - 1u) {
+        const uint i = foundAt(uint(findLSB(near)));
+        if (isNear(face, i, POSITION(i).xyz, 0.0)) listUnlessExcluded(face, i);
     }
-    return near;
 }
 
-void listNear(Searched face, uint near) {
-    for (; near != 0u; near &= near - 1u) listUnlessExcluded(face, foundAt(uint(findLSB(near))));
+void listFound(Searched one, Searched other, uint count) {
+    const bool hasOther = arePaired(one.index, other.index);
+    uint nearOne = 0u, nearOther = 0u;
+    for (uint k = 0u; k < count; ++k) {
+        const uint i = foundAt(k);
+        const vec3 x = POSITION(i).xyz;
+        nearOne |= uint(mayBeNear(one, i, x, false)) << k;
+        nearOther |= uint(hasOther && mayBeNear(other, i, x, false)) << k;
+    }
+    listNear(one, nearOne);
+    listNear(other, nearOther);
 }
 
 void searchGrid(Searched one, Searched other, Box box, Cells cells, Frame frame, uint total) {
     Search search = Search(0u, 0u, 0u);
     do {
         findInGrid(box, cells, frame, total, search);
-        listNear(one, nearOf(one, search.found));
-        if (arePaired(one.index, other.index)) listNear(other, nearOf(other, search.found));
+        listFound(one, other, search.found);
     } while (search.done < search.all && !isFull());
 }
 
 void searchApart(Searched face) {
     for (uint k = 0u; k < apart[FACE_POINTS_APART] && !isFull(); ++k) {
         const uint i = apart[FACE_POINTS_FIRST + k];
-        if (isNearby(face, i, POSITION(i).xyz, true)) listUnlessExcluded(face, i);
+        const vec3 x = POSITION(i).xyz;
+        if (mayBeNear(face, i, x, true) && isNear(face, i, x, 0.0)) listUnlessExcluded(face, i);
     }
 }
 
