@@ -4,6 +4,7 @@
 
 #include "app/drawn.hpp"
 #include "app/guard.hpp"
+#include "app/kept_pipelines.hpp"
 #include "app/progress.hpp"
 #include "scenes/recovery.hpp"
 #include "sim/core/counted.hpp"
@@ -479,13 +480,14 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
     if (options.hasValidation) vk::enableQueueSubmitValidation();
     const vk::Loader loader;
     const vk::Device device =
-        vk::Device::create(loader.getInstanceProcAddr(), deviceRequest(options, messages));
+        app::createDevice(loader.getInstanceProcAddr(), deviceRequest(options, messages));
     checkSize(device, options.size);
     std::printf("%s\n", headline(opening, device).c_str());
     std::fflush(stdout);
 
     Outputs outputs(options, opening.loaded.scene.dt);
     Recorder recorder(options, opening, device, std::move(input));
+    app::keepPipelines(device);
     try {
         app::Progress progress(options.frames, stderr);
         for (std::uint64_t frame = 0; frame <= options.frames && !app::isInterrupted(); ++frame) {

@@ -2,6 +2,7 @@
 #include "viewer/interactive.hpp"
 
 #include "app/guard.hpp"
+#include "app/kept_pipelines.hpp"
 #include "app/thread_advice.hpp"
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/loader.hpp"
@@ -171,7 +172,7 @@ public:
         if (!device_) {
             loader_ = std::make_shared<vk::Loader>();
             device_ =
-                std::make_shared<vk::Device>(vk::Device::create(loader_->getInstanceProcAddr(), request_));
+                std::make_shared<vk::Device>(app::createDevice(loader_->getInstanceProcAddr(), request_));
         }
         try {
             return drawPreview(*device_, scene, stop);

@@ -5,9 +5,12 @@
 #include "vk/allocator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstring>
 #include <optional>
+#include <span>
+#include <string_view>
 
 namespace sinew::vk {
 
@@ -155,6 +158,15 @@ bool hasExtension(const InstanceFunctions& functions, VkPhysicalDevice physical,
     });
 }
 
+namespace {
+
+void appendHex(std::string& text, std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    for (const std::uint8_t byte : bytes) (text += digits[byte >> 4]) += digits[byte & 15];
+}
+
+} // namespace
+
 DeviceDescription describeDevice(const InstanceFunctions& functions, VkPhysicalDevice physical) {
     VkPhysicalDeviceProperties properties;
     functions.vkGetPhysicalDeviceProperties(physical, &properties);
@@ -166,11 +178,19 @@ DeviceDescription describeDevice(const InstanceFunctions& functions, VkPhysicalD
                                       std::min(properties.limits.maxPerStageDescriptorStorageBuffers,
                                                properties.limits.maxDescriptorSetStorageBuffers)};
     if (properties.apiVersion >= VK_API_VERSION_1_2) {
-        VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+        VkPhysicalDeviceIDProperties ids{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
+        VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
+                                                .pNext = &ids};
         VkPhysicalDeviceProperties2 extended{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                              .pNext = &driver};
         functions.vkGetPhysicalDeviceProperties2(physical, &extended);
         description.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+        appendHex(description.identity, ids.deviceUUID);
+        appendHex(description.identity, ids.driverUUID);
+        appendHex(description.identity, properties.pipelineCacheUUID);
+        const std::uint32_t version = properties.driverVersion;
+        for (const unsigned shift : {24u, 16u, 8u, 0u})
+            appendHex(description.identity, std::array{static_cast<std::uint8_t>(version >> shift)});
     }
     return description;
 }

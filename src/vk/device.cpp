@@ -165,13 +165,22 @@ void Device::complete(bool hasDebugUtils, const BufferHook& hook, std::span<cons
     state.instanceFunctions.vkGetPhysicalDeviceMemoryProperties(state.physical, &memory);
     state.allocator =
         hook.create ? makeHookAllocator(hook) : makeBlockAllocator(state.device, state.functions, memory);
-    const std::span<const std::byte> earlier = unsealed(pipelines);
+    usePipelines(pipelines);
+}
+
+void Device::usePipelines(std::span<const std::byte> kept) {
+    State& state = *state_;
+    const std::span<const std::byte> earlier = unsealed(kept);
     const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
                                          .initialDataSize = earlier.size(),
                                          .pInitialData = earlier.data()};
-    check(state.functions.vkCreatePipelineCache(state.device, &info, nullptr, &state.pipelineCache),
+    VkPipelineCache cache = VK_NULL_HANDLE;
+    check(state.functions.vkCreatePipelineCache(state.device, &info, nullptr, &cache),
           "vkCreatePipelineCache", state.description.name);
-    name(VK_OBJECT_TYPE_PIPELINE_CACHE, handleValue(state.pipelineCache), "sinew.pipelines");
+    if (state.pipelineCache != VK_NULL_HANDLE)
+        state.functions.vkDestroyPipelineCache(state.device, state.pipelineCache, nullptr);
+    state.pipelineCache = cache;
+    name(VK_OBJECT_TYPE_PIPELINE_CACHE, handleValue(cache), "sinew.pipelines");
 }
 
 Device Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const DeviceRequest& request) {

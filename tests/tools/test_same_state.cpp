@@ -90,3 +90,26 @@ TEST_F(SameState, WithEveryKindOfPassTimedByItself) {
     EXPECT_EQ(timed, passes);
     EXPECT_EQ(this->report(arguments)["state_hash"], report["state_hash"]);
 }
+
+TEST_F(SameState, WithFormsThatWereMeasuredAndRemembered) {
+    write("box.toml", "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [0, 0.3, 0]\n");
+    const test::Environment kept{{"SINEW_CACHE", (folder_ / "kept").string()}};
+    const auto runIt = [&] { return report({"box.toml", "--frames", "100"}, kept); };
+    const nlohmann::json measured = runIt();
+    EXPECT_EQ(measured["forms"]["source"], "measured");
+    const nlohmann::json remembered = runIt();
+    EXPECT_EQ(remembered["forms"]["source"], "remembered");
+    for (const char* part : {"texels", "grids", "columns", "chunk", "resident_bytes"})
+        EXPECT_EQ(remembered["forms"][part], measured["forms"][part]) << part;
+    EXPECT_EQ(remembered["state_hash"], measured["state_hash"]);
+    for (const std::string& file : files())
+        if (file.starts_with("kept/")) write(file, "damaged");
+    const nlohmann::json again = runIt();
+    EXPECT_EQ(again["forms"]["source"], "measured");
+    EXPECT_EQ(again["state_hash"], measured["state_hash"]);
+    const nlohmann::json off = report({"box.toml", "--frames", "100"}, {{"SINEW_CACHE", "off"}});
+    EXPECT_EQ(off["forms"]["source"], "measured");
+    const nlohmann::json given = report({"box.toml", "--frames", "5", "--forms", "columns=1,chunk=1"}, kept);
+    EXPECT_EQ(given["forms"]["source"], "given");
+    EXPECT_EQ(report({"box.toml", "--frames", "5"}, kept)["forms"]["source"], "usual");
+}

@@ -103,6 +103,24 @@ TEST(Replay, LeadsToTheSameBits) {
     expectTheSameBitsOf(play);
 }
 
+TEST(Replay, TakesTheFormsOfItsLogAndLeadsToTheSameBits) {
+    Played played;
+    play(played);
+    InputFile file = played.file();
+    for (const sim::Forms& forms :
+         {sim::Forms{.columns = 1, .chunk = 1}, sim::Forms{.usesTexels = false, .columns = 2, .chunk = 3}}) {
+        file.forms = forms;
+        const InputFile read = parseInput(toText(file), "test");
+        OpenedScene opening = openText(block);
+        prepareForReplay(opening, read);
+        Scene again(std::move(opening));
+        EXPECT_EQ(again.document.settings().forms, forms);
+        Replay replay(read);
+        replayAll(again, replay);
+        EXPECT_EQ(again.hash(), *file.hash);
+    }
+}
+
 TEST(Replay, TurnsTheSameMaterial) {
     expectTheSameBitsOf(soften);
 }
@@ -317,6 +335,7 @@ TEST(InputFile, BringsEveryBitBack) {
                          .substeps = 7,
                          .room = 64,
                          .surface = 5000,
+                         .forms = sim::Forms{.usesTexels = false, .columns = 1, .chunk = 3},
                          .events = {camera, Pointed{{odd, 3e8f}}, Action::undo, Answered{},
                                     Answered{indexOf(tool::pins), Pick{3, {odd, 0, 0}, {0, odd, 0}}, odd},
                                     Pulled{odd}, Turned{{odd, {odd, 2}, {}, 0.0f}}, Turned{},
@@ -327,6 +346,7 @@ TEST(InputFile, BringsEveryBitBack) {
     const InputFile read = parseInput(toText(file), "test");
     EXPECT_EQ(read.events, file.events);
     EXPECT_EQ(read.from, file.from);
+    EXPECT_EQ(read.forms, file.forms);
     EXPECT_EQ(toText(read), toText(file));
 }
 

@@ -3,6 +3,7 @@
 #include "sinew/bench_forms.hpp"
 
 #include "app/guard.hpp"
+#include "app/kept_forms.hpp"
 #include "scenes/load.hpp"
 #include "sim/device/gpu_compile.hpp"
 #include "sim/model/grids.hpp"
@@ -116,7 +117,7 @@ Json rowOf(Session& session, const Body& body, const sim::Forms& forms) {
     const bool hasDevice = !times.device.empty();
     const std::vector<double>& ms = hasDevice ? times.device : times.host;
     return {{"body", body.name},
-            {"form", toText(sim::completed(forms, sim::kindOf(session.device)))},
+            {"form", app::toText(sim::completed(forms, sim::kindOf(session.device)))},
             {"particles", body.scene.particles.size()},
             {"substeps", body.substeps},
             {"steps", ms.size()},

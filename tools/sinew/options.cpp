@@ -66,12 +66,6 @@ sim::Forms FormOptions::in(sim::Forms forms) const {
     return forms;
 }
 
-std::string toText(const sim::Forms& forms) {
-    return "columns=" + std::to_string(forms.columns) + ",chunk=" + std::to_string(forms.chunk) +
-           ",texels=" + std::to_string(forms.usesTexels) + ",grids=" + std::to_string(forms.usesGrids) +
-           ",resident=" + std::to_string(forms.residentBytes);
-}
-
 void addFormOptions(CLI::App& command, FormOptions& options) {
     command
         .add_option_function<std::vector<std::string>>(

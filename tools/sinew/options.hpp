@@ -28,9 +28,6 @@ struct FormOptions {
 /// Adds --forms.
 void addFormOptions(CLI::App& command, FormOptions& options);
 
-/// The text form of --forms.
-std::string toText(const sim::Forms& forms);
-
 struct SceneOptions {
     std::string file;
     scenes::Overrides overrides;

@@ -275,7 +275,8 @@ std::string toJson(const RunRecord& record) {
                      {"grids", settings.forms.usesGrids},
                      {"columns", settings.forms.columns},
                      {"chunk", settings.forms.chunk},
-                     {"resident_bytes", settings.forms.residentBytes}};
+                     {"resident_bytes", settings.forms.residentBytes},
+                     {"source", app::toText(record.formSource)}};
     json["dt"] = scene.dt;
     json["velocity_age"] =
         settings.solver == sim::Solver::split ? double{scene.dt} / settings.substeps / 2 : 0.0;
@@ -347,6 +348,9 @@ std::string toText(const RunRecord& record) {
     if (const auto frame = summarise(record.frameMs))
         text += fmt::format("{}: {:.2f} ms each (median), {:.2f} ms at most in 99 %\n",
                             sim::counted(record.frames, "step"), frame->p50, frame->p99);
+    if (record.formSource != app::FormSource::usual)
+        text += fmt::format("forms of kernels: {} ({})\n", app::toText(settings.forms),
+                            app::toText(record.formSource));
     text += stiffnessText(record.loaded) + errorText(record.estimate);
     const Errors errors = measure(record.loaded.scene, record.state, record.skins.whole, record.frames);
     if (errors.strainRms)

@@ -2,6 +2,7 @@
 // meaning.
 #pragma once
 
+#include "app/kept_forms.hpp"
 #include "scenes/load.hpp"
 #include "sim/program/program.hpp"
 #include "sinew/measure.hpp"
@@ -20,6 +21,7 @@ struct RunRecord {
     const scenes::LoadedScene& loaded;
     const sim::StepProgram& program;
     const vk::DeviceDescription& device;
+    app::FormSource formSource = app::FormSource::usual; ///< of `loaded`
     std::vector<std::string> phases;
     std::vector<double> phaseMs;
     std::vector<double> frameMs;

@@ -1,5 +1,6 @@
 // `sinew run`: simulates a scene without a window and writes the results.
 #include "app/guard.hpp"
+#include "app/kept_forms.hpp"
 #include "app/progress.hpp"
 #include "app/take_over.hpp"
 #include "app/thread_advice.hpp"
@@ -7,7 +8,6 @@
 #include "sim/core/counted.hpp"
 #include "sim/device/gpu_compile.hpp"
 #include "sinew/commands.hpp"
-#include "sinew/gpu_tune.hpp"
 #include "sinew/outputs.hpp"
 #include "sinew/pilot.hpp"
 #include "sinew/ranges.hpp"
@@ -231,8 +231,12 @@ int run(const RunOptions& options) {
     loaded.settings.forms = sim::completed(loaded.settings.forms, sim::kindOf(session.device));
     const std::optional<ErrorEstimate> estimate = pilot(options, loaded, session);
     constexpr std::uint64_t worthTuning = 100; // frames: in shorter runs timing of forms does not pay off
-    if (options.frames >= worthTuning && !start.run && !options.scene.forms.isGiven()) {
-        loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);
+    auto formSource = options.scene.forms.isGiven() ? app::FormSource::given : app::FormSource::usual;
+    if (options.frames >= worthTuning && !start.run && formSource == app::FormSource::usual) {
+        const app::FormChoice choice =
+            app::chooseForms(session.device, session.queue, loaded.scene, loaded.settings);
+        loaded.settings.forms = choice.forms;
+        formSource = choice.source;
         if (const auto advice = app::adviseOnThreads(session.device, loaded.scene, loaded.settings)) {
             loaded.notes.push_back(*advice);
             std::fprintf(stderr, "%s\n", advice->c_str());
@@ -244,7 +248,8 @@ int run(const RunOptions& options) {
     std::vector<Sample> samples;
     step(options, loaded, runner, samples);
     const app::Writing writing;
-    const RunRecord record = recordOf(options, loaded, session, runner, estimate);
+    RunRecord record = recordOf(options, loaded, session, runner, estimate);
+    record.formSource = formSource;
     for (const std::string& message : record.validationMessages)
         std::fprintf(stderr, "validation: %s\n", message.c_str());
     warnAboutRun(record, loaded.warnings, runner.complaints());

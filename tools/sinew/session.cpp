@@ -2,6 +2,7 @@
 #include "sinew/session.hpp"
 
 #include "app/driver_threads.hpp"
+#include "app/kept_pipelines.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -13,8 +14,8 @@ namespace {
 
 vk::Device create(const vk::Loader& loader, const DeviceOptions& options) {
     if (options.hasValidation) vk::enableQueueSubmitValidation();
-    return vk::Device::create(loader.getInstanceProcAddr(),
-                              {.device = options.device, .hasValidation = options.hasValidation});
+    return app::createDevice(loader.getInstanceProcAddr(),
+                             {.device = options.device, .hasValidation = options.hasValidation});
 }
 
 } // namespace
@@ -23,7 +24,11 @@ Session::Session(const DeviceOptions& options)
     : device(create(loader, options)), queue(device), kept(device) {}
 
 Session::Session(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const vk::DeviceRequest& request)
-    : device(vk::Device::create(getInstanceProcAddr, request)), queue(device), kept(device) {}
+    : device(app::createDevice(getInstanceProcAddr, request)), queue(device), kept(device) {}
+
+Session::~Session() {
+    app::keepPipelines(device);
+}
 
 std::uint32_t driverThreads() {
     const char* asked = std::getenv(app::driverThreadsVariable);

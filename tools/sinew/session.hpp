@@ -23,6 +23,7 @@ struct Session {
     Session(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const vk::DeviceRequest& request);
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
+    ~Session(); ///< keeps the pipelines for the next run (app::keepPipelines)
 };
 
 /// The threads with which lavapipe computes in this process: LP_NUM_THREADS, or as many as processors; 1 if

@@ -2,6 +2,7 @@
 #include "viewer/input/input_log.hpp"
 
 #include "app/guard.hpp"
+#include "app/kept_forms.hpp"
 #include "sinew/ranges.hpp"
 #include "sinew/solver_names.hpp"
 #include "viewer/input/tool.hpp"
@@ -242,6 +243,12 @@ Shaped readShape(Words& words) {
     return shaped;
 }
 
+sim::Forms readForms(Words& words) {
+    const std::optional<sim::Forms> forms = app::parseForms(words.word());
+    if (!forms) throw std::runtime_error("invalid forms");
+    return *forms;
+}
+
 SavedOrigin readOrigin(Words& words) {
     SavedOrigin from;
     from.hash = words.number<std::uint64_t>(16);
@@ -267,6 +274,7 @@ const std::array readers{
     Reader{"substeps", [](InputFile& to, Words& words) { to.substeps = words.number<std::uint32_t>(); }},
     Reader{"room", [](InputFile& to, Words& words) { to.room = words.number<std::uint32_t>(); }},
     Reader{"surface", [](InputFile& to, Words& words) { to.surface = words.number<std::uint32_t>(); }},
+    Reader{"forms", [](InputFile& to, Words& words) { to.forms = readForms(words); }},
     Reader{"camera", [](InputFile& to, Words& words) { to.events.emplace_back(readCamera(words)); }},
     Reader{"pointer", [](InputFile& to, Words& words) { to.events.emplace_back(Pointed{words.pair()}); }},
     Reader{"press", readPress<true>},
@@ -308,6 +316,7 @@ std::string toText(const InputFile& file) {
     if (file.substeps > 0) all += Line("substeps").add(file.substeps).end();
     if (file.room > 0) all += Line("room").add(file.room).end();
     if (file.surface > 0) all += Line("surface").add(file.surface).end();
+    if (file.forms) all += Line("forms").addWord(app::toText(*file.forms)).end();
     for (const InputEvent& event : file.events)
         all += std::visit([](const auto& one) { return text(one); }, event);
     if (file.hash) all += Line("state").add(*file.hash, 16).end();

@@ -1,6 +1,7 @@
 // Opens every device with an instance of its own, so that threads share none.
 #include "viewer/jobs/devices.hpp"
 
+#include "app/kept_pipelines.hpp"
 #include "sinew/vk/check.hpp"
 #include "viewer/jobs/opened_scene.hpp"
 
@@ -28,7 +29,7 @@ Devices::Devices(const Window& window, const Options& options, std::atomic<std::
 std::unique_ptr<vk::Device> Devices::open(const std::string& wanted) const {
     vk::DeviceRequest request = request_;
     request.device = wanted;
-    return std::make_unique<vk::Device>(vk::Device::create(loader_.getInstanceProcAddr(), request));
+    return std::make_unique<vk::Device>(app::createDevice(loader_.getInstanceProcAddr(), request));
 }
 
 // Starts at the first request, when a device is already open: two threads that queried a display at once made

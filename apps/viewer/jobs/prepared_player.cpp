@@ -1,7 +1,8 @@
 // Makes the simulation, the renderers and the warm-up.
 #include "viewer/jobs/prepared_player.hpp"
 
-#include "sinew/gpu_tune.hpp"
+#include "app/kept_forms.hpp"
+#include "app/kept_pipelines.hpp"
 #include "sinew/vk/kernel_store.hpp"
 #include "sinew/vk/queue.hpp"
 #include "viewer/jobs/gauges.hpp"
@@ -12,14 +13,15 @@ namespace sinew::viewer {
 
 namespace {
 
-// Settings with the fastest kernel forms; a saved state keeps its own.
+// Settings with the fastest kernel forms; a saved state and a log keep their own.
 sim::Settings fastest(const vk::Device& device, const OpenedScene& opening) {
     vk::Queue queue(device);
     sim::Settings settings = opening.loaded.settings;
     app::addRoomForUser(settings);
     if (opening.reload) settings = sim::withRoomsOf(settings, opening.reload->settings);
-    if (opening.run) return settings;
-    return sim::tuned(device, queue, opening.loaded.scene, settings);
+    if (opening.run || (opening.input && opening.input->forms)) return settings;
+    settings.forms = app::chooseForms(device, queue, opening.loaded.scene, settings).forms;
+    return settings;
 }
 
 } // namespace
@@ -62,6 +64,7 @@ void prepare(OpenedScene& opening, const vk::Device& device, const Window& windo
 void prepare(OpenedScene& opening, const vk::Device& device, VkFormat format) {
     const vk::KeptKernels kept(device); // shared by the timing runs and the player
     opening.prepared = std::make_unique<PreparedPlayer>(device, opening, format);
+    app::keepPipelines(device);
 }
 
 } // namespace sinew::viewer

@@ -107,6 +107,7 @@ void prepareForReplay(OpenedScene& opening, const InputFile& file) {
     sim::Settings& settings = opening.loaded.settings;
     app::addRoomForUser(settings);
     if (!file.from) settings = sim::withRoomsOf(settings, roomOf(file));
+    if (!file.from && file.forms) settings.forms = *file.forms;
     opening.bladeDepth.reset(); // the log has its own
 }
 

@@ -7,6 +7,7 @@
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/queue.hpp"
 #include "viewer/capture/recording.hpp"
+#include "viewer/render/renderer.hpp"
 #include "viewer/ui/knob_keys.hpp"
 #include "viewer/ui/preferences.hpp"
 
@@ -64,6 +65,9 @@ InputFile Journal::inputFile() const {
             .substeps = begun_.substeps,
             .room = player_.document.contactRoom().room,
             .surface = player_.document.settings().cutSurfaceRoom,
+            .forms =
+                sim::completed(player_.document.settings().forms,
+                               isSoftware(player_.device) ? sim::DeviceKind::software : sim::DeviceKind::gpu),
             .events = player_.tools.log().events()};
 }
 

@@ -88,6 +88,9 @@ struct SINEW_API DeviceDescription {
     std::vector<std::string> missing{}; ///< sentences about what it lacks; empty = usable
     std::uint32_t storageBuffers = 0;   ///< that a kernel may bind; the core needs up to mostStorageBuffers
     bool isChosen = false;              ///< `create` would choose it for this request
+    /// Of the device and its driver's version and build: while it stays the same, pipelines and measured
+    /// times of an earlier run apply. Hexadecimal digits.
+    std::string identity{};
 };
 
 /// Limits of the device that the core checks, read once.
@@ -147,6 +150,9 @@ public:
     /// The pipelines made so far, for HostDevice::pipelineCache of a later run on the same device and driver.
     /// Any thread. Throws Error.
     std::vector<std::byte> pipelineCacheData() const;
+    /// Begins anew with the pipelines of an earlier run, as DeviceRequest::pipelineCache does, for programs
+    /// that find these by description(). Before any pipeline is made. Throws Error.
+    void usePipelines(std::span<const std::byte> kept);
     /// The same device at an address that stays valid when this one is moved: for objects that keep a
     /// reference.
     const Device& anchored() const noexcept;
