@@ -4,9 +4,12 @@
 
 #include "all_kernels.hpp"
 #include "sim/core/hash.hpp"
+#include "sinew/vk/kernel_store.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <span>
+#include <thread>
 
 namespace sinew::app {
 
@@ -35,6 +38,8 @@ vk::Device createDevice(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const vk:
     vk::Device device = vk::Device::create(getInstanceProcAddr, request);
     const std::vector<std::byte> kept = cache.find(kind, deviceKey(device.description()));
     if (!kept.empty()) device.usePipelines(kept);
+    constexpr unsigned most = 8; // more threads only wait for memory
+    device.kernels().useThreads(std::clamp(std::thread::hardware_concurrency(), 1u, most));
     return device;
 }
 

@@ -10,7 +10,8 @@ namespace sinew::app {
 /// Key of results that hold for this device, its driver and the kernels of this build.
 std::string deviceKey(const vk::DeviceDescription& device);
 
-/// Creates a device that begins with the pipelines kept for it. Throws vk::Error.
+/// Creates a device that begins with the pipelines kept for it, and makes others on several threads. Throws
+/// vk::Error.
 vk::Device createDevice(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const vk::DeviceRequest& request,
                         const UserCache& cache = {});
 

@@ -1,6 +1,9 @@
 // A map from shader code and constants to kernels.
 #include "sinew/vk/kernel_store.hpp"
 
+#include <algorithm>
+#include <exception>
+#include <future>
 #include <utility>
 
 namespace sinew::vk {
@@ -28,6 +31,39 @@ std::shared_ptr<const Kernel> KernelStore::get(const Device& device, const Shade
     std::erase_if(entries_, [](const auto& entry) { return entry.second.users.expired(); });
     entries_[key].users = made;
     return keep(made);
+}
+
+std::vector<std::shared_ptr<const Kernel>> KernelStore::getAll(const Device& device,
+                                                               std::span<const Request> requests) {
+    std::vector<std::shared_ptr<const Kernel>> kernels(requests.size());
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t k; (k = next++) < requests.size();)
+            kernels[k] = get(device, *requests[k].code, requests[k].constants);
+    };
+    std::vector<std::future<std::size_t>> others; // each returns the pipelines that it made
+    const std::size_t threads = std::min<std::size_t>(threads_, requests.size());
+    for (std::size_t t = 1; t < threads; ++t)
+        others.push_back(std::async(std::launch::async, [&] {
+            const std::size_t before = pipelinesMade(); // an identity may be that of an earlier thread
+            work();
+            return pipelinesMade() - before;
+        }));
+    std::exception_ptr error;
+    const auto attempt = [&](const auto& part) {
+        try {
+            part();
+        } catch (...) {
+            if (!error) error = std::current_exception();
+        }
+    };
+    attempt(work);
+    std::size_t made = 0;
+    for (std::future<std::size_t>& other : others) attempt([&] { made += other.get(); });
+    const std::scoped_lock lock(mutex_);
+    pipelinesOf_[std::this_thread::get_id()] += made;
+    if (error) std::rethrow_exception(error);
+    return kernels;
 }
 
 void KernelStore::countPipeline() {

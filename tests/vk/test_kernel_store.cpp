@@ -2,6 +2,7 @@
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
 
+#include "sinew/vk/check.hpp"
 #include "sinew/vk/kernel_store.hpp"
 
 #include <gtest/gtest.h>
@@ -70,6 +71,28 @@ TEST_F(KernelStore, GivesAllThreadsTheSame) {
     for (auto& kernel : got) threads.emplace_back([&] { kernel = get(kernels::everything); });
     for (std::thread& thread : threads) thread.join();
     for (const auto& kernel : got) EXPECT_EQ(kernel, got[0]);
+}
+
+TEST_F(KernelStore, MakesManyOnSeveralThreads) {
+    vk::KernelStore& store = device_->kernels();
+    std::vector<vk::KernelStore::Request> requests;
+    for (std::uint32_t size = 1; size <= 8; ++size) requests.push_back({&kernels::everything, {{3, size}}});
+    requests.push_back({&kernels::copyValues, {}});
+    requests.push_back(requests[2]); // a second time
+    for (const unsigned threads : {1u, 4u, 64u}) {
+        store.useThreads(threads);
+        const std::size_t before = store.pipelinesMade();
+        const auto made = store.getAll(*device_, requests);
+        EXPECT_GE(store.pipelinesMade() - before, 9u);
+        EXPECT_LE(store.pipelinesMade() - before, 10u);
+        ASSERT_EQ(made.size(), requests.size());
+        for (std::uint32_t k = 0; k < 8; ++k) EXPECT_EQ(made[k]->interface().groupSize[0], k + 1);
+        EXPECT_EQ(made[8]->name(), "copy_values");
+        EXPECT_EQ(made[9], made[2]);
+    }
+    requests[5].constants[0].id = 99; // there is none
+    EXPECT_THROW(store.getAll(*device_, requests), vk::Error);
+    EXPECT_TRUE(store.getAll(*device_, {}).empty());
 }
 
 TEST_F(KernelStore, KnowsWhichThreadMadePipelines) {

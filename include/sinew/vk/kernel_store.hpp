@@ -5,10 +5,13 @@
 #include "sinew/export.hpp"
 #include "sinew/vk/kernel.hpp"
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <thread>
+#include <vector>
 
 namespace sinew::vk {
 
@@ -20,6 +23,17 @@ public:
     /// store, like compiled-in code. Must not outlive `device`, the owner of this store. Throws as Kernel.
     std::shared_ptr<const Kernel> get(const Device& device, const ShaderCode& code,
                                       std::span<const SpecialisationConstant> constants);
+
+    struct Request {
+        const ShaderCode* code = nullptr;
+        std::vector<SpecialisationConstant> constants;
+    };
+    /// get() for each request, in their order. Makes new kernels on useThreads() threads, the calling one
+    /// included, which counts their pipelines as its own. Throws the error of one that could not be made.
+    std::vector<std::shared_ptr<const Kernel>> getAll(const Device& device,
+                                                      std::span<const Request> requests);
+    /// The threads of getAll(), at least 1; 1 until it is called: a library starts no threads by itself.
+    void useThreads(unsigned count) noexcept { threads_ = count; }
 
     /// Counts a pipeline made by the calling thread, and returns the count: a thread that must not wait for
     /// compilers can verify that it makes none.
@@ -36,6 +50,7 @@ private:
         std::weak_ptr<const Kernel> users;
         std::shared_ptr<const Kernel> kept; // set while there are KeptKernels
     };
+    std::atomic<unsigned> threads_ = 1;
     mutable std::mutex mutex_; // guards all following members
     std::map<std::thread::id, std::size_t> pipelinesOf_;
     std::map<Key, Entry> entries_;

@@ -77,14 +77,12 @@ std::vector<std::pair<std::uint32_t, vk::Buffer>> makeStaging(const vk::Device& 
 
 std::vector<std::shared_ptr<const vk::Kernel>> makeKernels(const vk::Device& device,
                                                            const StepProgram& program) {
-    std::vector<std::shared_ptr<const vk::Kernel>> kernels;
-    kernels.reserve(program.kernels.size());
+    std::vector<vk::KernelStore::Request> requests;
     for (const KernelUse& use : program.kernels) {
-        std::vector<vk::SpecialisationConstant> constants;
-        for (const auto& [id, value] : use.constants) constants.push_back({id, value});
-        kernels.push_back(device.kernels().get(device, *use.code, constants));
+        vk::KernelStore::Request& request = requests.emplace_back(vk::KernelStore::Request{use.code, {}});
+        for (const auto& [id, value] : use.constants) request.constants.push_back({id, value});
     }
-    return kernels;
+    return device.kernels().getAll(device, requests);
 }
 
 bool isSameDispatch(const Pass& a, const Pass& b) {
