@@ -1,5 +1,6 @@
 // All pipeline stages and access masks of the core. Synchronisation 1, since Vulkan 1.2 has no other without
-// an optional feature; global memory barriers, since a planned barrier covers several buffers.
+// an optional feature (docs/performance.md, "Barriers", says what it would change); global memory barriers,
+// since a planned barrier covers several buffers.
 #include "sinew/vk/commands.hpp"
 
 #include <cassert>
@@ -8,14 +9,16 @@ namespace sinew::vk {
 
 namespace {
 
-constexpr VkPipelineStageFlags writerStages =
-    VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+constexpr VkPipelineStageFlags shaderStage = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+constexpr VkPipelineStageFlags writerStages = shaderStage | VK_PIPELINE_STAGE_TRANSFER_BIT;
 constexpr VkPipelineStageFlags stepStages = writerStages | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
 constexpr VkPipelineStageFlags drawingStages =
     VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT;
 constexpr VkAccessFlags writeAccess = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
-constexpr VkAccessFlags stepAccess = writeAccess | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT |
-                                     VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
+constexpr VkAccessFlags shaderAccess =
+    VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT;
+constexpr VkAccessFlags transferAccess = VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT;
+constexpr VkAccessFlags stepAccess = shaderAccess | transferAccess | VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
 constexpr VkAccessFlags drawingAccess = VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT;
 
 } // namespace
@@ -68,24 +71,39 @@ void Commands::update(const BufferView& target, const void* bytes, VkDeviceSize 
     functions_->vkCmdUpdateBuffer(commands_, target.buffer, target.offset, size, bytes);
 }
 
-void Commands::memoryBarrier(VkPipelineStageFlags from, VkPipelineStageFlags to,
+void Commands::memoryBarrier(VkPipelineStageFlags from, VkAccessFlags written, VkPipelineStageFlags to,
                              VkAccessFlags access) noexcept {
     const VkMemoryBarrier barrier{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER, .srcAccessMask = writeAccess, .dstAccessMask = access};
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER, .srcAccessMask = written, .dstAccessMask = access};
     functions_->vkCmdPipelineBarrier(commands_, from, to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
-void Commands::barrier() noexcept {
-    memoryBarrier(stepStages, stepStages, stepAccess);
+// Reads of arguments come before compute shaders in the pipeline, so the stages before need not name them.
+void Commands::barrier(BarrierScope scope) noexcept {
+    VkPipelineStageFlags from = shaderStage, to = shaderStage;
+    VkAccessFlags written = VK_ACCESS_SHADER_WRITE_BIT, access = shaderAccess;
+    if (scope.afterTransfers) {
+        from |= VK_PIPELINE_STAGE_TRANSFER_BIT;
+        written |= VK_ACCESS_TRANSFER_WRITE_BIT;
+    }
+    if (scope.beforeTransfers) {
+        to |= VK_PIPELINE_STAGE_TRANSFER_BIT;
+        access |= transferAccess;
+    }
+    if (scope.beforeArguments) {
+        to |= VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
+        access |= VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
+    }
+    memoryBarrier(from, written, to, access);
 }
 
 void Commands::beginStep() noexcept {
-    memoryBarrier(allStages_, stepStages, stepAccess);
+    memoryBarrier(allStages_, writeAccess, stepStages, stepAccess);
 }
 
 void Commands::endStep(VkPipelineStageFlags moreStages, VkAccessFlags moreAccess) noexcept {
     const bool isDrawing = (allStages_ & drawingStages) != 0;
-    memoryBarrier(writerStages, allStages_ | moreStages,
+    memoryBarrier(writerStages, writeAccess, allStages_ | moreStages,
                   (isDrawing ? stepAccess | drawingAccess : stepAccess) | moreAccess);
 }
 
@@ -98,7 +116,7 @@ void Commands::endStepForHost() noexcept {
 }
 
 void Commands::hostBarrier() noexcept {
-    memoryBarrier(writerStages, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    memoryBarrier(writerStages, writeAccess, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
 void Commands::beginLabel(const char* label) noexcept {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bitset>
 #include <random>
+#include <utility>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -100,15 +101,97 @@ void expectSafeAndNeeded(std::span<const Pass> passes, Recording recording = {})
     }
 }
 
+// Kinds of work, as bits.
+constexpr unsigned shaders = 1, transfers = 2, arguments = 4;
+
+// The work of a pass that uses the buffer.
+unsigned workOf(const Pass& pass, std::uint32_t buffer) {
+    if (pass.kind != PassKind::dispatch) return transfers;
+    unsigned work = 0;
+    for (std::size_t u = 0; u < pass.uses.size(); ++u)
+        if (pass.uses[u].buffer.index == buffer)
+            work |= pass.isIndirect && u + 1 == pass.uses.size() ? arguments : shaders;
+    return work;
+}
+
+// What has to wait for `work` after the barriers of the passes (first, last]: the work that a chain of
+// dependencies leads to. Arguments are read before shaders run, so what orders shaders orders these.
+unsigned orderedAfter(std::span<const Pass* const> passes, unsigned work, std::size_t first, std::size_t last,
+                      std::size_t way) {
+    unsigned reached = work == arguments ? shaders : work;
+    bool isFirst = true;
+    for (std::size_t p = first + 1; p <= last; ++p) {
+        if (!passes[p]->barriers[way]) continue;
+        const vk::BarrierScope& scope = passes[p]->scopes[way];
+        const unsigned before = shaders | (scope.afterTransfers ? transfers : 0u);
+        const unsigned after =
+            shaders | (scope.beforeTransfers ? transfers : 0u) | (scope.beforeArguments ? arguments : 0u);
+        if ((reached & before) != 0)
+            reached = after;
+        else if (isFirst)
+            return 0; // what was written is not available to any later barrier
+        isFirst = false;
+    }
+    return isFirst ? 0 : reached;
+}
+
+// Expects that each use of a buffer waits for those before it that it depends on.
+void expectOrdered(std::span<const Pass> list, Recording recording = {}) {
+    std::vector<const Pass*> passes;
+    for (const Pass& pass : list)
+        if (isIn(recording, pass)) passes.push_back(&pass);
+    for (std::size_t j = 1; j < passes.size(); ++j)
+        for (std::size_t i = 0; i < j; ++i)
+            for (const BufferUse& a : passes[i]->uses)
+                for (const BufferUse& b : passes[j]->uses) {
+                    if (a.buffer != b.buffer ||
+                        (a.access == vk::Access::read && b.access == vk::Access::read))
+                        continue;
+                    const unsigned first = workOf(*passes[i], a.buffer.index),
+                                   second = workOf(*passes[j], b.buffer.index);
+                    for (const unsigned one : {shaders, transfers, arguments})
+                        if ((first & one) != 0) {
+                            ASSERT_EQ(second & ~orderedAfter(passes, one, i, j, recording.index()), 0u)
+                                << "pass " << j << " after " << i;
+                        }
+                }
+}
+
+// Expects that no barrier names work that does not happen beside it.
+void expectNarrow(std::span<const Pass> list, Recording recording = {}) {
+    const std::size_t way = recording.index();
+    bool hasTransfers = false, hasArguments = false, hadTransfers = false;
+    const vk::BarrierScope* scope = nullptr;
+    const auto end = [&] {
+        if (scope == nullptr) return;
+        EXPECT_EQ(*scope, (vk::BarrierScope{hadTransfers, hasTransfers, hasArguments}));
+    };
+    for (const Pass& pass : list) {
+        if (!isIn(recording, pass)) continue;
+        if (pass.barriers[way]) {
+            end();
+            scope = &pass.scopes[way];
+            hadTransfers = std::exchange(hasTransfers, false);
+            hasArguments = false;
+        }
+        hasTransfers |= pass.kind != PassKind::dispatch;
+        hasArguments |= pass.isIndirect;
+    }
+    end();
+}
+
 std::vector<Pass> randomPasses(std::mt19937& random, std::uint32_t buffers) {
     std::vector<Pass> passes(random() % 24);
     for (Pass& pass : passes) {
         pass.barriers[0] = random() % 2 == 0; // as if left from an earlier plan
+        pass.kind = random() % 4 == 0 ? PassKind::copy : PassKind::dispatch;
         pass.uses.resize(random() % 5);
         for (BufferUse& use : pass.uses) {
             use = {{static_cast<std::uint32_t>(random() % buffers)},
                    static_cast<vk::Access>(1 + random() % 3)};
         }
+        pass.isIndirect = pass.kind == PassKind::dispatch && !pass.uses.empty() && random() % 3 == 0;
+        if (pass.isIndirect) pass.uses.back().access = vk::Access::read;
     }
     return passes;
 }
@@ -123,6 +206,8 @@ TEST(Barriers, AreSafeNeededAndFewestOnTwentyThousandRandomLists) {
         std::vector<Pass> passes = randomPasses(random, buffers);
         planBarriers(passes, buffers);
         ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(passes)) << "list " << list;
+        ASSERT_NO_FATAL_FAILURE(expectOrdered(passes)) << "list " << list;
+        expectNarrow(passes);
         const auto planned = barriersOf(passes);
         const auto count = static_cast<std::size_t>(std::count(planned.begin(), planned.end(), true));
         ASSERT_EQ(count, fewestBarriers(footprintsOf(passes))) << "list " << list;
@@ -139,8 +224,11 @@ TEST(Barriers, AreSafeAndNeededInTheProgramsOfAllScenes) {
                 const StepProgram program = compile(named.scene, settings);
                 SCOPED_TRACE(named.name + " " + solverName(solver) + " x" + std::to_string(substeps));
                 ASSERT_LE(program.buffers.size(), mostBuffers);
-                for (const Recording recording : allRecordings)
+                for (const Recording recording : allRecordings) {
                     ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program[List::step], recording));
+                    ASSERT_NO_FATAL_FAILURE(expectOrdered(program[List::step], recording));
+                    expectNarrow(program[List::step], recording);
+                }
                 for (const List list : {List::skin, List::rewrite})
                     ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program[list]));
             }

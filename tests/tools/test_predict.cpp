@@ -1,4 +1,5 @@
 // Tests the model of a GPU against times worked out by hand, and its tables.
+#include "sinew/predict/flushes.hpp"
 #include "sinew/predict/predict.hpp"
 
 #include "all_kernels.hpp"
@@ -106,6 +107,47 @@ TEST(Predict, CountsDependentDispatchesOfAStep) {
     double sum = 0;
     for (const tools::PassCost& pass : cube.passes) sum += pass.mostUs;
     EXPECT_NEAR(sum, cube.mostUs, 1e-9 * sum);
+}
+
+TEST(Predict, NamesTheLongestDispatchAndWarnsOfOneTooLong) {
+    const tools::Prediction cube = predictionOf("cube", sim::plainStep);
+    EXPECT_EQ(cube.longest, "gather_node");
+    EXPECT_GT(cube.longestUs, 0);
+    Card slow = plain;
+    slow.ghz = 1e-3 * cube.longestUs / tools::longestAllowedUs;
+    const auto textOn = [](const Card& card) {
+        scenes::LoadedScene loaded = scenes::load(SINEW_SOURCE_FOLDER "/scenes/cube.toml");
+        loaded.settings.forms = sim::completed(loaded.settings.forms, sim::DeviceKind::gpu);
+        return tools::predictionText(sim::compile(loaded.scene, loaded.settings), card,
+                                     tools::shippedKernels());
+    };
+    EXPECT_NE(textOn(plain).find("longest dispatch: gather_node, "), std::string::npos);
+    EXPECT_EQ(textOn(plain).find("warning"), std::string::npos);
+    EXPECT_NE(textOn(slow).find("warning: a dispatch of more than 100 ms"), std::string::npos);
+}
+
+TEST(Flushes, AreThoseOfTheKindsOfWorkBesideABarrier) {
+    const auto programOf = [](const char* scene) {
+        scenes::LoadedScene loaded =
+            scenes::load(SINEW_SOURCE_FOLDER "/scenes/" + std::string(scene) + ".toml");
+        loaded.settings.forms = sim::completed(loaded.settings.forms, sim::DeviceKind::gpu);
+        return sim::compile(loaded.scene, loaded.settings);
+    };
+    const sim::StepProgram cubeProgram = programOf("cube");
+    const tools::FlushCount cube = tools::countFlushes(cubeProgram, sim::plainStep);
+    EXPECT_EQ(cube.barriers, 34u);
+    EXPECT_EQ(cube.afterTransfers, 1u) << "behind the data of the step";
+    EXPECT_EQ(cube.beforeArguments, 0u);
+    EXPECT_EQ(cube.radv, 5 * 34u + 5);
+    EXPECT_EQ(cube.anv, 4 * 34u + 2);
+    const tools::FlushCount clutter = tools::countFlushes(programOf("clutter"), sim::plainStep);
+    EXPECT_EQ(clutter.radv, 5 * (clutter.barriers + clutter.afterTransfers));
+    EXPECT_EQ(clutter.anv, 4 * (clutter.barriers + clutter.beforeArguments) + 2 * clutter.afterTransfers);
+    EXPECT_LT(clutter.beforeArguments, clutter.barriers);
+    EXPECT_LT(clutter.afterTransfers, 4u);
+    const std::string text = tools::flushText(cubeProgram);
+    EXPECT_NE(text.find("if each ordered all kinds of work: 340 on RADV, 340 on ANV"), std::string::npos)
+        << text;
 }
 
 TEST(Predict, SaysHowMuchDependsOnIndirectDispatches) {

@@ -25,9 +25,10 @@ public:
     void update(const BufferView& target, const void* bytes,
                 VkDeviceSize size) noexcept; ///< size <= 65,536 [B]
 
-    /// Orders everything recorded so far by compute or transfer before everything after: one memory barrier,
-    /// always with the same masks (compute, transfer, indirect), on which the planning of barriers relies.
-    void barrier() noexcept;
+    /// Orders compute shaders recorded so far, and what else `scope` names, before compute shaders after and
+    /// what else it names: one memory barrier. Barriers chain through compute shaders, which all of them
+    /// name.
+    void barrier(BarrierScope scope = {}) noexcept;
     /// Opens a step: waits for earlier reads by vertex input, vertex shaders, transfer and compute of this
     /// queue.
     void beginStep() noexcept;
@@ -49,7 +50,8 @@ public:
 
 private:
     void endStep(VkPipelineStageFlags moreStages, VkAccessFlags moreAccess) noexcept;
-    void memoryBarrier(VkPipelineStageFlags from, VkPipelineStageFlags to, VkAccessFlags access) noexcept;
+    void memoryBarrier(VkPipelineStageFlags from, VkAccessFlags written, VkPipelineStageFlags to,
+                       VkAccessFlags access) noexcept;
     const DeviceFunctions* functions_;
     VkPipelineStageFlags
         allStages_; ///< stages of a step and of its readers, as far as the queue family has them

@@ -17,6 +17,13 @@ namespace sinew::vk {
 
 enum class Access : std::uint8_t { read = 1, write = 2, readWrite = 3 };
 
+/// What a barrier orders besides compute shaders before it and after it: transfers (fills, copies, updates)
+/// before it, and transfers and reads of the arguments of indirect dispatches after it.
+struct BarrierScope {
+    bool afterTransfers = true, beforeTransfers = true, beforeArguments = true;
+    bool operator==(const BarrierScope&) const = default;
+};
+
 /// Kind of a binding. `uniform`: a block with equal values for all invocations, never written; software
 /// devices read it once a group, not once a lane. At most 16 KiB, which every device allows. `texels`: a
 /// samplerBuffer (float32) or usamplerBuffer (uint32): a storage buffer read element by element through the

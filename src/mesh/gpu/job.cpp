@@ -67,7 +67,7 @@ void Job::record(vk::Commands& commands, const vk::BindingSets* sets) const {
     std::size_t next = 0;
     commands.beginStep();
     for (const sim::Pass& pass : passes_) {
-        if (hasBarrier({}, pass)) commands.barrier();
+        if (hasBarrier({}, pass)) commands.barrier(pass.scopes[sim::Recording{}.index()]);
         if (pass.kind == sim::PassKind::fill) {
             commands.fill(view(pass.uses[0].buffer), pass.value);
             continue;

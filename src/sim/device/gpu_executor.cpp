@@ -164,6 +164,7 @@ std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>&
         Recorded recorded{.kind = pass.kind,
                           .isIn = {},
                           .hasBarrier = {},
+                          .scopes = pass.scopes,
                           .when = pass.when,
                           .isIndirect = pass.isIndirect,
                           .phase = pass.phase,
@@ -276,7 +277,7 @@ void GpuExecutor::record(vk::Commands& commands, const std::vector<Recorded>& pa
         const bool closesPhase = p + 1 == passes.size() || passes[p + 1].phase != passes[p].phase;
         if (timestamps && opensPhase) timestamps->begin(commands, span);
         if (passes[p].isIn[way]) {
-            if (passes[p].hasBarrier[way]) commands.barrier();
+            if (passes[p].hasBarrier[way]) commands.barrier(passes[p].scopes[way]);
             recordPass(commands, passes[p], host);
         }
         if (timestamps && closesPhase) timestamps->end(commands, span++);

@@ -57,6 +57,7 @@ private:
     struct Recorded {
         PassKind kind;
         std::array<bool, recordingCount> isIn, hasBarrier; // by Recording
+        std::array<vk::BarrierScope, recordingCount> scopes;
         When when;
         bool isIndirect;
         std::uint32_t phase, groups, value;

@@ -60,6 +60,29 @@ std::vector<BufferId> boundBuffers(const StepProgram& program, const Pass& pass)
     return buffers;
 }
 
+namespace {
+
+// Sets what the planned barriers order: the run of passes before each, and the run after it.
+void planScopes(std::span<Pass> passes, Recording recording) {
+    const std::size_t way = recording.index();
+    vk::BarrierScope* scope = nullptr; // of the barrier before the present run
+    bool hasTransfers = false;         // in the present run
+    for (Pass& pass : passes) {
+        if (!isIn(recording, pass)) continue;
+        if (pass.barriers[way]) {
+            scope = &pass.scopes[way];
+            *scope = {hasTransfers, false, false};
+            hasTransfers = false;
+        }
+        hasTransfers |= pass.kind != PassKind::dispatch;
+        if (scope == nullptr) continue;
+        scope->beforeTransfers |= pass.kind != PassKind::dispatch;
+        scope->beforeArguments |= pass.isIndirect;
+    }
+}
+
+} // namespace
+
 void planBarriers(std::span<Pass> passes, std::size_t bufferCount, Recording recording) {
     std::vector<bool> isRead(bufferCount), isWritten(bufferCount);
     for (Pass& pass : passes) {
@@ -79,6 +102,7 @@ void planBarriers(std::span<Pass> passes, std::size_t bufferCount, Recording rec
             if (touches(use.access, vk::Access::write)) isWritten[use.buffer.index] = true;
         }
     }
+    planScopes(passes, recording);
 }
 
 BufferId ProgramBuilder::add(BufferSpec spec) {

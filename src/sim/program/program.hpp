@@ -118,8 +118,9 @@ struct Pass {
     When when = When::always;
     bool isOfCut() const { return when != When::always; }
     bool isOfLists = false; ///< rebuilds contact lists after the first substep: not in a calm step
-    /// By Recording, set by planBarriers: whether a barrier precedes the pass.
+    /// By Recording, set by planBarriers: whether a barrier precedes the pass, and what it orders.
     std::array<bool, recordingCount> barriers{};
+    std::array<vk::BarrierScope, recordingCount> scopes{};
 };
 
 /// Whether `pass` is part of a recording, and whether it is and a barrier precedes it.
@@ -386,8 +387,9 @@ std::vector<BufferId> boundBuffers(const StepProgram& program, const Pass& pass)
 
 /// Walks the passes of a recording, which run front to back on one queue, and sets which need a barrier
 /// before them. Keeps the buffers read and written since the last barrier: a pass that touches a written one,
-/// or writes a read one, gets a barrier and both sets are cleared. This is correct because every barrier
-/// covers all earlier work with the same masks.
+/// or writes a read one, gets a barrier and both sets are cleared. A barrier orders the kinds of work that
+/// occur between it and its neighbours. This is correct because all name compute shaders on both sides: what
+/// one barrier makes available to them, a later one makes visible to transfers or to reads of arguments.
 void planBarriers(std::span<Pass> passes, std::size_t bufferCount, Recording recording = {});
 
 /// The program as text: `label xitems buffer:access ...`, barriers in between, equal substeps folded, then

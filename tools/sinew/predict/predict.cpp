@@ -220,6 +220,10 @@ Prediction predict(const sim::StepProgram& program, const Card& card, const Kern
         const double launch = waits ? card.dispatchUs : 0;
         const double work = workUs(card, costs.of(pass), itemsOf(pass), bytesOf(program, pass), cost.bound);
         if (work < launch) cost.bound = Bound::dispatch;
+        if (work > prediction.longestUs) {
+            prediction.longestUs = work;
+            prediction.longest = pass.label;
+        }
         cost.label = pass.label;
         ++cost.count;
         cost.mostUs += launch + work;
@@ -248,8 +252,14 @@ std::string predictionText(const sim::StepProgram& program, const Card& card, co
         text += fmt::format("no cost is known of {}: counted as the longest kernel\n", name);
     const bool isSame = calm.dispatches == whole.dispatches;
     if (!isSame) text += "a calm step, which makes contact lists at its start alone:\n" + tableOf(calm);
-    return text + (isSame ? "a step:\n" : "a step that may make contact lists in every substep:\n") +
-           tableOf(whole);
+    text +=
+        (isSame ? "a step:\n" : "a step that may make contact lists in every substep:\n") + tableOf(whole);
+    text += fmt::format("  longest dispatch: {}, {:.3g} ms at most\n", whole.longest, whole.longestUs / 1000);
+    if (whole.longestUs > longestAllowedUs)
+        text += fmt::format("warning: a dispatch of more than {:g} ms: other programs wait for it, and a "
+                            "driver may reset the device\n",
+                            longestAllowedUs / 1000);
+    return text;
 }
 
 } // namespace sinew::tools

@@ -59,6 +59,8 @@ struct PassCost {
 struct Prediction {
     std::vector<PassCost> passes; ///< longest first, by mostUs
     double leastUs = 0, mostUs = 0;
+    std::string longest;  ///< label of the longest single pass
+    double longestUs = 0; ///< of that pass, at most, without its launch
     std::size_t dispatches = 0, indirect = 0, barriers = 0;
     std::vector<std::string> unknown; ///< kernels of no known cost; they count as the longest known one
 };
@@ -73,6 +75,10 @@ double launchUs(const sim::StepProgram& program, const Card& card, sim::Recordin
 /// those before, and takes its work alone. Fills and copies are dispatches that only touch memory.
 Prediction predict(const sim::StepProgram& program, const Card& card, const KernelCosts& kernels,
                    sim::Recording recording);
+
+/// A driver resets a device whose work does not end within some seconds, and programs that share the device
+/// wait for a dispatch: no single one should take longer than this.
+inline constexpr double longestAllowedUs = 100'000;
 
 /// The longest passes of a step, and of a calm one if that differs, as a table.
 std::string predictionText(const sim::StepProgram& program, const Card& card, const KernelCosts& kernels);
