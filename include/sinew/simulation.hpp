@@ -184,6 +184,12 @@ public:
     /// visible to vertex input, compute and transfer on the same queue. `timestamps` receives one span per
     /// entry of phases().
     void record(VkCommandBuffer commands, const Step& step, vk::Timestamps* timestamps = nullptr) noexcept;
+    /// Records one step into several command buffers, at least one, in shares of about equal numbers of
+    /// passes: for steps so long that a driver would reset the device during one submission. Submit each by
+    /// itself, in order, to one queue, with nothing else of this simulation between them. The results have
+    /// the same bits.
+    void record(std::span<const VkCommandBuffer> parts, const Step& step,
+                vk::Timestamps* timestamps = nullptr) noexcept;
 
     /// Records the copies that put this simulation into the state of `from`; the next step continues from
     /// there. Use it instead of recordReset(), which it contains. `from` must have been made of the same

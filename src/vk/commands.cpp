@@ -97,6 +97,12 @@ void Commands::barrier(BarrierScope scope) noexcept {
     memoryBarrier(from, written, to, access);
 }
 
+void Commands::continueIn(VkCommandBuffer commands) noexcept {
+    commands_ = commands;
+    boundPipeline_ = VK_NULL_HANDLE;
+    boundSet_ = VK_NULL_HANDLE;
+}
+
 void Commands::beginStep() noexcept {
     memoryBarrier(allStages_, writeAccess, stepStages, stepAccess);
 }

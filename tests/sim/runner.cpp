@@ -212,7 +212,7 @@ void runOnce(sim::GpuExecutor& executor) {
     const VkCommandBuffer buffer = queue().begin();
     vk::Commands commands(device(), buffer);
     executor.upload(commands);
-    executor.step(commands, {}, nullptr);
+    executor.step(commands, {}, {}, nullptr);
     queue().wait(queue().submit(buffer));
 }
 

@@ -42,7 +42,7 @@ TEST(Indirect, RunsAsManyGroupsAsAKernelSaysAndNoneWhereItSaysNone) {
         const VkCommandBuffer buffer = test::queue().begin();
         vk::Commands commands(test::device(), buffer);
         if (step == 0) executor.upload(commands);
-        executor.step(commands, {}, nullptr);
+        executor.step(commands, {}, {}, nullptr);
         test::queue().wait(test::queue().submit(buffer));
         const auto runs = test::queue().download<std::uint32_t>(executor.view(toggled.runs));
         EXPECT_EQ(runs, std::vector<std::uint32_t>(count, step / 2 + 1)) << "step " << step;

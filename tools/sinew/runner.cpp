@@ -1,4 +1,4 @@
-// On the host a step is one recording and one submission; the runner waits only for steps that are `inFlight`
+// On the host a step is one recording, submitted at once; the runner waits only for steps that are `inFlight`
 // behind.
 #include "sinew/runner.hpp"
 
@@ -37,7 +37,8 @@ std::string bodyOf(const sim::Scene& scene, std::uint32_t particle) {
 Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings,
                scenes::ScriptedBlades blades)
     : session_(session), scene_(scene), settings_(settings), blades_(std::move(blades)), rooms_(settings),
-      simulation_(std::make_unique<sim::Simulation>(session.device, scene, settings)), drain_(session.queue) {
+      simulation_(std::make_unique<sim::Simulation>(session.device, scene, settings)),
+      parts_(session.device.description().type == "software"), drain_(session.queue) {
     const auto phases = static_cast<std::uint32_t>(simulation().phases().size());
     for (std::uint32_t i = 0; i < sim::Simulation::framesInFlight; ++i)
         timestamps_.emplace_back(session.device, phases);
@@ -81,16 +82,14 @@ void Runner::submitReset() {
 void Runner::submitStep(std::uint64_t frame) {
     const double start = nowMs();
     const std::size_t slot = frame % submitted_.size();
-    const VkCommandBuffer commands = session_.queue.begin();
-    simulation_->record(commands,
-                        {.dt = scene_.dt,
-                         .gravity = scene_.gravity,
-                         .frame = frame,
-                         .anchors = {},
-                         .repeats = true,
-                         .blade = blades_.at(played_ + frame)},
-                        &timestamps_[slot]);
-    submitted_[slot] = session_.queue.submit(commands);
+    submitted_[slot] = parts_.submit(session_.queue, *simulation_,
+                                     {.dt = scene_.dt,
+                                      .gravity = scene_.gravity,
+                                      .frame = frame,
+                                      .anchors = {},
+                                      .repeats = true,
+                                      .blade = blades_.at(played_ + frame)},
+                                     &timestamps_[slot]);
     recordSum_ += nowMs() - start;
     ++recorded_;
 }
@@ -155,6 +154,7 @@ void Runner::countTime(std::size_t slot) {
     frameMs_[done_ % mostFrameTimes] = stepTimes_.take();
     if (!phases.empty())
         deviceMs_[done_ % mostFrameTimes] = std::accumulate(phases.begin(), phases.end(), 0.0);
+    if (!phases.empty()) parts_.measured(deviceMs_[done_ % mostFrameTimes]);
     for (std::size_t i = 0; i < phases.size(); ++i) phaseSums_[i] += phases[i];
     timed_ += phases.empty() ? 0 : 1;
 }

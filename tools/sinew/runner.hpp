@@ -1,8 +1,10 @@
-// Runs a scene on a device: one submission per step, a few steps in flight, no wait inside a step.
+// Runs a scene on a device: one submission per step, or several for a long one, a few steps in flight, no
+// wait inside a step.
 #pragma once
 
 #include "app/piece_count.hpp"
 #include "app/state_file.hpp"
+#include "app/step_parts.hpp"
 #include "mesh/export_gltf.hpp"
 #include "scenes/blades.hpp"
 #include "sinew/measure.hpp"
@@ -115,6 +117,7 @@ private:
     sim::Rooms rooms_;
     std::unique_ptr<sim::Simulation> simulation_;
     sim::Successor successor_;
+    app::StepParts parts_;
     std::vector<vk::Timestamps> timestamps_;                                 // one per step in flight
     std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values
     std::uint64_t done_ = 0, slowed_ = 0;

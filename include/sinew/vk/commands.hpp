@@ -29,6 +29,8 @@ public:
     /// what else it names: one memory barrier. Barriers chain through compute shaders, which all of them
     /// name.
     void barrier(BarrierScope scope = {}) noexcept;
+    /// Goes on in another command buffer, submitted later to the same queue: nothing is bound there.
+    void continueIn(VkCommandBuffer commands) noexcept;
     /// Opens a step: waits for earlier reads by vertex input, vertex shaders, transfer and compute of this
     /// queue.
     void beginStep() noexcept;

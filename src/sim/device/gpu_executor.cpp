@@ -235,13 +235,13 @@ bool GpuExecutor::uploadRest(vk::Commands& commands, VkDeviceSize most) noexcept
     return unfilled_.empty();
 }
 
-void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
-                       Recording recording) noexcept {
-    record(commands, lists_[static_cast<std::size_t>(List::step)], host, timestamps, recording);
+void GpuExecutor::step(vk::Commands& commands, std::span<const VkCommandBuffer> later, const HostBytes& host,
+                       vk::Timestamps* timestamps, Recording recording) noexcept {
+    record(commands, later, lists_[static_cast<std::size_t>(List::step)], host, timestamps, recording);
 }
 
 void GpuExecutor::record(vk::Commands& commands, List list) noexcept {
-    record(commands, lists_[static_cast<std::size_t>(list)], {}, nullptr);
+    record(commands, {}, lists_[static_cast<std::size_t>(list)], {}, nullptr);
 }
 
 const vk::Buffer* GpuExecutor::stagingOf(BufferId buffer) const noexcept {
@@ -268,11 +268,15 @@ void GpuExecutor::surface(vk::Commands& commands) noexcept {
     }
 }
 
-void GpuExecutor::record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
+void GpuExecutor::record(vk::Commands& commands, std::span<const VkCommandBuffer> later,
+                         const std::vector<Recorded>& passes, const HostBytes& host,
                          vk::Timestamps* timestamps, Recording recording) noexcept {
-    const std::size_t way = recording.index();
+    const std::size_t way = recording.index(), parts = later.size() + 1;
     std::uint32_t span = 0;
+    std::size_t part = 0;
     for (std::size_t p = 0; p < passes.size(); ++p) {
+        const bool opensPart = passes[p].hasBarrier[way] && p * parts >= (part + 1) * passes.size();
+        if (opensPart && part < later.size()) commands.continueIn(later[part++]);
         const bool opensPhase = p == 0 || passes[p - 1].phase != passes[p].phase;
         const bool closesPhase = p + 1 == passes.size() || passes[p + 1].phase != passes[p].phase;
         if (timestamps && opensPhase) timestamps->begin(commands, span);
@@ -282,6 +286,7 @@ void GpuExecutor::record(vk::Commands& commands, const std::vector<Recorded>& pa
         }
         if (timestamps && closesPhase) timestamps->end(commands, span++);
     }
+    if (part < later.size()) commands.continueIn(later.back()); // those between have nothing to do
 }
 
 void GpuExecutor::recordPass(vk::Commands& commands, const Recorded& pass, const HostBytes& host) noexcept {

@@ -33,9 +33,11 @@ public:
     bool uploadRest(vk::Commands& commands, VkDeviceSize most) noexcept;
     /// Host data of update passes, by HostData (<= 64 KiB each).
     using HostBytes = std::array<std::span<const std::byte>, hostDataCount>;
-    /// Records the passes of a step with the planned barriers. `timestamps` receives one span per phase.
-    void step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
-              Recording recording = {}) noexcept;
+    /// Records the passes of a step with the planned barriers. `timestamps` receives one span per phase. Goes
+    /// on in the buffers of `later`, at barriers, so that each has about as many passes as the first, and
+    /// ends in the last of them.
+    void step(vk::Commands& commands, std::span<const VkCommandBuffer> later, const HostBytes& host,
+              vk::Timestamps* timestamps, Recording recording = {}) noexcept;
     /// Records the passes of a list other than the step.
     void record(vk::Commands& commands, List list) noexcept;
     /// Copies a buffer's initial contents into it, if it has some.
@@ -68,8 +70,9 @@ private:
     };
     std::vector<Recorded> resolve(const std::vector<Pass>& passes, std::size_t& nextSet) const;
     static void checkGroups(const std::vector<Recorded>& passes, std::uint32_t most);
-    void record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
-                vk::Timestamps* timestamps, Recording recording = {}) noexcept;
+    void record(vk::Commands& commands, std::span<const VkCommandBuffer> later,
+                const std::vector<Recorded>& passes, const HostBytes& host, vk::Timestamps* timestamps,
+                Recording recording = {}) noexcept;
     void recordPass(vk::Commands& commands, const Recorded& pass, const HostBytes& host) noexcept;
     const vk::Buffer* stagingOf(BufferId buffer) const noexcept;
 

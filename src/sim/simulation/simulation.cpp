@@ -118,6 +118,11 @@ void Simulation::State::reset() noexcept {
 }
 
 void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps* timestamps) noexcept {
+    record(std::span(&buffer, 1), step, timestamps);
+}
+
+void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step,
+                        vk::Timestamps* timestamps) noexcept {
     const float dt = withinRange(step.dt);
     const bool isBlade = state_->blade.read(step) && state_->mayBeCut();
     const bool hasBlade = isBlade || state_->program.cutting.tears;
@@ -158,10 +163,10 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->unsettled[state_->ring.slotOf(step.frame)] = {
         true, {pace, colliders.time(), colliders.hostColliders().states()}};
     state_->isUncut = state_->isUncut && !hasBlade;
-    vk::Commands commands(state_->device, buffer);
+    vk::Commands commands(state_->device, parts.front());
     if (timestamps) timestamps->reset(commands);
     commands.beginStep();
-    state_->executor.step(commands,
+    state_->executor.step(commands, parts.subspan(1),
                           {std::as_bytes(std::span(&parameters, 1)), std::as_bytes(state_->anchors.values()),
                            std::as_bytes(colliders.ways()), std::as_bytes(colliders.hostColliders().shapes()),
                            std::as_bytes(std::span(hostColliderArguments)),

@@ -86,7 +86,7 @@ Duration shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side
     submit([&](vk::Commands& commands) { executor.upload(commands); });
     Duration best;
     for (int run = 0; run < 12; ++run) {
-        const Duration both = submit([&](vk::Commands& c) { executor.step(c, {}, nullptr); });
+        const Duration both = submit([&](vk::Commands& c) { executor.step(c, {}, {}, nullptr); });
         best = {std::min(best.clock, both.clock / 2), std::min(best.processor, both.processor / 2)};
     }
     return best;

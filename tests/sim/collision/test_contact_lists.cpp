@@ -69,7 +69,7 @@ public:
     void update(const std::vector<layout::vec4>& positions) {
         test::queue().upload(executor_->view(positions_), positions.data(),
                              positions.size() * sizeof(layout::vec4));
-        submit([&](vk::Commands& commands) { executor_->step(commands, {}, nullptr); });
+        submit([&](vk::Commands& commands) { executor_->step(commands, {}, {}, nullptr); });
     }
 
     Neighbours neighbours() const {

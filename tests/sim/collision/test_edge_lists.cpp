@@ -84,7 +84,7 @@ public:
         constexpr std::size_t bytes = count * sizeof(layout::vec4);
         test::queue().upload(executor_->view(particles_.positions), state.x.data(), bytes);
         test::queue().upload(executor_->view(particles_.velocities), state.v.data(), bytes);
-        submit([&](vk::Commands& commands) { executor_->step(commands, {}, nullptr); });
+        submit([&](vk::Commands& commands) { executor_->step(commands, {}, {}, nullptr); });
     }
 
     Neighbours found() const {

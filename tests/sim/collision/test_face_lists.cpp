@@ -99,7 +99,7 @@ public:
         test::queue().upload(executor_->view(particles_.step), &step, sizeof step);
         test::queue().upload(executor_->view(particles_.positions), state.x.data(), bytes);
         test::queue().upload(executor_->view(particles_.velocities), state.v.data(), bytes);
-        submit([&](vk::Commands& commands) { executor_->step(commands, {}, nullptr); });
+        submit([&](vk::Commands& commands) { executor_->step(commands, {}, {}, nullptr); });
     }
 
     /// From now on the frame of all particles turns about the origin, clockwise seen along -z [1/s].
