@@ -6,6 +6,7 @@
 #include "app/guard.hpp"
 #include "app/kept_pipelines.hpp"
 #include "app/progress.hpp"
+#include "app/step_parts.hpp"
 #include "scenes/recovery.hpp"
 #include "sim/core/counted.hpp"
 #include "sinew/vk/check.hpp"
@@ -113,7 +114,8 @@ public:
              std::optional<InputFile> input)
         : opening_(opening), device_(device), camera_(opening.camera),
           document_(device, opening.loaded.scene, opening.loaded.settings, firstMaterial(opening)),
-          offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
+          offscreen_(device, options.size, opening.light), layers_(options.layers),
+          parts_(isSoftware(device)), queue_(device) {
         document_.setDefaults(opening.loaded.defaults);
         document_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
         document_.setRepeats(!input);
@@ -346,7 +348,7 @@ private:
     }
 
     void submit(std::uint64_t frame) {
-        VkCommandBuffer commands = queue_.begin();
+        const VkCommandBuffer commands = queue_.begin();
         Submission next{.frame = frame, .value = 0, .hands = {}, .gravity = document_.gravity()};
         if (tools_ && frame > 0) next.hands = tools_->takeStep(commands, document_);
         if (frame == 0 && beside_) {
@@ -355,11 +357,8 @@ private:
             else
                 beside_->recordReset(commands);
         }
-        if (frame == 0 && !opening_.run)
-            document_.recordReset(commands);
-        else if (frame > 0)
-            record(commands, next);
-        next.value = queue_.submit(commands);
+        if (frame == 0 && !opening_.run) document_.recordReset(commands);
+        next.value = frame > 0 ? submitStep(commands, next) : queue_.submit(commands);
         if (times_ && frame > 0) times_->submitted();
         submissions_.push_back(next);
     }
@@ -371,13 +370,23 @@ private:
         tools_->begin(document_);
     }
 
-    void record(VkCommandBuffer commands, const Submission& next) {
+    // Records a step behind what `first` has, and submits both; returns the timeline value.
+    std::uint64_t submitStep(VkCommandBuffer first, const Submission& next) {
+        std::vector<VkCommandBuffer> parts{first};
+        while (parts.size() < parts_.count()) parts.push_back(queue_.begin());
+        record(parts, next);
+        std::uint64_t value = 0;
+        for (const VkCommandBuffer part : parts) value = queue_.submit(part);
+        return value;
+    }
+
+    void record(std::span<const VkCommandBuffer> parts, const Submission& next) {
         vk::Timestamps* timestamps = times_ ? times_->ofStep(next.frame) : nullptr;
         if (tools_)
-            recordStep(commands, document_, next.hands, timestamps);
+            recordStep(parts, document_, next.hands, timestamps);
         else
-            document_.recordStep(commands, timestamps);
-        if (beside_) beside_->recordStep(commands, document_, next.hands, slotOf(next.frame), false);
+            document_.recordStep(parts, timestamps);
+        if (beside_) beside_->recordStep(parts.back(), document_, next.hands, slotOf(next.frame), false);
     }
 
     static std::uint32_t slotOf(std::uint64_t frame) {
@@ -412,8 +421,7 @@ private:
             VkCommandBuffer commands = queue_.begin();
             if (again.hands.sweep && !again.hands.sweep->isCarried) tools_->remember(commands, document_);
             document_.setGravity(again.gravity);
-            record(commands, again);
-            again.value = queue_.submit(commands);
+            again.value = submitStep(commands, again);
             submissions_.push_back(again);
         }
     }
@@ -461,6 +469,7 @@ private:
     std::optional<BesideShape> besideShape_;
     std::unique_ptr<SecondSimulation> beside_;
     std::optional<HeadlessTimes> times_;
+    app::StepParts parts_;
     vk::Queue queue_; // last: its destructor waits for work that uses the members above
     std::deque<Submission> submissions_;
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step

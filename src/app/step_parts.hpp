@@ -2,14 +2,15 @@
 // that share it wait meanwhile.
 #pragma once
 
+#include "sinew/simulation.hpp"
+#include "sinew/vk/queue.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
-
-#include "sinew/simulation.hpp"
-#include "sinew/vk/queue.hpp"
 
 namespace sinew::app {
 
@@ -19,14 +20,21 @@ public:
     static constexpr std::uint32_t most = 32;
     static constexpr double longestMs = 50; ///< wanted of a part
 
+    /// Variable with a number that each step takes instead, on any device.
+    static constexpr const char* variable = "SINEW_STEP_PARTS";
+
     /// A software device has no such limit, so its steps stay whole.
-    explicit StepParts(bool isSoftware) : count_(isSoftware ? 1 : ofUnknown), isSoftware_(isSoftware) {}
+    explicit StepParts(bool isSoftware, const char* asked = std::getenv(variable)) {
+        const long number = asked != nullptr ? std::strtol(asked, nullptr, 10) : 0;
+        isFixed_ = isSoftware || number > 0;
+        if (isFixed_) count_ = static_cast<std::uint32_t>(std::clamp(number, 1l, long{most}));
+    }
 
     std::uint32_t count() const { return count_; }
 
     /// Tells how long a step took on the device [ms]. More parts are taken at once; fewer, one by one.
     void measured(double ms) {
-        if (isSoftware_ || !std::isfinite(ms)) return;
+        if (isFixed_ || !std::isfinite(ms)) return;
         const double needed = std::clamp(std::ceil(ms / longestMs), 1.0, double{most});
         count_ = std::max(static_cast<std::uint32_t>(needed), count_ - 1);
     }
@@ -46,8 +54,8 @@ public:
 
 private:
     static constexpr std::uint32_t ofUnknown = 8; // until a step was measured
-    std::uint32_t count_;
-    bool isSoftware_;
+    std::uint32_t count_ = ofUnknown;
+    bool isFixed_ = false;
 };
 
 } // namespace sinew::app

@@ -91,6 +91,15 @@ TEST_F(SameState, WithEveryKindOfPassTimedByItself) {
     EXPECT_EQ(this->report(arguments)["state_hash"], report["state_hash"]);
 }
 
+TEST_F(SameState, OverNumbersOfSubmissionsAStep) {
+    for (const char* scene : {"clutter", "cube_quarters"}) {
+        const std::string whole = hash(shippedScene(scene), "split");
+        for (const char* parts : {"2", "7", "32"})
+            EXPECT_EQ(hash(shippedScene(scene), "split", {}, {{"SINEW_STEP_PARTS", parts}}), whole)
+                << scene << ' ' << parts;
+    }
+}
+
 TEST_F(SameState, WithFormsThatWereMeasuredAndRemembered) {
     write("box.toml", "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [0, 0.3, 0]\n");
     const test::Environment kept{{"SINEW_CACHE", (folder_ / "kept").string()}};

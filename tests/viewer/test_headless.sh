@@ -28,6 +28,8 @@ expect() { # CODE ARGUMENTS...: runs the viewer
 expect 0 "$scene" --headless --frames 30 --every 10 --size 320x200 --out every --validation
 [[ $(echo every/*) == "every/frame_0000.png every/frame_0010.png every/frame_0020.png every/frame_0030.png" ]] ||
     fail "--every wrote $(echo every/*)"
+SINEW_STEP_PARTS=3 expect 0 "$scene" --headless --frames 30 --every 30 --size 320x200 --out parts --validation
+cmp -s every/frame_0030.png parts/frame_0030.png || fail "steps in several submissions led to another picture"
 grep -q validation err && fail "validation messages"
 grep -q '^30 of 30 steps' err || fail "no progress in a pipe"
 expect 0 "$scene" --headless --picture-frames 10,30 --size 320x200 --out listed

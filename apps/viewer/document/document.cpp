@@ -62,10 +62,10 @@ void Document::load(const vk::Device& device, const app::SavedRun& run, vk::Queu
     played_ = run.played;
 }
 
-void Document::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps,
+void Document::recordStep(std::span<const VkCommandBuffer> parts, vk::Timestamps* timestamps,
                           std::span<const sim::Grab> grabs, const sim::Blade& blade,
                           std::span<const sim::HostCollider> hostColliders) noexcept {
-    recordTurn(commands);
+    recordTurn(parts.front());
     ++recordedSteps_;
     const sim::Blade scripted = blades_.at(played_++);
     sim::Step step{.dt = scene_.dt, .gravity = gravity_, .frame = ++steps_};
@@ -74,7 +74,7 @@ void Document::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps,
     step.hostColliders = hostColliders;
     step.repeats = repeats_;
     step.blade = scripted.from.empty() ? blade : scripted;
-    simulation_->record(commands, step, timestamps);
+    simulation_->record(parts, step, timestamps);
 }
 
 void Document::setGravity(float gravity) noexcept {

@@ -42,6 +42,11 @@ public:
     void recordReset(VkCommandBuffer commands) noexcept;
     void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
                     std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
+                    std::span<const sim::HostCollider> hostColliders = {}) noexcept {
+        recordStep(std::span(&commands, 1), timestamps, grabs, blade, hostColliders);
+    }
+    void recordStep(std::span<const VkCommandBuffer> parts, vk::Timestamps* timestamps = nullptr,
+                    std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
                     std::span<const sim::HostCollider> hostColliders = {}) noexcept;
     /// The skins as they are drawn (sim::SkinDetail::drawn).
     void recordSkin(VkCommandBuffer commands) noexcept {

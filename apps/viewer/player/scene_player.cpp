@@ -38,6 +38,7 @@ ScenePlayer::ScenePlayer(Session& session, SceneLoader& sceneLoader, const Devic
     : session_(session), sceneLoader_(sceneLoader), devices_(devices), ownOpening_(std::move(opening)),
       opening_(*ownOpening_), prepared_(*opening_.prepared),
       controller_(opening_.camera, opening_.loaded.scene.dt), document_(prepared_.document),
+      parts_(isSoftware(device)),
       tools_(device, toolContext(opening_)), context_{session,
                                                       device,
                                                       opening_,
@@ -280,7 +281,7 @@ void ScenePlayer::draw(Plan plan, View& view) {
         controller_.playback.dropSingleSteps();
     }
     if (document_.lacksContactRoom()) plan.steps = 0; // since settle()
-    const std::optional<Presenter::Frame> frame = session_.presenter().begin();
+    std::optional<Presenter::Frame> frame = session_.presenter().begin();
     if (!frame) {
         if (plan.isReset) controller_.playback.reset();
         return;
@@ -304,7 +305,7 @@ void ScenePlayer::recordReset(VkCommandBuffer commands) {
     isDiverged_ = false;
 }
 
-void ScenePlayer::recordSteps(const Presenter::Frame& frame, Plan& plan) {
+void ScenePlayer::recordSteps(Presenter::Frame& frame, Plan& plan) {
     InFlight& flight = inFlight_[frame.slot];
     if (plan.isReset) recordReset(frame.commands);
     const bool isWhole =
@@ -332,7 +333,9 @@ void ScenePlayer::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         }
         const StepHands hands = tools_.takeStep(frame.commands, document_);
         if (hands.sweep) flight.sweeps.push_back(*hands.sweep);
-        recordStep(frame.commands, document_, hands, step == 0 ? times_.ofStep(frame.slot) : nullptr);
+        const auto parts = session_.presenter().divide(frame, parts_.count());
+        recordStep(parts, document_, hands, step == 0 ? times_.ofStep(frame.slot) : nullptr);
+        session_.presenter().submitParts(frame, parts);
         comparison_.recordStep(frame, hands, step == 0);
     }
     layers_.prepare(observer_.isInspecting());
@@ -407,6 +410,7 @@ void ScenePlayer::settle(std::uint32_t slot) {
     if (!phases.empty()) {
         const double step = std::accumulate(phases.begin(), phases.end(), 0.0);
         status_.stepTimed(step);
+        parts_.measured(step);
         budget_.stepTimed(step / 1000);
         gauges_.stepTimed(phases);
     }

@@ -2,6 +2,7 @@
 // A paused picture is drawn once and kept; on a software device that last one has full quality.
 #pragma once
 
+#include "app/step_parts.hpp"
 #include "viewer/player/capture.hpp"
 #include "viewer/player/succession.hpp"
 #include "viewer/render/picture_budget.hpp"
@@ -61,7 +62,7 @@ private:
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
     void recordReset(VkCommandBuffer commands);
-    void recordSteps(const Presenter::Frame& frame, Plan& plan);
+    void recordSteps(Presenter::Frame& frame, Plan& plan);
     void drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view);
     Facts facts(std::optional<float> reduced) const;
     void settle(std::uint32_t slot);
@@ -85,6 +86,7 @@ private:
     PreparedPlayer& prepared_;
     Controller controller_;
     Document& document_;
+    app::StepParts parts_; // of the steps of its simulation
     Tools tools_;
     const PlayerContext context_;
     Comparison comparison_; // outlives its rehearsals in layerLoader_

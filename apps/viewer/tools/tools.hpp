@@ -17,6 +17,9 @@ class Controller;
 
 void recordStep(VkCommandBuffer commands, Document& document, const StepHands& hands,
                 vk::Timestamps* timestamps = nullptr) noexcept;
+/// In several command buffers, as sim::Simulation::record.
+void recordStep(std::span<const VkCommandBuffer> parts, Document& document, const StepHands& hands,
+                vk::Timestamps* timestamps = nullptr) noexcept;
 
 /// Must not outlive its Device, which must not move.
 class Tools {

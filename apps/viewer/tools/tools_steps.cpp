@@ -10,12 +10,17 @@ namespace sinew::viewer {
 
 void recordStep(VkCommandBuffer commands, Document& document, const StepHands& hands,
                 vk::Timestamps* timestamps) noexcept {
+    recordStep(std::span(&commands, 1), document, hands, timestamps);
+}
+
+void recordStep(std::span<const VkCommandBuffer> parts, Document& document, const StepHands& hands,
+                vk::Timestamps* timestamps) noexcept {
     sim::Blade blade;
     if (hands.sweep)
         blade = {.from = hands.sweep->from, .to = hands.sweep->to, .isCarried = hands.sweep->isCarried};
     const std::span<const sim::HostCollider> hostColliders =
         hands.collider ? std::span(&*hands.collider, 1) : std::span<const sim::HostCollider>();
-    document.recordStep(commands, timestamps, hands.grabs, blade, hostColliders);
+    document.recordStep(parts, timestamps, hands.grabs, blade, hostColliders);
 }
 
 // Undoes steps and releases all grabs, like undo of cuts; drops cuts of a later time.

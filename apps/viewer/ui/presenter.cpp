@@ -111,18 +111,24 @@ void Presenter::createSlots() {
               "vkCreateCommandPool", "the window");
     const VkFenceCreateInfo fenceInfo{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO,
                                       .flags = VK_FENCE_CREATE_SIGNALED_BIT};
-    const VkCommandBufferAllocateInfo commandsInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                   .commandPool = pool_,
-                                                   .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                   .commandBufferCount = 1};
     for (Slot& slot : slots_) {
-        vk::check(functions.vkAllocateCommandBuffers(device_.handle(), &commandsInfo, &slot.commands),
-                  "vkAllocateCommandBuffers", "the window");
+        slot.commands = allocateCommands();
         vk::check(functions.vkCreateFence(device_.handle(), &fenceInfo, nullptr, &slot.finished),
                   "vkCreateFence", "the window");
         slot.acquired = createSemaphore("window.acquired");
-        device_.name(VK_OBJECT_TYPE_COMMAND_BUFFER, vk::handleValue(slot.commands), "window.commands");
     }
+}
+
+VkCommandBuffer Presenter::allocateCommands() {
+    const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                           .commandPool = pool_,
+                                           .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                           .commandBufferCount = 1};
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    vk::check(device_.functions().vkAllocateCommandBuffers(device_.handle(), &info, &commands),
+              "vkAllocateCommandBuffers", "the window");
+    device_.name(VK_OBJECT_TYPE_COMMAND_BUFFER, vk::handleValue(commands), "window.commands");
+    return commands;
 }
 
 VkPresentModeKHR Presenter::presentMode(bool isVsync) const {
@@ -243,7 +249,8 @@ void Presenter::drain() noexcept {
 }
 
 std::optional<Presenter::Frame> Presenter::begin() {
-    const Slot& slot = slots_[slot_];
+    Slot& slot = slots_[slot_];
+    slot.usedOthers = 0;
     std::uint32_t image = 0;
     VkResult result = VK_SUCCESS;
     app::waitUntil([&](std::chrono::nanoseconds most) {
@@ -255,17 +262,45 @@ std::optional<Presenter::Frame> Presenter::begin() {
     isOutdated_ = result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR;
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::nullopt;
     vk::check(result, "vkAcquireNextImageKHR", "the window"); // a suboptimal image is used
+    beginCommands(slot.commands);
+    return Frame{slot.commands, slot_, image};
+}
+
+void Presenter::beginCommands(VkCommandBuffer commands) {
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    vk::check(device_.functions().vkBeginCommandBuffer(slot.commands, &info), "vkBeginCommandBuffer",
+    vk::check(device_.functions().vkBeginCommandBuffer(commands, &info), "vkBeginCommandBuffer",
               "the window");
-    return Frame{slot.commands, slot_, image};
+}
+
+std::vector<VkCommandBuffer> Presenter::divide(const Frame& frame, std::uint32_t count) {
+    Slot& slot = slots_[frame.slot];
+    std::vector<VkCommandBuffer> parts{frame.commands};
+    while (parts.size() < count) {
+        if (slot.usedOthers == slot.others.size()) slot.others.push_back(allocateCommands());
+        parts.push_back(slot.others[slot.usedOthers++]);
+        beginCommands(parts.back());
+    }
+    return parts;
+}
+
+// The fence of the frame waits for all that was submitted before it.
+void Presenter::submitParts(Frame& frame, std::span<const VkCommandBuffer> parts) {
+    const vk::DeviceFunctions& functions = device_.functions();
+    for (const VkCommandBuffer& commands : parts.first(parts.size() - 1)) {
+        vk::check(functions.vkEndCommandBuffer(commands), "vkEndCommandBuffer", "the window");
+        const VkSubmitInfo submission{
+            .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
+        vk::check(functions.vkQueueSubmit(queue_, 1, &submission, VK_NULL_HANDLE), "vkQueueSubmit",
+                  "the window");
+    }
+    frame.commands = parts.back();
 }
 
 void Presenter::end(const Frame& frame) {
     const vk::DeviceFunctions& functions = device_.functions();
     Slot& slot = slots_[frame.slot];
-    vk::check(functions.vkEndCommandBuffer(slot.commands), "vkEndCommandBuffer", "the window");
+    vk::check(functions.vkEndCommandBuffer(frame.commands), "vkEndCommandBuffer", "the window");
     vk::check(functions.vkResetFences(device_.handle(), 1, &slot.finished), "vkResetFences", "the window");
     const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     const VkSubmitInfo submission{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
@@ -273,7 +308,7 @@ void Presenter::end(const Frame& frame) {
                                   .pWaitSemaphores = &slot.acquired,
                                   .pWaitDstStageMask = &drawing,
                                   .commandBufferCount = 1,
-                                  .pCommandBuffers = &slot.commands,
+                                  .pCommandBuffers = &frame.commands,
                                   .signalSemaphoreCount = 1,
                                   .pSignalSemaphores = &drawn_[frame.image]};
     vk::check(functions.vkQueueSubmit(queue_, 1, &submission, slot.finished), "vkQueueSubmit", "the window");

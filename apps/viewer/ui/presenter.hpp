@@ -55,6 +55,10 @@ public:
     /// Call after waitForSlot(): acquires an image and begins its commands. Empty if the swapchain became
     /// outdated.
     std::optional<Frame> begin();
+    /// Command buffers for a long step: that of the frame, then `count` - 1 others, which are recording.
+    std::vector<VkCommandBuffer> divide(const Frame& frame, std::uint32_t count);
+    /// Submits those that divide() returned, each by itself, but the last, in which the frame goes on.
+    void submitParts(Frame& frame, std::span<const VkCommandBuffer> parts);
     /// Submits and presents. The picture must be in PRESENT_SRC_KHR layout.
     void end(const Frame& frame);
     /// Waits for all frames. Throws like waitForSlot().
@@ -67,8 +71,12 @@ private:
         VkCommandBuffer commands = VK_NULL_HANDLE;
         VkFence finished = VK_NULL_HANDLE;
         VkSemaphore acquired = VK_NULL_HANDLE;
-        bool isSubmitted = false; // since the last wait
+        bool isSubmitted = false;            // since the last wait
+        std::vector<VkCommandBuffer> others; // of divide()
+        std::size_t usedOthers = 0;          // since begin()
     };
+    void beginCommands(VkCommandBuffer commands);
+    VkCommandBuffer allocateCommands();
     void waitFor(Slot& slot);
     void chooseFormat();
     void createSlots();
