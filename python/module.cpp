@@ -35,8 +35,8 @@ struct Simulation : Owned<SinewSimulation, sinewDestroySimulation> {
 
     void step(std::uint32_t count, const std::optional<float>& dt, const std::optional<Vector>& gravity,
               const std::optional<Floats>& anchors, const std::vector<SinewGrab>& grabs,
-              const std::vector<SinewField>& fields) {
-        const StepInput input(step_, dt, gravity, anchors, grabs, fields);
+              const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders) {
+        const StepInput input(step_, dt, gravity, anchors, grabs, fields, hostColliders);
         runUnlocked([&] { return sinewStep(handle, &input.step, count); });
     }
 
@@ -140,6 +140,7 @@ void addSettings(py::module_& module) {
     add("contact_room", &SinewSettings::contactRoom);
     add("grabs", &SinewSettings::grabs);
     add("fields", &SinewSettings::fields);
+    add("host_colliders", &SinewSettings::hostColliders);
     add("frames_in_flight", &SinewSettings::framesInFlight);
     add("omega", &SinewSettings::omega);
     add("theta", &SinewSettings::theta);
@@ -177,6 +178,29 @@ void addStepInput(py::module_& module) {
              }),
              py::arg("particle"), py::arg("target"), py::arg("radius") = 0.0f, py::arg("stiffness") = 400.0f,
              py::arg("damping") = 40.0f);
+    py::class_<SinewHostCollider>(module, "HostCollider")
+        .def(py::init([](const std::string& shape, const Vector& position,
+                         const std::array<float, 4>& rotation, float radius, float halfLength,
+                         const Vector& halfExtents, float friction, float staticFriction, float maxSpeed) {
+                 constexpr const char* shapes[] = {"sphere", "capsule", "box"};
+                 static_assert(SINEW_SPHERE == 0 && SINEW_CAPSULE == 1 && SINEW_BOX == 2);
+                 const auto found = std::ranges::find(shapes, shape);
+                 if (found == std::end(shapes)) throw py::value_error("there is no shape " + shape);
+                 SinewHostCollider collider = sinewDefaultHostCollider();
+                 collider.shape = static_cast<std::uint32_t>(found - std::begin(shapes));
+                 collider.radius = radius;
+                 collider.halfLength = halfLength;
+                 collider.halfExtents = toVec3(halfExtents);
+                 collider.friction = friction;
+                 collider.staticFriction = staticFriction;
+                 collider.pose.position = toVec3(position);
+                 collider.pose.rotation = {rotation[0], rotation[1], rotation[2], rotation[3]};
+                 collider.maxSpeed = maxSpeed;
+                 return collider;
+             }),
+             py::arg("shape"), py::arg("position"), py::arg("rotation") = std::array<float, 4>{0, 0, 0, 1},
+             py::arg("radius") = 0.0f, py::arg("half_length") = 0.0f, py::arg("half_extents") = Vector{},
+             py::arg("friction") = 0.3f, py::arg("static_friction") = 0.0f, py::arg("max_speed") = 10.0f);
     py::class_<SinewField>(module, "Field")
         .def(py::init([](const std::string& kind, const Vector& vector, const Vector& center, float radius,
                          float strength, float scale, std::uint32_t body) {
@@ -209,7 +233,8 @@ void addSimulation(py::module_& module) {
              py::arg("device"), py::arg("scene"), py::arg("settings") = py::none())
         .def("step", &Simulation::step, py::arg("count") = 1, py::arg("dt") = py::none(),
              py::arg("gravity") = py::none(), py::arg("anchors") = py::none(),
-             py::arg("grabs") = std::vector<SinewGrab>{}, py::arg("fields") = std::vector<SinewField>{})
+             py::arg("grabs") = std::vector<SinewGrab>{}, py::arg("fields") = std::vector<SinewField>{},
+             py::arg("host_colliders") = std::vector<SinewHostCollider>{})
         .def("reset", [](Simulation& self) { runUnlocked([&] { return sinewReset(self.handle); }); })
         .def("update_skin",
              [](Simulation& self) { runUnlocked([&] { return sinewUpdateSkin(self.handle); }); })

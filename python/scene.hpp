@@ -292,7 +292,7 @@ struct Scene : Owned<SinewScene, sinewDestroyScene> {
 struct StepInput {
     StepInput(const SinewStep& before, const std::optional<float>& dt, const std::optional<Vector>& gravity,
               const std::optional<Floats>& anchors, const std::vector<SinewGrab>& grabs,
-              const std::vector<SinewField>& fields)
+              const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders)
         : step(before) {
         if (dt) step.dt = *dt;
         if (gravity) step.gravity = toVec3(*gravity);
@@ -306,6 +306,8 @@ struct StepInput {
         step.grabCount = static_cast<std::uint32_t>(grabs.size());
         step.fields = fields.data();
         step.fieldCount = static_cast<std::uint32_t>(fields.size());
+        step.hostColliders = hostColliders.data();
+        step.hostColliderCount = static_cast<std::uint32_t>(hostColliders.size());
     }
     StepInput(const StepInput&) = delete;
     StepInput& operator=(const StepInput&) = delete;

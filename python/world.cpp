@@ -59,8 +59,8 @@ struct World : Owned<SinewWorld, sinewDestroyWorld> {
 
     void step(std::uint32_t count, const std::optional<float>& dt, const std::optional<Vector>& gravity,
               const std::optional<Floats>& anchors, const std::vector<SinewGrab>& grabs,
-              const std::vector<SinewField>& fields) {
-        const StepInput input(step_, dt, gravity, anchors, grabs, fields);
+              const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders) {
+        const StepInput input(step_, dt, gravity, anchors, grabs, fields, hostColliders);
         runUnlocked([&] { return sinewStepWorld(handle, &input.step, count); });
     }
 
@@ -188,7 +188,8 @@ void addWorld(py::module_& module) {
         .def("update", [](World& self) { runUnlocked([&] { return sinewUpdateWorld(self.handle); }); })
         .def("step", &World::step, py::arg("count") = 1, py::arg("dt") = py::none(),
              py::arg("gravity") = py::none(), py::arg("anchors") = py::none(),
-             py::arg("grabs") = std::vector<SinewGrab>{}, py::arg("fields") = std::vector<SinewField>{})
+             py::arg("grabs") = std::vector<SinewGrab>{}, py::arg("fields") = std::vector<SinewField>{},
+             py::arg("host_colliders") = std::vector<SinewHostCollider>{})
         .def("positions", output(SINEW_POSITIONS), py::arg("part") = py::none())
         .def("velocities", output(SINEW_VELOCITIES), py::arg("part") = py::none())
         .def("pick", &World::pick, py::arg("origin"), py::arg("direction"), py::arg("length") = 0.0f,

@@ -52,9 +52,10 @@ inline constexpr Range colliderSize{.low = 0, .high = largest, .isLowOpen = true
 inline constexpr Range colliderLength{0, largest};                                 // [m]
 inline constexpr Range margin{0, largest};                                         // [m]
 inline constexpr Range pathTime{0, largest};                                       // [s]
-inline constexpr std::uint32_t mostGrabs = 8, mostHostColliders = 8, mostFields = 16;
-/// Limit of colliders: every particle tests all of them.
-inline constexpr std::size_t mostColliders = 64;
+inline constexpr std::uint32_t mostGrabs = 8, mostHostColliders = 1024, mostFields = 16;
+/// Limit of colliders, without those of the host; MOST_MOVERS in layout.h is the sum of these limits.
+inline constexpr std::size_t mostColliders = 1024;
+inline constexpr std::size_t mostDriven = 64;
 inline constexpr Range recoverySpeed{.low = 0, .high = largest, .isLowOpen = true}; // [m/s]
 inline constexpr std::size_t mostSurfaces = 64;    // a table of their pairs goes to the device
 inline constexpr std::size_t mostFaces = 1u << 29; // their corners are counted in 32 bits

@@ -382,7 +382,7 @@ struct SINEW_API Settings {
     std::uint32_t eventRoom = 256; ///< events that are kept of a step, 1..65536; 16 bytes each
     std::uint32_t grabs = 0;       ///< grabs that can be active at a time (Step::grabs), 0..8; 0 = no passes
     std::uint32_t hostColliders =
-        0; ///< kinematic colliders at a time (Step::hostColliders), 0..8; 0 = no passes
+        0; ///< kinematic colliders at a time (Step::hostColliders), 0..1024; 0 = no passes
     /// Force fields at a time (Step::fields), 0..16; 0 = no passes. With room for one, no body stays in
     /// shared memory (Forms::residentBytes).
     std::uint32_t fields = 0;

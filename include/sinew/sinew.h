@@ -367,7 +367,7 @@ typedef struct SinewSettings {
     uint32_t cutSurfaceRoom;               // triangles of the surface of cuts; 0 = by the scene
     uint32_t sleeps;                       // bodies at rest cost nothing
     uint32_t keepsForces;                  // for sinewGetBodyImpulses() and sinewGetImpulses()
-    uint32_t grabs, hostColliders, fields; // at a time: up to 8, 8 and 16
+    uint32_t grabs, hostColliders, fields; // at a time: up to 8, 1024 and 16
     uint32_t framesInFlight;               // steps recorded and not finished, 1 to 64
     float omega, theta;                    // of `split`
     float weight, overRelaxation;          // of `jacobi`

@@ -33,6 +33,7 @@ class Settings:
     contact_room: int
     grabs: int  # at a time, at most 8
     fields: int  # at a time, at most 16
+    host_colliders: int  # at a time, at most 1024
     frames_in_flight: int
     omega: float
     theta: float
@@ -84,6 +85,13 @@ class Grab:
     """Pulls the particles near one particle towards a target, from its second step on."""
     def __init__(self, particle: int, target: Vector, radius: float = 0.0, stiffness: float = 400.0, damping: float = 40.0) -> None: ...
 
+class HostCollider:
+    """A collider that the host moves: its pose at the end of the step [m], rotation as x, y, z, w; sizes [m], max_speed [m/s]. As
+    SinewHostCollider in sinew.h."""
+    def __init__(self, shape: Literal["sphere", "capsule", "box"], position: Vector, rotation: Sequence[float] = (0, 0, 0, 1),
+                 radius: float = 0.0, half_length: float = 0.0, half_extents: Vector = (0, 0, 0), friction: float = 0.3,
+                 static_friction: float = 0.0, max_speed: float = 10.0) -> None: ...
+
 class Field:
     """A force field: as SinewField in sinew.h."""
     def __init__(self, kind: Literal["uniform", "radial", "wind", "turbulence"], vector: Vector = (0, 0, 0), center: Vector = (0, 0, 0),
@@ -98,7 +106,7 @@ class Simulation:
     def __init__(self, device: Device, scene: Scene, settings: Optional[Settings] = None) -> None:
         """Without settings, those of the scene's file."""
     def step(self, count: int = 1, dt: Optional[float] = None, gravity: Optional[Vector] = None, anchors: Optional[ArrayLike] = None,
-             grabs: Sequence[Grab] = (), fields: Sequence[Field] = ()) -> None:
+             grabs: Sequence[Grab] = (), fields: Sequence[Field] = (), host_colliders: Sequence[HostCollider] = ()) -> None:
         """Takes `count` steps with this input and waits for them; dt [s] and gravity [m/s^2] are by default those of the scene."""
     def reset(self) -> None: ...
     def update_skin(self) -> None:
@@ -154,7 +162,7 @@ class World:
     def update(self) -> None:
         """Waits until all changes have arrived: find() then gives the indices that the next step has."""
     def step(self, count: int = 1, dt: Optional[float] = None, gravity: Optional[Vector] = None, anchors: Optional[ArrayLike] = None,
-             grabs: Sequence[Grab] = (), fields: Sequence[Field] = ()) -> None:
+             grabs: Sequence[Grab] = (), fields: Sequence[Field] = (), host_colliders: Sequence[HostCollider] = ()) -> None:
         """update(), then `count` steps as Simulation.step()."""
     def positions(self, part: Optional[Part] = None) -> NDArray[np.float32]:
         """A copy for a part, or for all: (n, 4), position [m] and inverse mass [1/kg], 0 while the particle sleeps."""

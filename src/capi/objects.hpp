@@ -39,8 +39,8 @@ struct SceneObject final : Object {
 /// the core notices, and complains.
 struct StepInput {
     std::vector<sim::Vec3> anchors, bladeFrom, bladeTo;
+    std::vector<sim::HostCollider> hostColliders;
     std::array<sim::Grab, sim::ranges::mostGrabs + 1> grabs{};
-    std::array<sim::HostCollider, sim::ranges::mostHostColliders + 1> hostColliders{};
     std::array<sim::ForceField, sim::ranges::mostFields + 1> fields{};
 };
 

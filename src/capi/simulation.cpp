@@ -17,7 +17,8 @@ SimulationObject::SimulationObject(DeviceObject& itsDevice, const sim::Scene& it
       bodies(static_cast<std::uint32_t>(itsScene.bodies.size())),
       input{.anchors = std::vector<sim::Vec3>(itsScene.attachments.size() + 1),
             .bladeFrom = std::vector<sim::Vec3>(sim::ranges::mostBladePoints + 1),
-            .bladeTo = std::vector<sim::Vec3>(sim::ranges::mostBladePoints + 1)},
+            .bladeTo = std::vector<sim::Vec3>(sim::ranges::mostBladePoints + 1),
+            .hostColliders = std::vector<sim::HostCollider>(settings.hostColliders + 1)},
       rooms(itsSettings) {
     settings = sim::withSubsteps(itsScene, settings); // of a scene that is valid: it was compiled
     if (device.queue) scene = itsScene;
@@ -29,7 +30,8 @@ SimulationObject::SimulationObject(DeviceObject& itsDevice, sim::World& itsWorld
       bodies(static_cast<std::uint32_t>(itsWorld.scene().bodies.size())),
       input{.anchors = std::vector<sim::Vec3>(itsWorld.scene().attachments.size() + 1),
             .bladeFrom = std::vector<sim::Vec3>(sim::ranges::mostBladePoints + 1),
-            .bladeTo = std::vector<sim::Vec3>(sim::ranges::mostBladePoints + 1)},
+            .bladeTo = std::vector<sim::Vec3>(sim::ranges::mostBladePoints + 1),
+            .hostColliders = std::vector<sim::HostCollider>(settings.hostColliders + 1)},
       rooms(settings) {}
 
 SimulationObject::~SimulationObject() {

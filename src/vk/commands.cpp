@@ -3,7 +3,9 @@
 // since a planned barrier covers several buffers.
 #include "sinew/vk/commands.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cstddef>
 
 namespace sinew::vk {
 
@@ -67,8 +69,12 @@ void Commands::copy(const BufferView& from, const BufferView& to) noexcept {
 }
 
 void Commands::update(const BufferView& target, const void* bytes, VkDeviceSize size) noexcept {
-    assert(size <= target.size && size <= 65536 && size % 4 == 0);
-    functions_->vkCmdUpdateBuffer(commands_, target.buffer, target.offset, size, bytes);
+    assert(size <= target.size && size % 4 == 0);
+    constexpr VkDeviceSize most = 65536; // of one command
+    for (VkDeviceSize done = 0; done < size; done += most)
+        functions_->vkCmdUpdateBuffer(commands_, target.buffer, target.offset + done,
+                                      std::min(most, size - done),
+                                      static_cast<const std::byte*>(bytes) + done);
 }
 
 void Commands::memoryBarrier(VkPipelineStageFlags from, VkAccessFlags written, VkPipelineStageFlags to,

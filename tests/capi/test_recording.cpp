@@ -180,6 +180,47 @@ void reset(HostDevice& host, SinewSimulation simulation) {
     host.submit([&](VkCommandBuffer commands) { EXPECT_TRUE(isOk(sinewRecordReset(simulation, commands))); });
 }
 
+// 256 spheres push 256 particles in a row, each its own.
+TEST(CApiRecording, TakesAsManyHostCollidersAsAskedFor) {
+    constexpr std::uint32_t many = 256;
+    HostDevice host;
+    const SinewHostDevice handles = handlesOf(host);
+    Device device;
+    ASSERT_TRUE(isOk(sinewBorrowDevice(&handles, &device)));
+    Scene scene;
+    ASSERT_TRUE(isOk(sinewCreateScene(&scene)));
+    std::vector<SinewParticle> particles(many, SinewParticle{.inverseMass = 1});
+    std::vector<SinewHostCollider> colliders(many + 1, sinewDefaultHostCollider());
+    for (std::uint32_t c = 0; c < many; ++c) {
+        particles[c].position = {0, static_cast<float>(c), 0};
+        colliders[c].radius = 0.1f;
+    }
+    ASSERT_TRUE(isOk(sinewAddParticles(scene, many, particles.data(), nullptr)));
+    SinewSettings settings = sinewDefaultSettings();
+    settings.substeps = 4;
+    settings.hostColliders = many;
+    Simulation simulation;
+    ASSERT_TRUE(isOk(sinewCreateSimulation(device, scene, &settings, &simulation)));
+    reset(host, simulation);
+    for (std::uint64_t frame = 0; frame < 10; ++frame)
+        host.submit([&](VkCommandBuffer commands) {
+            for (std::uint32_t c = 0; c < many; ++c)
+                colliders[c].pose.position = {-0.2f + 0.02f * static_cast<float>(frame),
+                                              static_cast<float>(c), 0};
+            SinewStep step = sinewDefaultStep();
+            step.gravity = {};
+            step.frame = frame;
+            step.hostColliders = colliders.data();
+            step.hostColliderCount = frame == 9 ? many + 1 : many;
+            EXPECT_TRUE(isOk(sinewRecordStep(simulation, commands, &step)));
+        });
+    const Positions positions = positionsOf(host, simulation);
+    for (std::uint32_t c = 0; c < many; ++c) EXPECT_NEAR(double{positions[c][0]}, 0.08, 1e-4) << c;
+    const char* complaint = nullptr;
+    ASSERT_TRUE(isOk(sinewNextComplaint(simulation, &complaint)));
+    EXPECT_NE(std::string(complaint).find("257 host colliders"), std::string::npos) << complaint;
+}
+
 TEST(CApiRecording, GivesTheBitsOfTheCppInterface) {
     HostDevice host;
     const Positions expected = runByCpp(host);

@@ -105,6 +105,21 @@ class Module(unittest.TestCase):
         simulation.step(1, grabs=[sinew.Grab(26, held)] * 3)
         self.assertIn("grabs", "".join(simulation.complaints()))
 
+    def test_as_many_host_colliders_as_asked_for_push(self):
+        scene = sinew.Scene()
+        places = np.stack(np.meshgrid(np.arange(16), np.arange(16), [0]), axis=-1).reshape(-1, 3).astype(float)
+        scene.add_particles(places)
+        scene.gravity = (0, 0, 0)
+        simulation = sinew.Simulation(self.device, scene, sinew.Settings(substeps=4, host_colliders=256))
+        for step in range(10):
+            simulation.step(host_colliders=[
+                sinew.HostCollider("capsule", place - (0.2 - 0.02 * step, 0, 0), radius=0.1, half_length=0.2) for place in places
+            ])
+        np.testing.assert_allclose(simulation.positions[:, 0], places[:, 0] + 0.08, atol=1e-4)
+        self.assertEqual(simulation.complaints(), [])
+        simulation.step(host_colliders=[sinew.HostCollider("sphere", (9, 9, 9), radius=0.1)] * 257)
+        self.assertIn("257 host colliders", simulation.complaints()[0])
+
     def test_impulses_carry_the_weight(self):
         scene = cube(height=0)
         simulation = sinew.Simulation(self.device, scene, sinew.Settings(keeps_forces=True))

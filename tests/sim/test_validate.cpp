@@ -96,8 +96,8 @@ const Fault faults[] =
              s.attachments.clear();
              for (std::uint32_t i = 4; i < 1029; ++i) s.attachments.push_back({.particle = i});
          }},
-        {"colliders: are 65, at most 64 are possible",
-         [](Scene& s, Settings&) { s.colliders.resize(65, {.radius = 1}); }},
+        {"colliders: are 1025, at most 1024 are possible",
+         [](Scene& s, Settings&) { s.colliders.resize(1025, {.radius = 1}); }},
         {"collider[0].radius: is 0, must be above 0", [](Scene& s, Settings&) { s.colliders[0].radius = 0; }},
         {"collider[0].shape: is 9, which is no shape",
          [](Scene& s, Settings&) { s.colliders[0].shape = static_cast<ColliderShape>(9); }},

@@ -23,7 +23,7 @@ public:
     void fill(const BufferView& target, std::uint32_t value) noexcept;
     void copy(const BufferView& from, const BufferView& to) noexcept; ///< sizes must agree
     void update(const BufferView& target, const void* bytes,
-                VkDeviceSize size) noexcept; ///< size <= 65,536 [B]
+                VkDeviceSize size) noexcept; ///< in commands of up to 65,536 bytes
 
     /// Orders compute shaders recorded so far, and what else `scope` names, before compute shaders after and
     /// what else it names: one memory barrier. Barriers chain through compute shaders, which all of them

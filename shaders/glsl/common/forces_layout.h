@@ -44,6 +44,21 @@ struct ForceRange {
     uint unused0;
 };
 
+// Colliders with a row of elements each. More are summed as ColliderForce.
+#define MOST_COLLIDER_ROWS 8
+
+// The impulses on one of many colliders: three components, then three of their moments, each a whole number of 64
+// bits, low word first. Integers have the same sum in any order.
+struct ColliderForce {
+    uint words[12];
+};
+
+struct ColliderForcePush {
+    uint count;     // colliders
+    uint firstPart; // that of the first of them
+    float unit;     // [N s], and [N m s]
+};
+
 struct ForcePush {
     uint count;
     uint grabs, planes, colliders; // numbers of rows

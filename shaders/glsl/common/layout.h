@@ -196,22 +196,6 @@ struct PlaneCollider {
     float unused0;
 };
 
-// A box grown by a radius, centred at its pose and along its own axes.
-struct Collider {
-    vec4 core;            // half extents, radius [m]
-    float friction;       // kinetic
-    float staticFriction; // at least `friction`
-    float restitution;
-    uint isAbsent;        // 1 = an absent kinematic collider
-};
-
-struct ColliderPose {
-    // Centre [m]. w: for a kinematic collider, at the start of the step: its extent before the step [m]; at
-    // the end: number of times that it appeared, disappeared or changed shape, below 0 while absent.
-    vec4 position;
-    vec4 rotation; // unit quaternion x, y, z, w from the collider's frame to the world
-};
-
 // `jacobi`: contacts of a particle with planes, found in each substep.
 struct PlaneContact {
     float vx, vy, vz; // velocity before the substep [m/s]
@@ -477,6 +461,7 @@ struct LatticePush {
     float recoveryShare;         // 2 k~ for each 1/15 of a cell's fill [N/m]
 };
 
+#include "common/collider_layout.h"
 #include "common/cut_layout.h"
 
 struct DampedSubstepPush {
@@ -488,22 +473,6 @@ struct DampedSubstepPush {
 struct AttachmentPush {
     uint count;
     float fraction; // part of the step that is over at the end of this substep
-};
-
-struct ColliderPush {
-    uint count;         // number of particles; whole work groups
-    uint before, after; // first pose of the colliders at the start of the substep, and at its end
-    float lateKick;     // part of h g that is in v and has not moved x
-};
-
-// Indices into the arguments of passes for kinematic colliders.
-#define HOST_COLLIDERS_PLACED 0
-#define HOST_COLLIDERS_TOUCHING 1 // once a substep
-#define HOST_COLLIDER_ARGUMENTS 2
-
-struct PlacePush {
-    uint count; // colliders x (substeps + 1)
-    uint colliders, substeps;
 };
 
 // A particle that has moved no faster than SLEEP_SPEED for SLEEP_TIME rests, and may sleep.

@@ -8,7 +8,6 @@
 layout(push_constant) uniform Push { EventPush push; };
 #include "events/partners.glsl"
 #include "common/math.glsl"
-#include "rigid/colliders.glsl"
 
 layout(std430, binding = 2) readonly buffer Reaches { float reaches[]; }; // contact offset and limit [m]; far below 0 = never moves
 layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; };   // x + thetaH v
@@ -18,6 +17,9 @@ layout(std430, binding = 6) readonly buffer Planes { vec4 planes[]; }; // normal
 layout(std430, binding = 7) readonly buffer Colliders { Collider colliders[]; };
 layout(std430, binding = 8) readonly buffer Poses { ColliderPose poses[]; };
 layout(std430, binding = 9) readonly buffer Corrections { vec4 corrections[]; }; // ParticleCorrection
+#include "rigid/colliders.glsl"
+layout(std430, binding = 10) readonly buffer Near { uint near[]; }; // find_near_colliders
+#include "rigid/near_colliders.glsl"
 layout(constant_id = 1) const uint planeCount = 0;
 layout(constant_id = 5) const bool isOpen = false;
 
@@ -41,7 +43,9 @@ void main() {
     const vec3 x = placeOf(i);
     for (uint p = 0u; p < planeCount; ++p)
         if (dot3(planes[p].xyz, x) - planes[p].w <= reach) addContact(body, push.bodies + p);
-    for (uint c = 0u; c < colliderCount; ++c) {
+    const uint record = nearRecord();
+    const bool testsNear = findsNear && isRegarded(record, x, x);
+    for (uint c = nextTested(testsNear, record, 0u); c < colliderCount; c = nextTested(testsNear, record, c + 1u)) {
         if (c < hostColliderCount && colliders[c].isAbsent != 0u) continue;
         if (isAtCollider(colliders[c], poses[push.poses + c], reach, x)) addContact(body, push.bodies + planeCount + c);
     }

@@ -4,7 +4,8 @@
 // solver: thetaH is 0 except for `split`; the substep of `gauss_seidel` is still open (solve_attachments.comp).
 // hasRebound: the scene has restitution, so that the displacement since the start of the substep is no longer h v,
 // and impacts need the velocity from before. hasContacts: particles touch each other; one that was stopped on its
-// way has a velocity that differs from its displacement / h.
+// way has a velocity that differs from its displacement / h. Of many colliders a particle tests those that are near its
+// work group (near_colliders.glsl).
 #extension GL_GOOGLE_include_directive : require
 #define MAY_RUN_LISTED
 #include "common/kernel.glsl"
@@ -47,6 +48,11 @@ layout(constant_id = 7) const bool hasContacts = false;
 #endif
 layout(push_constant) uniform Push { ColliderPush push; };
 #include "forces/forces.glsl"
+
+layout(std430, binding = FORCES_BINDING + 2) readonly buffer Near { uint near[]; }; // find_near_colliders
+#include "rigid/near_colliders.glsl"
+
+#include "rigid/collider_forces.glsl"
 
 // A particle before colliders act on it.
 struct Start {
@@ -94,17 +100,20 @@ void main() {
     const vec3 wayBefore = movement.way;
     vec3 rebound = vec3(0.0);
     bool isTouching = false;
-    for (uint c = 0u; c < colliderCount; ++c) {
+    const uint record = nearRecord();
+    bool testsNear = findsNear && isRegarded(record, movement.x - movement.way, movement.x);
+    for (uint c = nextTested(testsNear, record, 0u); c < colliderCount; c = nextTested(testsNear, record, c + 1u)) {
         vec3 n, surfaceVelocity;
         const Collider collider = colliderAt(c);
         if (c < hostColliderCount && colliders[c].isAbsent != 0u) continue; // a device may read this integer as 0 from float texels
         const ColliderPose from = poseAt(push.before + c), to = poseAt(push.after + c); // equal where nothing moves
         const vec3 unforced = movement.v + rebound;
         if (!projectOut(collider, contactOffsets[i], from, to, h, movement, n, surfaceVelocity)) continue;
+        if (findsNear) testsNear = testsNear && isRegarded(record, movement.x - movement.way, movement.x);
         isTouching = true;
         if (hasRebound)
             rebound += reboundFrom(collider, step.restSpeed, n, surfaceVelocity, start.velocityBefore, movement.v + rebound);
-        addRowForce(c, i, (movement.v + rebound - unforced) / velocity.w, movement.x - to.position.xyz);
+        addColliderForce(c, i, (movement.v + rebound - unforced) / velocity.w, movement.x - to.position.xyz);
     }
     if (!isTouching) return;
 #ifdef OPEN

@@ -31,7 +31,7 @@ public:
     /// Records copies for the next `most` bytes of the buffers that fill() left, without a barrier. Returns
     /// whether none is left. `most`: a multiple of 4 [B].
     bool uploadRest(vk::Commands& commands, VkDeviceSize most) noexcept;
-    /// Host data of update passes, by HostData (<= 64 KiB each).
+    /// Host data of update passes, by HostData.
     using HostBytes = std::array<std::span<const std::byte>, hostDataCount>;
     /// Records the passes of a step with the planned barriers. `timestamps` receives one span per phase. Goes
     /// on in the buffers of `later`, at barriers, so that each has about as many passes as the first, and

@@ -46,10 +46,9 @@ std::vector<std::uint32_t> bodiesOf(const Scene& scene, const StateLayout& layou
 }
 
 // Distance up to which a particle counts as lying on a surface [m]; particles that never move lie on none.
-std::vector<float> reachesOf(const SceneModel& model) {
+std::vector<float> reachesOf(const SceneModel& model, const std::vector<float>& limits) {
     constexpr float never = -1e38f;
     const StateLayout& layout = model.layout;
-    const std::vector<float> limits = sleep::restLimits(model.scene, layout);
     std::vector<float> reaches(layout.count, never);
     for (std::size_t i = 0; i < model.scene.particles.size(); ++i) {
         const std::uint32_t slot = layout.slot[i];
@@ -67,7 +66,9 @@ BufferId uploadPlanes(ProgramBuilder& program, const Scene& scene) {
     return program.upload("events.planes", planes);
 }
 
-void addContactBuffers(ProgramBuilder& program, const SceneModel& model, Events& events) {
+void addContactBuffers(Build& build, Events& events) {
+    ProgramBuilder& program = build.program;
+    const SceneModel& model = build.model;
     const Scene& scene = model.scene;
     layout::EventPush& push = events.push;
     push.partners = partnersOf(scene, model.settings);
@@ -80,7 +81,9 @@ void addContactBuffers(ProgramBuilder& program, const SceneModel& model, Events&
     events.touching = program.scratch<std::uint32_t>("events.touching", pairs);
     program.addToState(events.touching, events.touching, {.of = Elements::bodyPartners});
     if (events.planes + events.colliders == 0) return;
-    events.reaches = program.upload("events.reaches", reachesOf(model));
+    const std::vector<float> limits = sleep::restLimits(scene, model.layout);
+    events.reaches = program.upload("events.reaches", reachesOf(model, limits));
+    build.particles.supportReach = *std::ranges::max_element(limits);
     events.planeTable = uploadPlanes(program, scene);
 }
 
@@ -131,7 +134,7 @@ void add(Build& build) {
     events->maySleep = settings.sleeps;
     events->bodies = program.upload("events.bodies", bodiesOf(model.scene, model.layout));
     events->noted = program.scratch<layout::BodyEvents>("events.noted", push.bodies);
-    if (events->haveContacts) addContactBuffers(program, model, *events);
+    if (events->haveContacts) addContactBuffers(build, *events);
     if (events->maySleep) {
         events->slept = program.scratch<std::uint32_t>("events.slept", push.bodies);
         program.addToState(events->slept, events->slept, {.of = Elements::bodies});
@@ -168,7 +171,8 @@ void addSupports(Build& build, const Substep& substep) {
         k::noteSupports, push.count,
         {events->bodies, events->contacts, events->reaches, particles.positions, particles.velocities,
          particles.step, events->planeTable, haveColliders ? colliders->shapes : unbound,
-         haveColliders ? colliders->poses : unbound, boundIf(substep.isOpen(), substep.corrections)},
+         haveColliders ? colliders->poses : unbound, boundIf(substep.isOpen(), substep.corrections),
+         haveColliders ? colliders->near : unbound},
         push,
         {{planeCountId, events->planes},
          {colliderCountId, events->colliders},

@@ -7,6 +7,7 @@
 #include "sinew/solver_names.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace sinew::sim::forces {
@@ -38,6 +39,13 @@ struct Sums {
         ranges.push_back(
             {firstPart, static_cast<std::uint32_t>(chunks.size()) - firstPart, origin, sign, 0, 0, 0, 0});
     }
+
+    // Appends a sum of one part without elements, which a pass of its own writes; its sign is -1.
+    void addPart() {
+        constexpr std::uint32_t isNotListed = 1; // layout::ForceChunk::moment
+        ranges.push_back({static_cast<std::uint32_t>(chunks.size()), 1, 0, -1, 0, 0, 0, 0});
+        chunks.push_back({0, 0, 0, isNotListed});
+    }
 };
 
 // A buffer with at least one element, since a kernel must not bind an empty buffer.
@@ -57,7 +65,7 @@ void setStops(std::vector<layout::ForceRange>& bodies, const Forces& forces) {
         const Stops::Row& row = forces.stops.rows[r];
         if (row.body == Stops::noBody) continue;
         layout::ForceRange& range = bodies[row.body];
-        if (range.stops++ == 0) range.firstStop = forces.firstStop() + r;
+        if (range.stops++ == 0) range.firstStop = forces.grabs + forces.planes + forces.summedColliders() + r;
         range.stopOrigin = row.origin;
     }
 }
@@ -92,8 +100,15 @@ std::vector<std::uint32_t> elementsOf(std::uint32_t h, const SceneModel& model, 
 void addRows(ProgramBuilder& program, const SceneModel& model, const Forces& forces,
              const layout::ForcePush& push) {
     Sums sums;
-    for (std::uint32_t row = 0; row < forces.rows(); ++row)
-        sums.add(forces.elementOf(row), forces.slots, 0, forces.slots, row < forces.grabs ? 1.0f : -1.0f);
+    std::uint32_t firstSummed = 0; // part of the colliders that are summed as whole numbers
+    for (std::uint32_t row = 0; row < forces.rows(); ++row) {
+        if (forces.summed > 0 && row == forces.grabs + forces.planes) {
+            firstSummed = static_cast<std::uint32_t>(sums.chunks.size());
+            for (std::uint32_t c = 0; c < forces.summed; ++c) sums.addPart();
+        } else {
+            sums.add(forces.elementOf(row), forces.slots, 0, forces.slots, row < forces.grabs ? 1.0f : -1.0f);
+        }
+    }
     std::vector<std::uint32_t> elements;
     const auto addListed = [&](const std::vector<std::uint32_t>& listed) {
         sums.add(static_cast<std::uint32_t>(elements.size()), static_cast<std::uint32_t>(listed.size()), 0, 0,
@@ -115,6 +130,10 @@ void addRows(ProgramBuilder& program, const SceneModel& model, const Forces& for
                          {forces.terms, uploadAny(program, "forces.elements", elements),
                           program.upload("forces.row_chunks", sums.chunks), built.rowParts},
                          pushed);
+    if (forces.summed > 0)
+        program.dispatch(
+            k::readColliderForces, forces.summed, {forces.colliderForces, built.rowParts},
+            layout::ColliderForcePush{forces.summed, firstSummed, 1 / forces.colliderForceScale});
     pushed.count = count;
     program.dispatch(
         k::addForceRows, count,
@@ -156,13 +175,25 @@ bool areLinksHeld(const Scene& scene) {
     return areHeld;
 }
 
-// All members except the buffer.
+// A power of two, such that 1e-12 of the momentum of all that moves at 1 m/s is about a whole number.
+float forceScaleOf(const SceneModel& model) {
+    double mass = 0;
+    for (const float inverse : model.inverseMass)
+        if (inverse > 0) mass += 1 / double{inverse};
+    return static_cast<float>(std::exp2(std::round(std::log2(1e12 / std::max(mass, 1e-12)))));
+}
+
+// All members except the buffers.
 Forces placesOf(const SceneModel& model) {
     const Scene& scene = model.scene;
+    const std::uint32_t colliders =
+        model.settings.hostColliders + static_cast<std::uint32_t>(scene.colliders.size());
+    const bool areFew = colliders <= MOST_COLLIDER_ROWS;
     return {.slots = static_cast<std::uint32_t>(model.layout.count),
             .grabs = model.settings.grabs,
             .planes = static_cast<std::uint32_t>(scene.planes.size()),
-            .colliders = model.settings.hostColliders + static_cast<std::uint32_t>(scene.colliders.size()),
+            .colliders = areFew ? colliders : 1,
+            .summed = areFew ? 0 : colliders,
             .tethers = static_cast<std::uint32_t>(model.tethers().size()),
             .attachments = static_cast<std::uint32_t>(scene.attachments.size()),
             .stops = stopsOf(model)};
@@ -247,6 +278,11 @@ void add(Build& build) {
     auto forces = std::make_shared<Forces>(placesOf(build.model));
     forces->terms = program.scratch<layout::vec4>("forces.terms", forces->elements());
     program.fill(forces->terms, 0);
+    if (forces->summed > 0) {
+        forces->colliderForces = program.scratch<layout::ColliderForce>("forces.colliders", forces->summed);
+        forces->colliderForceScale = forceScaleOf(build.model);
+        program.fill(forces->colliderForces, 0);
+    }
     program.program().forces.terms = forces->terms;
     build.particles.forces = forces;
 }
@@ -275,12 +311,12 @@ void addSums(Build& build) {
     built.grabs = forces.grabs;
     built.planes = forces.planes;
     built.colliders = static_cast<std::uint32_t>(scene.colliders.size());
-    built.hostColliders = forces.colliders - built.colliders;
+    built.hostColliders = forces.summedColliders() - built.colliders;
     built.stops = static_cast<std::uint32_t>(forces.stops.rows.size());
     built.attachments = forces.attachments;
     built.holds = static_cast<std::uint32_t>(scene.holds.size());
     const std::uint32_t firstRow = FORCE_KINDS * built.bodies;
-    const std::uint32_t count = firstRow + forces.rows() + built.attachments + built.holds;
+    const std::uint32_t count = firstRow + forces.sums() + built.attachments + built.holds;
     built.sums = program.scratch<layout::ForceSum>("forces.sums", std::max(count, 1u));
     const layout::ForcePush push{0, forces.grabs, forces.planes, forces.colliders, firstRow};
     addRows(program, model, forces, push);

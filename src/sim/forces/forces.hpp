@@ -6,7 +6,8 @@
 //
 //   contacts | holds | rows: an impulse section and a moment section each | entries: tethers, attachments
 //
-// with a row for each grab, plane, host collider and collider, and rows for bodies with static faces. Static
+// with a row for each grab, plane, host collider and collider, and rows for bodies with static faces. Many
+// colliders have one row, which bodies read, and whole numbers that sum the impulses on each. Static
 // faces have no list of the points near them: each point adds its impulse on them to its own element in a
 // row.
 #pragma once
@@ -46,8 +47,11 @@ struct Forces {
     BufferId terms;
     std::uint32_t slots = 0; ///< elements of a section
     std::uint32_t grabs = 0, planes = 0,
-                  colliders = 0; ///< rows; host colliders are the first of the colliders
-    std::uint32_t tethers = 0;   ///< entries before those of attachments
+                  colliders = 0;  ///< rows; host colliders are the first of the colliders
+    std::uint32_t summed = 0;     ///< colliders of that one row if there are many, else 0
+    BufferId colliderForces;      ///< layout::ColliderForce of each of these
+    float colliderForceScale = 0; ///< layout::ColliderPush::forceScale
+    std::uint32_t tethers = 0;    ///< entries before those of attachments
     std::uint32_t attachments = 0;
     Stops stops;
 
@@ -55,6 +59,8 @@ struct Forces {
         return grabs + planes + colliders + static_cast<std::uint32_t>(stops.rows.size());
     }
     std::uint32_t firstStop() const { return grabs + planes + colliders; }
+    std::uint32_t summedColliders() const { return summed > 0 ? summed : colliders; }
+    std::uint32_t sums() const { return rows() - colliders + summedColliders(); } ///< of rows
     std::uint32_t elementOf(std::uint32_t row) const { return (2 + 2 * row) * slots; }
     std::uint32_t firstEntry() const { return elementOf(rows()); }
     std::uint64_t elements() const { return (2 + 2 * std::uint64_t{rows()}) * slots + tethers + attachments; }

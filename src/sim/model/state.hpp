@@ -70,6 +70,7 @@ struct ParticleBuffers {
     std::shared_ptr<grabs::Grabs> grabs;          ///< null without grabs
     std::shared_ptr<const forces::Forces> forces; ///< null if no forces are kept
     std::shared_ptr<events::Events> events;       ///< null if no events are listed
+    float supportReach = 0; ///< beyond contact offsets, up to which contacts with colliders are events [m]
 };
 
 /// Share of the gravity kick h g, contained in the velocities, that particles have moved by when links are

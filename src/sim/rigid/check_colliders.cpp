@@ -84,9 +84,9 @@ void checkColliders(std::span<const Collider> colliders, Complaints& complaints)
 }
 
 void checkDriven(const Scene& scene, const std::vector<bool>& isHeld, Complaints& complaints) {
-    if (scene.driven.size() > ranges::mostColliders)
+    if (scene.driven.size() > ranges::mostDriven)
         complaints.add("driven", "are " + number(scene.driven.size()) + ", at most " +
-                                     number(ranges::mostColliders) + " are possible");
+                                     number(ranges::mostDriven) + " are possible");
     std::vector<bool> isDriven(isHeld.size(), false);
     for (std::size_t b = 0; b < scene.driven.size(); ++b) {
         const DrivenBody& body = scene.driven[b];

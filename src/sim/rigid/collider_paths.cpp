@@ -41,7 +41,7 @@ void ColliderPaths::place() noexcept {
     std::ranges::copy(hostColliders_.ways(), ways_.begin());
 }
 
-void ColliderPaths::moveTo(double time, const HostColliderStates& hostColliders) noexcept {
+void ColliderPaths::moveTo(double time, std::span<const HostColliderState> hostColliders) noexcept {
     time_ = time;
     hostColliders_.moveTo(hostColliders);
     place();

@@ -30,7 +30,7 @@ public:
     std::span<const layout::ColliderPose> ways() const noexcept { return ways_; }
 
     /// Sets the time and poses without motion, such as at the start of a simulation.
-    void moveTo(double time, const HostColliderStates& hostColliders = {}) noexcept;
+    void moveTo(double time, std::span<const HostColliderState> hostColliders = {}) noexcept;
     void advance(float dt, std::span<const HostCollider> hostColliders = {}) noexcept; ///< by a step [s]
 
 private:

@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "sim/forces/forces.hpp"
 #include "sim/rigid/collider_paths.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,8 @@
 namespace sinew::sim::rigid::colliders {
 
 namespace {
+
+static_assert(ranges::mostHostColliders + ranges::mostColliders + ranges::mostDriven == MOST_MOVERS);
 
 constexpr std::uint32_t hasReboundId = 6, hasContactsId = 7; // constant_ids in solve_colliders.comp
 constexpr std::uint32_t colliderCountId = 2, isMovingId = 3,
@@ -81,6 +84,8 @@ layout::Collider ballAround(const DrivenBody& body, const Scene& scene) {
     return ball;
 }
 
+constexpr float noParticle = -1e38f; // contact offset of a slot without one
+
 void addShapes(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, Colliders& colliders) {
     std::vector<layout::Collider> shapes(colliders.hostColliders);
     for (const Collider& collider : scene.colliders) shapes.push_back(shapeOf(collider));
@@ -93,10 +98,16 @@ void addShapes(ProgramBuilder& program, const Scene& scene, const StateLayout& l
         program.program().hostColliders.touching = groupsOf(colliders.particles);
     }
     if (colliders.count == 0) return;
-    std::vector<float> offsets(layout.count, 0);
+    const bool areMany = colliders.count > FEW_COLLIDERS;
+    std::vector<float> offsets(layout.count, areMany ? noParticle : 0);
     for (std::size_t i = 0; i < scene.particles.size(); ++i)
         offsets[layout.slot[i]] = scene.particles[i].contactOffset;
     colliders.contactOffsets = program.upload("colliders.contact_offsets", offsets);
+}
+
+// The number of words of a record of near colliders.
+std::uint32_t nearWords(const Colliders& colliders) {
+    return NEAR_HEAD + (colliders.count + 31) / 32;
 }
 
 // Over all particles.
@@ -108,15 +119,34 @@ void dispatchTouching(ProgramBuilder& program, const Colliders& colliders, const
              {{}, HOST_COLLIDERS_TOUCHING, colliders.particles}, code, buffers, push, constants);
 }
 
-layout::ColliderPush pushOf(const Colliders& colliders, std::uint32_t substep, Kick kick) {
+layout::ColliderPush pushOf(const Colliders& colliders, const Substep& substep) {
     const std::uint32_t row = colliders.areMoving ? colliders.placed : 0;
-    return {colliders.particles, substep * row, (substep + 1) * row, kick == Kick::half ? 0.5f : 0};
+    const auto& forces = substep.particles.forces;
+    return {colliders.particles, substep.index * row, (substep.index + 1) * row,
+            substep.kick == Kick::half ? 0.5f : 0, forces ? forces->colliderForceScale : 0};
 }
 
 ProgramBuilder::Constants constantsOf(const Colliders& colliders) {
     return {{colliderCountId, colliders.count},
             {isMovingId, colliders.areMoving},
             {hostColliderCountId, colliders.hostColliders}};
+}
+
+// The pass that finds the colliders near each work group, if they are many.
+void addNear(Build& build, Colliders& colliders) {
+    if (colliders.count <= FEW_COLLIDERS) return;
+    const Settings& settings = build.model.settings;
+    const std::uint32_t groups = groupsOf(colliders.particles);
+    colliders.near =
+        build.program.scratch<std::uint32_t>("colliders.near", std::uint64_t{groups} * nearWords(colliders));
+    const ParticleBuffers& particles = build.particles;
+    dispatchTouching(build.program, colliders, kernels::findNearColliders,
+                     std::array{colliders.shapes, colliders.poses, colliders.contactOffsets,
+                                particles.positions, particles.velocities, particles.step, colliders.near},
+                     layout::NearPush{colliders.particles,
+                                      colliders.areMoving ? settings.substeps * colliders.placed : 0,
+                                      settings.substeps, particles.supportReach},
+                     {{colliderCountId, colliders.count}, {hostColliderCountId, colliders.hostColliders}});
 }
 
 } // namespace
@@ -144,6 +174,7 @@ void add(Build& build) {
          std::ranges::any_of(scene.contacts.surfaces, rebounds)); // the way is then not h v
     addShapes(program, scene, layout, colliders);
     addPoses(program, scene, settings.substeps, colliders);
+    addNear(build, colliders);
     if (colliders.hasRebound && settings.solver != Solver::gaussSeidel)
         colliders.before =
             program.scratch<layout::vec4>("colliders.before", 2 * std::uint64_t{colliders.particles});
@@ -178,9 +209,12 @@ void addPass(Build& build, const Substep& substep) {
         constants.merge(remainderConstants(particles.layout));
     }
     forces::bindTo(particles, &forces::Forces::ofColliders, buffers, constants);
+    buffers.push_back(particles.forces && particles.forces->summed > 0 ? particles.forces->colliderForces
+                                                                       : unbound);
+    buffers.push_back(colliders.near);
     dispatchTouching(build.program, colliders,
                      substep.isOpen() ? kernels::solveCollidersOpen : kernels::solveColliders, buffers,
-                     pushOf(colliders, substep.index, substep.kick), constants);
+                     pushOf(colliders, substep), constants);
 }
 
 } // namespace sinew::sim::rigid::colliders

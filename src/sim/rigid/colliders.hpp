@@ -21,7 +21,8 @@ struct Colliders {
     BufferId
         hostColliderArguments; ///< of passes that only host colliders need; invalid without host colliders
     BufferId poses, contactOffsets, before;
-    BufferId ways; ///< start and end poses in this step; invalid unless areMoving
+    BufferId near = unbound; ///< by work group: near_colliders.glsl; only of many colliders
+    BufferId ways;           ///< start and end poses in this step; invalid unless areMoving
 };
 
 /// Keeps Colliders, and appends the pass that computes the poses of colliders and driven bodies.

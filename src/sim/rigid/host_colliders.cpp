@@ -3,6 +3,7 @@
 
 #include "sim/rigid/collider_paths.hpp"
 #include "sinew/colliders.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,14 +90,15 @@ void HostColliders::place(std::size_t slot, const Pose& from, double reach) noex
     shapes_[slot].isAbsent = state.isThere ? 0 : 1;
 }
 
-void HostColliders::moveTo(const HostColliderStates& states) noexcept {
-    states_ = states;
-    for (std::size_t slot = 0; slot < count_; ++slot)
+void HostColliders::moveTo(std::span<const HostColliderState> states) noexcept {
+    for (std::size_t slot = 0; slot < states_.size(); ++slot) {
+        states_[slot] = slot < states.size() ? states[slot] : HostColliderState{};
         place(slot, states_[slot].hostCollider.pose, reachOf(states_[slot].hostCollider));
+    }
 }
 
 void HostColliders::advance(std::span<const HostCollider> hostColliders, float dt) noexcept {
-    for (std::size_t slot = 0; slot < count_; ++slot) {
+    for (std::size_t slot = 0; slot < states_.size(); ++slot) {
         HostColliderState& state = states_[slot];
         const HostCollider before = state.hostCollider;
         const bool isThere = slot < hostColliders.size() && isPossible(hostColliders[slot]);

@@ -3,40 +3,40 @@
 #pragma once
 
 #include "common/layout.h"
-#include "sinew/ranges.hpp"
 #include "sinew/step.hpp"
 
-#include <array>
+#include <cstddef>
 #include <span>
+#include <vector>
 
 namespace sinew::sim::rigid {
 
-/// By slot; slots beyond Settings::hostColliders are always absent.
-using HostColliderStates = std::array<HostColliderState, ranges::mostHostColliders>;
+/// By slot, Settings::hostColliders of them.
+using HostColliderStates = std::vector<HostColliderState>;
 
 class HostColliders {
 public:
-    explicit HostColliders(std::uint32_t count) : count_(count) {}
+    explicit HostColliders(std::uint32_t count)
+        : states_(count), shapes_(count), ways_(2 * std::size_t{count}) {}
 
-    /// Sets the states without motion, such as at the start of a simulation.
-    void moveTo(const HostColliderStates& states) noexcept;
+    /// Sets the states without motion, such as at the start of a simulation; slots without a state are
+    /// absent.
+    void moveTo(std::span<const HostColliderState> states) noexcept;
     /// Advances by a step of `dt` [s].
     void advance(std::span<const HostCollider> hostColliders, float dt) noexcept;
 
-    std::uint32_t count() const noexcept { return count_; }
     const HostColliderStates& states() const noexcept { return states_; }
     bool areAny() const noexcept; ///< whether one is present
-    std::span<const layout::Collider> shapes() const noexcept { return std::span(shapes_).first(count_); }
+    std::span<const layout::Collider> shapes() const noexcept { return shapes_; }
     /// Start and end poses of each.
-    std::span<const layout::ColliderPose> ways() const noexcept { return std::span(ways_).first(2 * count_); }
+    std::span<const layout::ColliderPose> ways() const noexcept { return ways_; }
 
 private:
     void place(std::size_t slot, const Pose& from, double reach) noexcept;
 
-    std::uint32_t count_;
-    HostColliderStates states_{};
-    std::array<layout::Collider, ranges::mostHostColliders> shapes_{};
-    std::array<layout::ColliderPose, 2 * ranges::mostHostColliders> ways_{};
+    HostColliderStates states_;
+    std::vector<layout::Collider> shapes_;
+    std::vector<layout::ColliderPose> ways_;
 };
 
 } // namespace sinew::sim::rigid

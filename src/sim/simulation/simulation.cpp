@@ -72,7 +72,7 @@ void Simulation::State::noteBefore(std::uint64_t frame) noexcept {
     const rigid::HostColliders& hostColliders = colliders.hostColliders();
     slot.pace = pace;
     slot.time = colliders.time();
-    slot.hostColliders = hostColliders.states();
+    std::ranges::copy(hostColliders.states(), slot.hostColliders.begin());
     std::ranges::copy(anchors.values(), slot.anchors.begin());
     slot.grabs = grabs;
     slot.isUncut = isUncut;
@@ -107,13 +107,13 @@ void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
 
 void Simulation::State::reset() noexcept {
     pace = {};
-    settledEnd = {};
+    colliders.moveTo(0);
+    noteEnd(settledEnd, pace);
     forgetUnsettled();
     hasState = true;
     anchors.reset();
     grabs.reset();
     fields.reset();
-    colliders.moveTo(0);
     isUncut = true;
 }
 
@@ -160,8 +160,9 @@ void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step
     const rigid::ColliderPaths& colliders = state_->colliders;
     const auto hostColliderArguments = state_->hostColliderArguments();
     const Pace pace = state_->pace.next(dt, parameters.h);
-    state_->unsettled[state_->ring.slotOf(step.frame)] = {
-        true, {pace, colliders.time(), colliders.hostColliders().states()}};
+    State::Unsettled& unsettled = state_->unsettled[state_->ring.slotOf(step.frame)];
+    unsettled.isRecorded = true;
+    state_->noteEnd(unsettled.end, pace);
     state_->isUncut = state_->isUncut && !hasBlade;
     vk::Commands commands(state_->device, parts.front());
     if (timestamps) timestamps->reset(commands);
@@ -236,8 +237,7 @@ std::span<const Pose> Simulation::colliderPoses() const noexcept {
 }
 std::span<const HostColliderState> Simulation::hostColliders() const noexcept {
     state_->goBack();
-    const rigid::HostColliders& hostColliders = state_->colliders.hostColliders();
-    return std::span(hostColliders.states()).first(hostColliders.count());
+    return state_->colliders.hostColliders().states();
 }
 vk::BufferView Simulation::view(BufferId buffer) const noexcept {
     return state_->executor.view(buffer);

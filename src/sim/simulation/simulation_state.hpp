@@ -76,11 +76,12 @@ struct Simulation::State {
     bool hasContacts;  // of particles or faces
     Pace pace;         // of the last step; the leapfrog starts with a half kick
     Vec3 gravity{};    // of the last step [m/s^2]
-    // A finished step: its substeps, and the poses of colliders and host colliders at its end.
+    // A finished step: its substeps, and the poses of colliders and host colliders at its end. The list has
+    // its length from the start: recording allocates nothing.
     struct Settled {
         Pace pace{};
         double time = 0;
-        rigid::HostColliderStates hostColliders{};
+        rigid::HostColliderStates hostColliders;
     };
     // A step whose result the host has not read yet, and the state of the host at its end.
     struct Unsettled {
@@ -95,7 +96,7 @@ struct Simulation::State {
     struct Before {
         Pace pace{};
         double time = 0;
-        rigid::HostColliderStates hostColliders{};
+        rigid::HostColliderStates hostColliders;
         std::vector<layout::vec4> anchors;
         std::optional<grabs::GrabRequests> grabs;
         bool isUncut = false, hasNewTopology = false, isChanged = false;
@@ -131,7 +132,12 @@ struct Simulation::State {
           hasContacts(particlesTouch(scene) || facesTouch(scene)), unsettled(settings.framesInFlight),
           warned(warnings(scene)), untold(warned), befores(settings.framesInFlight),
           isKeptWhereUndone(settings.publishesVelocities && !keepsRemainders(scene, settings.substeps)) {
-        for (Before& one : befores) one.anchors.resize(anchors.values().size());
+        for (Before& one : befores) {
+            one.anchors.resize(anchors.values().size());
+            one.hostColliders.resize(settings.hostColliders);
+        }
+        for (Unsettled& one : unsettled) one.end.hostColliders.resize(settings.hostColliders);
+        settledEnd.hostColliders.resize(settings.hostColliders);
     }
 
     // Sizes of the results that a step reads back beside its status.
@@ -167,7 +173,7 @@ struct Simulation::State {
 
     // The last finished step before `frame`: the one in this slot of the ring if it has finished and was not
     // undone, else `end`.
-    Settled settled(std::uint64_t frame, const Settled& end) const {
+    const Settled& settled(std::uint64_t frame, const Settled& end) const {
         const Unsettled& step = unsettled[ring.slotOf(frame)];
         if (!step.isRecorded) return end;
         const std::uint64_t recorded = ring.step(frame).frame;
@@ -175,11 +181,11 @@ struct Simulation::State {
     }
 
     // The last finished step that was not undone.
-    Settled lastSettled() const {
-        Settled end = settledEnd;
+    const Settled& lastSettled() const {
+        const Settled* end = &settledEnd;
         for (std::uint64_t frame = 0; frame < ring.slots(); ++frame) // oldest first
-            end = settled(nextFrame + frame, end);
-        return end;
+            end = &settled(nextFrame + frame, *end);
+        return *end;
     }
 
     // Dispatch arguments of the passes that run only for host colliders: 0 groups without one.
@@ -360,7 +366,7 @@ struct Simulation::State {
     }
 
     void forgetUnsettled() noexcept {
-        std::ranges::fill(unsettled, Unsettled{});
+        for (Unsettled& one : unsettled) one.isRecorded = false;
         calmSteps = {};
         isNewState = true;
         beginGeneration();
@@ -400,10 +406,8 @@ struct Simulation::State {
     // Sets the host's part of the state.
     void moveTo(const SavedState& saved) noexcept {
         pace = {saved.h, saved.longestH};
-        rigid::HostColliderStates hostColliders{};
-        std::copy_n(saved.hostColliders.begin(), std::min(saved.hostColliders.size(), hostColliders.size()),
-                    hostColliders.begin());
-        settledEnd = {pace, saved.colliderTime, hostColliders};
+        colliders.moveTo(saved.colliderTime, saved.hostColliders);
+        noteEnd(settledEnd, pace);
         forgetUnsettled();
         undoneH = saved.undoneH;
         anchors.moveTo(saved.anchors);
@@ -411,7 +415,13 @@ struct Simulation::State {
         hasNewTopology = saved.hasNewTopology;
         isUncut = saved.isUncut;
         grabs.reset();
-        colliders.moveTo(saved.colliderTime, hostColliders);
+    }
+
+    // Sets `end` to where the colliders are now.
+    void noteEnd(Settled& end, const Pace& itsPace) const noexcept {
+        end.pace = itsPace;
+        end.time = colliders.time();
+        std::ranges::copy(colliders.hostColliders().states(), end.hostColliders.begin());
     }
 
     // Copies buffers into consecutive ranges of `copies`, or back from there.

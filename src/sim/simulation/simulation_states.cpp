@@ -81,14 +81,14 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
         state_->undoneH.reset(); // the copy contains the saved values of the last finite step
         return;
     }
-    const State::Settled end = other.lastSettled();
-    state_->settledEnd = end;
+    const State::Settled& end = other.lastSettled();
+    state_->colliders.moveTo(end.time, end.hostColliders);
+    state_->noteEnd(state_->settledEnd, end.pace);
     state_->follow(end.pace, other, isAlike);
     state_->anchors = other.anchors;
     if (isAlike) state_->grabs = other.grabs;
     state_->isUncut = other.isUncut;
     state_->hasNewTopology = other.hasNewTopology;
-    state_->colliders.moveTo(end.time, end.hostColliders);
 }
 
 std::unique_ptr<Carrying> Simulation::makeCarrying(const Simulation& to, const Origins& origins) const {
@@ -98,8 +98,9 @@ std::unique_ptr<Carrying> Simulation::makeCarrying(const Simulation& to, const O
 }
 
 void Simulation::State::carry(const State& other, const Origins& origins) noexcept {
-    const Settled end = other.lastSettled();
-    settledEnd = end;
+    const Settled& end = other.lastSettled();
+    colliders.moveTo(end.time, end.hostColliders);
+    noteEnd(settledEnd, end.pace);
     // Steps in flight have one h, else nothing is carried (isEndKnown()); H follows them, undone or not.
     follow({end.pace.h, other.pace.longest}, other, true);
     gravity = other.gravity;
@@ -113,7 +114,6 @@ void Simulation::State::carry(const State& other, const Origins& origins) noexce
     std::erase_if(untold, [&](const std::string& warning) {
         return std::ranges::find(other.warned, warning) != other.warned.end();
     });
-    colliders.moveTo(end.time, end.hostColliders);
 }
 
 void Simulation::recordCarried(VkCommandBuffer buffer, const Simulation& from, const Carrying& carrying,
@@ -154,7 +154,7 @@ bool Simulation::recordFilling(VkCommandBuffer buffer, VkDeviceSize most) noexce
 
 // The state on the device follows the steps in flight, undone or not, by the order of the queue.
 bool Simulation::State::isEndKnown() const noexcept {
-    const Settled known = lastSettled();
+    const Settled& known = lastSettled();
     for (std::uint64_t i = 0; i < ring.slots(); ++i) {
         const RecordedStep& step = ring.step(nextFrame + i);
         if (!step.isRecorded || ring.isFinished(step.frame)) continue;

@@ -8,7 +8,6 @@
 #include "sinew/bodies.hpp"
 #include "sinew/colliders.hpp"
 #include "sinew/substeps.hpp"
-#include "sinew/validate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -295,12 +294,6 @@ TEST(HostColliders, DoNotChangeTheChoiceOfSubsteps) {
         const Settings with{.hostColliders = 3};
         EXPECT_EQ(withSubsteps(scene, with).substeps, withSubsteps(scene, {}).substeps) << name;
     }
-}
-
-TEST(HostColliders, MoreThanThereCanBeAreRefusedByName) {
-    const auto sentences = validate(floatingBlock(), {.hostColliders = 9});
-    ASSERT_EQ(sentences.size(), 1u);
-    EXPECT_NE(sentences[0].find("settings.hostColliders"), std::string::npos) << sentences[0];
 }
 
 // Two balls that rest on the floor, far from each other.
