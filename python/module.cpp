@@ -162,6 +162,7 @@ void addSettings(py::module_& module) {
     add("warm_start", &SinewSettings::warmStart);
     addFlag("sleeps", &SinewSettings::sleeps);
     addFlag("keeps_forces", &SinewSettings::keepsForces);
+    addFlag("keeps_previous", &SinewSettings::keepsPrevious);
 }
 
 void addStepInput(py::module_& module) {
@@ -254,6 +255,8 @@ void addSimulation(py::module_& module) {
         .def("complaints", &Simulation::complaints)
         .def_property_readonly("positions", output(SINEW_POSITIONS))
         .def_property_readonly("velocities", output(SINEW_VELOCITIES))
+        .def_property_readonly("previous_positions", output(SINEW_PREVIOUS_POSITIONS))
+        .def_property_readonly("previous_skin_vertices", output(SINEW_PREVIOUS_SKIN_VERTICES))
         .def_property_readonly("skin_vertices", output(SINEW_SKIN_VERTICES))
         .def_property_readonly("skin_indices", output(SINEW_SKIN_INDICES))
         .def_property_readonly("pieces", output(SINEW_PIECES))

@@ -390,6 +390,9 @@ struct SINEW_API Settings {
     /// False saves 16 bytes a particle: the buffer of public velocities is omitted, and an undone step leaves
     /// its particles at rest.
     bool publishesVelocities = true;
+    /// Keeps the positions before the newest step, and the vertices of skins before the newest recordSkin(),
+    /// for motion vectors (Simulation::previousPositions, previousSkinVertices). Costs a copy of each.
+    bool keepsPrevious = false;
     /// Makes each kind of pass a phase of its own in the `timestamps` of a step (Simulation::phases).
     bool timesPasses = false;
     bool isReversed = false; ///< runs every kernel in reversed invocation order; the state must not change

@@ -268,6 +268,10 @@ public:
     /// Settings::publishesVelocities the view of velocities is empty.
     vk::BufferView positions() const noexcept;
     vk::BufferView velocities() const noexcept;
+    /// Positions at the start of the newest recorded step, as positions(). After a reset or a loaded state
+    /// the first step makes them. Those of an undone step equal positions(). Empty without
+    /// Settings::keepsPrevious.
+    vk::BufferView previousPositions() const noexcept;
     /// Pieces of cuttable bodies after the newest step. pieces() has for each particle a uint32, the particle
     /// that names its piece (one of its particles; 0xffffffff in other bodies, 0xfffffffe in removed pieces,
     /// Scene::debris). pieceSizes() has for each particle the size of the piece that it names, in particles,
@@ -277,6 +281,10 @@ public:
     /// layout::SkinVertex (position, normal; stride 32) and 32-bit triangle indices; empty views without
     /// skins.
     vk::BufferView skinVertices() const noexcept;
+    /// What skinVertices() held before the newest recordSkin(), in the same order; zeros after the first one
+    /// of this simulation, one that has taken over included. Vertices that a cut has made since have no such
+    /// place. Empty without Settings::keepsPrevious.
+    vk::BufferView previousSkinVertices() const noexcept;
     vk::BufferView skinIndices() const noexcept;
     const std::vector<SkinRange>& skins() const noexcept;
     /// Triangles to draw of the skins after recordSkin(): 32-bit indices into skinVertices(), and the range

@@ -375,6 +375,7 @@ typedef struct SinewSettings {
     uint32_t isReversed;                   // runs kernels in reversed order, with the same results
     uint32_t levels;                       // of `split`: coarse levels of bodies on grids, 0 to 6, or SINEW_AUTO_LEVELS
     uint32_t events, eventRoom;            // kinds listed, and events kept of a step: sinew_events.h
+    uint32_t keepsPrevious;                // keeps SINEW_PREVIOUS_POSITIONS and SINEW_PREVIOUS_SKIN_VERTICES
 } SinewSettings;
 // As many levels as win at equal error, by the kind of body, its size and the substeps.
 #define SINEW_AUTO_LEVELS 0xffffffffu
@@ -490,7 +491,9 @@ enum {
     SINEW_CUT_REST = 8,      // 64 bytes a vertex: position in the uncut body first
     SINEW_CUT_INDICES = 9,
     SINEW_CUT_DRAWS = 10, // two VkDrawIndexedIndirectCommand: inside, pieces of skins
-    SINEW_FORCE_SUMS = 11 // sums behind the impulses
+    SINEW_FORCE_SUMS = 11, // sums behind the impulses
+    SINEW_PREVIOUS_POSITIONS = 12,    // at the start of the newest step; SinewSettings::keepsPrevious
+    SINEW_PREVIOUS_SKIN_VERTICES = 13 // before the newest sinewRecordSkin(); SinewSettings::keepsPrevious
 };
 typedef struct SinewBufferView {
     VkBuffer buffer;           // null if there is nothing to view

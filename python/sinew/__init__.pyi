@@ -43,6 +43,7 @@ class Settings:
     warm_start: float
     sleeps: bool
     keeps_forces: bool
+    keeps_previous: bool  # for previous_positions and previous_skin_vertices
     events: Sequence[str]  # kinds that events() lists: contact_begins, contact_ends, cut, tear, pieces, sleeps, wakes, lacks_room
     event_room: int  # events kept of a step, at most 65536
 
@@ -129,6 +130,12 @@ class Simulation:
     @property
     def velocities(self) -> NDArray[np.float32]:
         """(n, 4): velocity [m/s], 0."""
+    @property
+    def previous_positions(self) -> NDArray[np.float32]:
+        """Positions at the start of the newest step; empty without Settings.keeps_previous."""
+    @property
+    def previous_skin_vertices(self) -> NDArray[np.float32]:
+        """What skin_vertices were before the newest update_skin(); empty without Settings.keeps_previous."""
     @property
     def skin_vertices(self) -> NDArray[np.float32]:
         """(n, 8): position [m], 1, normal, 0 of the skins, after update_skin()."""

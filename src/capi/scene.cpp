@@ -115,6 +115,7 @@ sim::Settings toSettings(const SinewSettings* settings) {
             .grabs = given.grabs,
             .hostColliders = given.hostColliders,
             .fields = given.fields,
+            .keepsPrevious = given.keepsPrevious != 0,
             .isReversed = given.isReversed != 0,
             .framesInFlight = given.framesInFlight};
 }
@@ -142,7 +143,8 @@ SinewSettings fromSettings(const sim::Settings& settings) {
             .isReversed = settings.isReversed ? 1u : 0u,
             .levels = settings.levels,
             .events = settings.events,
-            .eventRoom = settings.eventRoom};
+            .eventRoom = settings.eventRoom,
+            .keepsPrevious = settings.keepsPrevious ? 1u : 0u};
 }
 
 } // namespace sinew::capi

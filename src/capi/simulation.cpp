@@ -194,6 +194,10 @@ vk::BufferView viewOf(const SimulationObject& object, std::uint32_t output) {
         return simulation.cutSurface().draws;
     case SINEW_FORCE_SUMS:
         return simulation.forceSums();
+    case SINEW_PREVIOUS_POSITIONS:
+        return simulation.previousPositions();
+    case SINEW_PREVIOUS_SKIN_VERTICES:
+        return simulation.previousSkinVertices();
     default:
         invalidArgument("there is no output " + std::to_string(output));
     }

@@ -120,6 +120,14 @@ class Module(unittest.TestCase):
         simulation.step(host_colliders=[sinew.HostCollider("sphere", (9, 9, 9), radius=0.1)] * 257)
         self.assertIn("257 host colliders", simulation.complaints()[0])
 
+    def test_positions_before_the_newest_step_are_kept(self):
+        simulation = sinew.Simulation(self.device, cube(), sinew.Settings(substeps=4, keeps_previous=True))
+        simulation.step(3)
+        before = simulation.positions.copy()
+        simulation.step()
+        np.testing.assert_array_equal(simulation.previous_positions, before)
+        self.assertEqual(sinew.Simulation(self.device, cube()).previous_positions.size, 0)
+
     def test_impulses_carry_the_weight(self):
         scene = cube(height=0)
         simulation = sinew.Simulation(self.device, scene, sinew.Settings(keeps_forces=True))

@@ -120,6 +120,10 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     built.positions = program.upload("positions", positionsOf(start, inverseMass));
     if (settings.publishesVelocities)
         built.velocities = program.upload("velocities", velocitiesOf(scene, inverseMass));
+    if (settings.keepsPrevious) {
+        built.previousPositions = program.scratch<layout::vec4>("positions.previous", scene.particles.size());
+        program.addToState(built.previousPositions, built.previousPositions, {.of = Elements::particles});
+    }
     built.status = program.scratch<layout::StatusWords>("status", 1);
     built.parameters = program.scratch<layout::StepParams>("step", 1);
     if (scene.particles.empty()) return program.finish();
@@ -136,6 +140,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     program.beginPhase("begin");
     program.updateParameters(built.parameters);
     program.fill(built.status, 0);
+    if (settings.keepsPrevious) program.copy(built.positions, built.previousPositions);
     build.add(&Feature::begin);
     build.add(&Feature::cut); // begins a phase of its own
     program.beginPhase("solve");

@@ -43,6 +43,7 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
         const CutSurfaceBuffers& cut = program.cutSurface;
         const BufferId id{b};
         if (id == program.skinVertices || id == program.positions || id == program.velocities ||
+            id == program.previousPositions || id == program.previousSkinVertices ||
             id == program.cutting.pieces || id == cut.vertices || id == cut.rest)
             usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
         if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws)

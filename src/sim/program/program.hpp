@@ -352,6 +352,7 @@ struct StepProgram {
     std::uint32_t slotCount = 0;                          ///< of the state, empty ones included
     BufferId parameters, status, positions, velocities;   ///< public buffers; velocities may be invalid
     BufferId skinVertices, skinIndices;                   ///< invalid without skins
+    BufferId previousPositions, previousSkinVertices;     ///< invalid unless Settings::keepsPrevious
     BufferId wholeIndices;                                ///< of all skins: wholeTriangles, else triangles
     ContactBuffers contacts;
     std::vector<GridBuffers> grids; ///< one for each contact search that uses a grid

@@ -203,6 +203,12 @@ vk::BufferView Simulation::positions() const noexcept {
 vk::BufferView Simulation::velocities() const noexcept {
     return state_->executor.view(state_->program.velocities);
 }
+vk::BufferView Simulation::previousPositions() const noexcept {
+    return state_->executor.view(state_->program.previousPositions);
+}
+vk::BufferView Simulation::previousSkinVertices() const noexcept {
+    return state_->executor.view(state_->program.previousSkinVertices);
+}
 vk::BufferView Simulation::pieces() const noexcept {
     return state_->executor.view(state_->program.cutting.pieces);
 }

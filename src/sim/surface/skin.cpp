@@ -155,6 +155,13 @@ void addRaised(ProgramBuilder& program, const Scene& scene) {
                 list, [&] { program.dispatch(k::raiseVertices, count, buffers, layout::CountPush{count}); });
 }
 
+// Keeps the vertices of the skins recorded before.
+void addPrevious(ProgramBuilder& program) {
+    const StepProgram& built = program.program();
+    if (built.previousSkinVertices != BufferId{})
+        program.copy(built.skinVertices, built.previousSkinVertices);
+}
+
 // Appends the skins as drawn while nothing is cut.
 void addWholeSkins(ProgramBuilder& program, const Skins& skins) {
     const auto isSplit = [](const Skin& skin) { return !skin.wholeTriangles.empty(); };
@@ -164,6 +171,7 @@ void addWholeSkins(ProgramBuilder& program, const Skins& skins) {
     const std::uint32_t vertexCount = std::ranges::max(indices) + 1;
     program.program().wholeIndices = program.upload("skin.whole_indices", indices);
     program.into(List::wholeSkin, [&] {
+        addPrevious(program);
         addVertices(program, skins, wholeVertices);
         addNormals(program, program.program().wholeIndices,
                    uploadFans(program, indices, vertexCount, "skin.whole"), {vertexCount, vertexCount});
@@ -213,7 +221,11 @@ void addSkins(Build& build) {
     Skins all{skins, {}};
     for (const Skin& skin : skins)
         all.holders.push_back(skin.vertexCount() > 0 ? uploadHolders(program, skin) : BufferId{});
+    if (build.model.settings.keepsPrevious)
+        built.previousSkinVertices = program.scratch<layout::SkinVertex>(
+            "skin.previous_vertices", program.program().buffers[built.skinVertices.index].count);
     program.into(List::skin, [&] {
+        addPrevious(program);
         addVertices(program, all, allVertices);
         build.add(&Feature::skinNormals);
         addNormals(program, built.skinIndices, uploadFans(program, indices, vertexCount, "skin"),
