@@ -1,5 +1,7 @@
-// setenv() and unsetenv().
+// Sets the driver's variable and restores it.
 #include "app/driver_threads.hpp"
+
+#include "vk/environment.hpp"
 
 #include <cstdlib>
 
@@ -7,14 +9,11 @@ namespace sinew::app {
 
 WithoutDriverThreads::WithoutDriverThreads() {
     if (const char* before = std::getenv(driverThreadsVariable)) before_ = before;
-    setenv(driverThreadsVariable, "0", 1);
+    vk::setVariable(driverThreadsVariable, "0");
 }
 
 WithoutDriverThreads::~WithoutDriverThreads() {
-    if (before_)
-        setenv(driverThreadsVariable, before_->c_str(), 1);
-    else
-        unsetenv(driverThreadsVariable);
+    vk::setVariable(driverThreadsVariable, before_ ? before_->c_str() : nullptr);
 }
 
 } // namespace sinew::app

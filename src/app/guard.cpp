@@ -1,6 +1,7 @@
-// The table from exceptions to exit codes, and the signals that ask a run to end.
+// The table from exceptions to exit codes, and what happens when a signal asks a run to end.
 #include "app/guard.hpp"
 
+#include "app/signals.hpp"
 #include "mesh/export.hpp"
 #include "mesh/import.hpp"
 #include "sinew/vk/check.hpp"
@@ -12,14 +13,11 @@
 #include <cstdlib>
 #include <new>
 
-#include <sys/time.h>
 #include <unistd.h>
 
 namespace sinew::app {
 
 namespace {
-
-constexpr itimerval patience{.it_interval = {}, .it_value = {.tv_sec = 1, .tv_usec = 800'000}};
 
 constexpr std::chrono::milliseconds patienceForWaits{500}, betweenLooks{50};
 
@@ -35,19 +33,8 @@ std::size_t messagesSoFar() {
     return messages == nullptr ? 0 : messages->load();
 }
 
-// In handlers: setitimer is a system call and nothing else.
-void beginToWait() {
-    setitimer(ITIMER_REAL, &patience, nullptr);
-}
-
-extern "C" void countInterruption(int) {
-    if (interruptions == 0) interruptedAt = Clock::now().time_since_epoch().count();
-    interruptions = 1;
-    beginToWait();
-}
-
 // Neither destructors nor threads: they may wait for the device.
-extern "C" void leave(int) {
+void leave() noexcept {
     if (writings != 0) return;
     constexpr char line[] = "error: interrupted: the running work did not end within 2 s: nothing more was "
                             "written\n";
@@ -59,9 +46,10 @@ extern "C" void leave(int) {
     _exit(internalFault);
 }
 
-bool isIgnored(int signal) {
-    struct sigaction now {};
-    return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+void noteInterruption() noexcept {
+    if (interruptions == 0) interruptedAt = Clock::now().time_since_epoch().count();
+    interruptions = 1;
+    signals::startWaiting();
 }
 
 ExitCode codeOf(vk::Failure failure) {
@@ -120,21 +108,8 @@ int guarded(const std::function<int()>& body) noexcept {
 }
 
 void catchSignals() {
-    constexpr itimerval none{};
-    setitimer(ITIMER_REAL, &none, nullptr);
     interruptions = 0;
-    struct sigaction ending {};
-    ending.sa_handler = leave;
-    ending.sa_flags = SA_RESTART;
-    sigaction(SIGALRM, &ending, nullptr);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
-        if (signal == SIGHUP && isIgnored(signal)) continue; // nohup: the run outlives its terminal
-        struct sigaction action {};
-        action.sa_handler = countInterruption;
-        // Once: whoever asks a second time wants the process gone.
-        action.sa_flags = signal == SIGPIPE ? SA_RESTART : static_cast<int>(SA_RESTART | SA_RESETHAND);
-        sigaction(signal, &action, nullptr);
-    }
+    signals::install({.interrupt = noteInterruption, .leave = leave});
 }
 
 bool isInterrupted() noexcept {
@@ -176,7 +151,7 @@ Writing::Writing() noexcept {
 
 Writing::~Writing() {
     writings = 0;
-    if (isInterrupted()) beginToWait();
+    if (isInterrupted()) signals::startWaiting();
 }
 
 } // namespace sinew::app

@@ -4,6 +4,7 @@
 #include "sinew/simulation.hpp"
 #include "sinew/vk/loader.hpp"
 #include "sinew/vk/queue.hpp"
+#include "vk/environment.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -64,7 +65,7 @@ void prepareThreadAdvice() {
     if (std::getenv(driverThreadsVariable)) return;
     const unsigned processors = std::thread::hardware_concurrency();
     if (processors < 2) return; // lavapipe has no threads then
-    setenv(driverThreadsVariable, std::to_string(processors).c_str(), 1);
+    vk::setVariable(driverThreadsVariable, std::to_string(processors).c_str());
     mayAdvise = true;
 }
 

@@ -18,7 +18,7 @@ DescriptorBuffer::int_type DescriptorBuffer::overflow(int_type character) {
 
 int DescriptorBuffer::sync() {
     for (const char* next = pbase(); next != pptr() && error_ == 0;) {
-        const ssize_t written = write(descriptor_, next, static_cast<std::size_t>(pptr() - next));
+        const ssize_t written = write(descriptor_, next, static_cast<unsigned>(pptr() - next)); // one buffer
         if (written >= 0)
             next += written;
         else if (errno != EINTR)

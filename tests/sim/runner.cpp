@@ -3,6 +3,7 @@
 
 #include "sim/compile/compile.hpp"
 #include "sim/core/hash.hpp"
+#include "vk/environment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,10 @@ unsigned kindOf(const sim::Step& step) {
 
 // Without a thread pool, small scenes are several times faster on a software device. An existing value of the
 // variable is kept.
-[[maybe_unused]] const bool hasThreadDefault = setenv("LP_NUM_THREADS", "0", 0) == 0;
+[[maybe_unused]] const bool hasThreadDefault = [] {
+    if (std::getenv("LP_NUM_THREADS") == nullptr) vk::setVariable("LP_NUM_THREADS", "0");
+    return true;
+}();
 
 std::vector<Eigen::Vector3d> download(const vk::BufferView& view, std::size_t count) {
     std::vector<Eigen::Vector3d> result;

@@ -86,7 +86,7 @@ SharedDevice& registerSharedDevice(bool hasValidation) {
     return *shared;
 }
 
-SharedDevice& validated = registerSharedDevice(true);
+SharedDevice& validated = registerSharedDevice(!isUnvalidated());
 SharedDevice& tested = isPlayed() ? registerSharedDevice(false) : validated;
 
 } // namespace

@@ -1,6 +1,8 @@
 // Uses raw Vulkan, so that Device::borrow is tested without help from Device::create.
 #include "support/host_device.hpp"
 
+#include "support/full.hpp"
+
 #include "sinew/vk/check.hpp"
 
 #include <algorithm>
@@ -78,11 +80,11 @@ void HostDevice::makeInstance(const HostRequest& request) {
     const char* layer = "VK_LAYER_KHRONOS_validation";
     const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
     const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                    .pNext = &features,
+                                    .pNext = isUnvalidated() ? nullptr : &features,
                                     .pApplicationInfo = &application,
-                                    .enabledLayerCount = 1,
+                                    .enabledLayerCount = isUnvalidated() ? 0u : 1u,
                                     .ppEnabledLayerNames = &layer,
-                                    .enabledExtensionCount = 2,
+                                    .enabledExtensionCount = isUnvalidated() ? 1u : 2u,
                                     .ppEnabledExtensionNames = extensions};
     const auto create =
         reinterpret_cast<PFN_vkCreateInstance>(loader_.getInstanceProcAddr()(nullptr, "vkCreateInstance"));

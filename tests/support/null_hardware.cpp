@@ -2,6 +2,7 @@
 #include "support/null_hardware.hpp"
 
 #include "sinew/vk/check.hpp"
+#include "vk/environment.hpp"
 
 #include <algorithm>
 #include <array>
@@ -212,16 +213,11 @@ class Variable {
 public:
     Variable(const char* name, const std::string& value) : name_(name) {
         if (const char* before = std::getenv(name)) before_ = before;
-        setenv(name, value.c_str(), 1);
+        vk::setVariable(name, value.c_str());
     }
     Variable(const Variable&) = delete;
     Variable& operator=(const Variable&) = delete;
-    ~Variable() {
-        if (before_)
-            setenv(name_, before_->c_str(), 1);
-        else
-            unsetenv(name_);
-    }
+    ~Variable() { vk::setVariable(name_, before_ ? before_->c_str() : nullptr); }
 
 private:
     const char* name_;

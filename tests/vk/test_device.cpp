@@ -5,6 +5,7 @@
 
 #include "sinew/vk/check.hpp"
 #include "vk/choice.hpp"
+#include "vk/environment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,14 +45,9 @@ class Environment {
 public:
     Environment(const char* name, const char* value) : name_(name) {
         if (const char* old = std::getenv(name)) old_ = old;
-        setenv(name, value, 1);
+        vk::setVariable(name, value);
     }
-    ~Environment() {
-        if (old_)
-            setenv(name_, old_->c_str(), 1);
-        else
-            unsetenv(name_);
-    }
+    ~Environment() { vk::setVariable(name_, old_ ? old_->c_str() : nullptr); }
     Environment(const Environment&) = delete;
     Environment& operator=(const Environment&) = delete;
 

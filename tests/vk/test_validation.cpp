@@ -4,6 +4,8 @@
 #include "support/host_device.hpp"
 #include "test_kernels.hpp"
 
+#include "vk/environment.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -304,7 +306,7 @@ TEST(Layer, LooksAcrossCommandBuffersAndSubmissionsWithItsSwitch) {
 
 TEST(Layer, LooksAcrossNothingWithoutItsSwitch) {
     device(); // the shared device must read the variable before it is restored
-    unsetenv("VK_LAYER_ENABLES");
+    vk::setVariable("VK_LAYER_ENABLES", nullptr);
     for (const bool areOneSubmit : {true, false})
         EXPECT_EQ(messagesAcrossSubmissions(areOneSubmit), std::vector<std::string>{})
             << "the switch is no longer needed: drop it";

@@ -1,4 +1,5 @@
-// Locks with flock, which the kernel releases when a process dies, so that no stale lock remains.
+// Locks with flock, or on Windows by a file that only one process may open. The system releases both when a
+// process dies, so that no stale lock remains.
 #include "sinew/outputs.hpp"
 
 #include "app/guard.hpp"
@@ -15,9 +16,15 @@
 #include <string_view>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#ifdef _WIN32
+#include <io.h>
+#include <share.h>
+#else
+#include <sys/file.h>
+#endif
 
 namespace sinew::tools {
 
@@ -72,6 +79,45 @@ std::size_t lengthOfLetter(std::string_view text) {
     return isEncoded && !isMark ? length : 0;
 }
 
+#ifdef _WIN32
+bool mayWriteInto(const fs::path& folder) {
+    return ::_waccess(folder.c_str(), W_OK) == 0;
+}
+
+int openLock(const fs::path& file) {
+    int lock = -1;
+    ::_wsopen_s(&lock, file.c_str(), _O_CREAT | _O_RDWR | _O_NOINHERIT | _O_TEMPORARY, _SH_DENYRW,
+                _S_IREAD | _S_IWRITE);
+    return lock;
+}
+
+bool isHeld(int error) {
+    return error == EACCES;
+}
+
+bool isOurs(int) {
+    return true;
+}
+#else
+bool mayWriteInto(const fs::path& folder) {
+    return ::access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
+int openLock(const fs::path& file) {
+    return ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0644);
+}
+
+bool isHeld(int) {
+    return false;
+}
+
+// An unlinked file belonged to a run that has just ended; a third run may hold a new one.
+bool isOurs(int lock) {
+    struct stat status {};
+    return ::flock(lock, LOCK_EX | LOCK_NB) == 0 && ::fstat(lock, &status) == 0 && status.st_nlink != 0;
+}
+#endif
+
 } // namespace
 
 TextOutput::TextOutput(std::string target) : target_(std::move(target)) {
@@ -81,8 +127,7 @@ TextOutput::TextOutput(std::string target) : target_(std::move(target)) {
     std::error_code error;
     if (fs::is_directory(file, error)) fail(target_, "is a folder", "name a file");
     if (!fs::is_directory(folder, error)) fail(target_, "its folder does not exist", "make the folder first");
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        fail(target_, std::strerror(errno), "choose another folder");
+    if (!mayWriteInto(folder)) fail(target_, std::strerror(errno), "choose another folder");
 }
 
 void TextOutput::write(const std::string& text) const {
@@ -98,20 +143,17 @@ OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)), lockFi
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error) fail(folder_.string(), error.message(), "choose another folder");
-    lock_ = ::open(lockFile_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0644);
-    if (lock_ < 0) fail(folder_.string(), std::strerror(errno), "choose another folder");
-    struct stat status {};
-    const bool isLocked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0;
-    // An unlinked file belonged to a run that has just ended; a third run may hold a new one.
-    if (!isLocked || ::fstat(lock_, &status) != 0 || status.st_nlink == 0) {
-        ::close(lock_);
+    lock_ = openLock(lockFile_);
+    if (lock_ < 0 && !isHeld(errno)) fail(folder_.string(), std::strerror(errno), "choose another folder");
+    if (lock_ < 0 || !isOurs(lock_)) {
+        if (lock_ >= 0) ::close(lock_);
         fail(folder_.string(), "another run writes there", "wait for it or choose another folder");
     }
 }
 
 OutputFolder::~OutputFolder() {
     std::error_code error;
-    fs::remove(lockFile_, error);
+    fs::remove(lockFile_, error); // not on Windows, which removes it when it is closed
     ::close(lock_);
 }
 

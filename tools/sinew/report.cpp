@@ -4,13 +4,12 @@
 #include "sim/compile/compile.hpp"
 #include "sim/core/counted.hpp"
 #include "sinew/json.hpp"
+#include "sinew/system.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
-
-#include <sys/resource.h>
 
 namespace sinew::tools {
 
@@ -23,12 +22,6 @@ std::vector<std::string> distinctPasses(const sim::StepProgram& program) {
     for (const sim::Pass& pass : program[sim::List::step])
         if (seen.insert(pass.label).second) labels.push_back(pass.label);
     return labels;
-}
-
-double peakMemoryMib() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024; // Linux counts KiB
 }
 
 Json stepJson(const RunRecord& record) {
@@ -303,7 +296,7 @@ std::string toJson(const RunRecord& record) {
     json["overflow"] = overflowJson(record);
     json["sleeping"] = sleepJson(record);
     json["state_hash"] = fmt::format("{:016x}", stateHash(record.state));
-    json["peak_memory_mib"] = peakMemoryMib();
+    json["peak_memory_mib"] = peakResidentMib();
     json["validation"] = record.hasValidation;
     json["validation_messages"] = record.validationMessages;
     json["warnings"] = record.loaded.warnings;

@@ -2,27 +2,14 @@
 #include "sinew/trace.hpp"
 
 #include "app/guard.hpp"
+#include "sinew/system.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
 
-#include <unistd.h>
-
 namespace sinew::tools {
-
-namespace {
-
-// Resident memory of this process [MiB], from the second word of Linux's statm.
-double residentMib() {
-    std::ifstream stream("/proc/self/statm");
-    double all = 0, resident = 0; // pages
-    stream >> all >> resident;
-    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024 * 1024);
-}
-
-} // namespace
 
 Sample sampleOf(const sim::Scene& scene, Runner& runner) {
     const State state = runner.readState();

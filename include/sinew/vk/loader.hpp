@@ -13,7 +13,8 @@ namespace sinew::vk {
 class SINEW_API Loader {
 public:
     /// Opens `library` with dlopen; without a name the first existing one of libvulkan.so.1, libvulkan.so,
-    /// libvulkan.1.dylib and libMoltenVK.dylib. Throws Error(noDevice) with the library and the reason.
+    /// libvulkan.1.dylib and libMoltenVK.dylib. On Windows with LoadLibrary, and vulkan-1.dll. Throws
+    /// Error(noDevice) with the library and the reason.
     explicit Loader(const std::string& library = "");
     ~Loader();
     Loader(const Loader&) = delete;

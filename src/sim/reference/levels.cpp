@@ -14,10 +14,10 @@ namespace {
 using Node = Levels::Node;
 using Bond = Levels::Bond;
 using Level = Levels::Level;
-using Place = std::array<long, 3>;
+using Place = std::array<std::int64_t, 3>;
 using Positions = std::vector<Eigen::Vector3d>;
 
-Place sum(Place a, const Place& b, long sign) {
+Place sum(Place a, const Place& b, std::int64_t sign) {
     for (std::size_t d = 0; d < 3; ++d) a[d] += sign * b[d];
     return a;
 }

@@ -4,6 +4,9 @@
 
 #include "sim/reference/problem.hpp"
 
+#include <array>
+#include <cstdint>
+
 namespace sinew::sim::reference {
 
 /// The limits of a link between particles: its stiffness [N/m], and the most that it has times h^2 [kg].
@@ -22,7 +25,7 @@ public:
                    std::vector<Eigen::Vector3d>& force) const;
 
     struct Node { // of a level: a particle, or a block
-        std::array<long, 3> place{};
+        std::array<std::int64_t, 3> place{};
         Eigen::Vector3d rest{0, 0, 0};
         double inverseMass = 0, importance = 1;
         std::size_t parent = 0; // block of the next level, and the weight there
@@ -30,7 +33,7 @@ public:
     };
     struct Bond {
         std::size_t a = 0, b = 0;
-        std::array<long, 3> step{};
+        std::array<std::int64_t, 3> step{};
         double length = 0, stiffness = 0, most = 0;
     };
     struct Level {

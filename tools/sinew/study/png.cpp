@@ -4,21 +4,33 @@
 #include <array>
 #include <string>
 
+#ifdef _WIN32
+#include <process.h>
+#else
+#include <cerrno>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 extern char** environ;
+#endif
 
 namespace sinew::tools::study {
 
 namespace fs = std::filesystem;
 
-bool convertToPng(const fs::path& svg, const fs::path& png) {
-    const std::string partial = png.string() + ".part", input = svg.string();
-    std::array<const char*, 6> arguments{"rsvg-convert",  "--zoom=2",    "-o",
-                                         partial.c_str(), input.c_str(), nullptr};
+namespace {
+
+using Arguments = std::array<const char*, 6>; // the last one is null
+
+/// Whether the program that the first argument names was found and ended well.
+#ifdef _WIN32
+bool runs(const Arguments& arguments) {
+    return _spawnvp(_P_WAIT, arguments[0], arguments.data()) == 0;
+}
+#else
+bool runs(const Arguments& arguments) {
     posix_spawn_file_actions_t files{};
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
@@ -29,7 +41,15 @@ bool convertToPng(const fs::path& svg, const fs::path& png) {
     posix_spawn_file_actions_destroy(&files);
     while (isStarted && waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    const bool isDone = isStarted && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    return isStarted && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+#endif
+
+} // namespace
+
+bool convertToPng(const fs::path& svg, const fs::path& png) {
+    const std::string partial = png.string() + ".part", input = svg.string();
+    const bool isDone = runs({"rsvg-convert", "--zoom=2", "-o", partial.c_str(), input.c_str(), nullptr});
     std::error_code error;
     if (isDone) fs::rename(partial, png, error);
     if (isDone && !error) return true;

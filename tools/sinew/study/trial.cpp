@@ -4,6 +4,7 @@
 #include "app/guard.hpp"
 #include "sinew/statistics.hpp"
 #include "sinew/study/analysis.hpp"
+#include "sinew/system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +35,8 @@ std::vector<double> Trial::repeatMs() const {
 }
 
 void Trial::add(const std::vector<double>& ms) {
-    double load = 0;
-    if (getloadavg(&load, 1) != 1) load = 0;
     frameMs.insert(frameMs.end(), ms.begin(), ms.end());
-    repeats.push_back({ms.size(), load});
+    repeats.push_back({ms.size(), loadAverage()});
 }
 
 void compareWithTruth(Session& session, const StudyScene& scene, const Truth& truth, Trial& trial) {
