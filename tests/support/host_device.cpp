@@ -57,7 +57,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT,
 
 HostDevice::HostDevice(const HostRequest& request) {
     makeInstance(request);
-    makeDevice();
+    makeDevice(request.queues);
     replacements = {loader_.getInstanceProcAddr(), instanceFunctions_.vkGetDeviceProcAddr, {}};
     if (request.hasDebugUtils) extensions_.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 }
@@ -101,7 +101,7 @@ void HostDevice::makeInstance(const HostRequest& request) {
               "vkCreateDebugUtilsMessengerEXT", "the host");
 }
 
-void HostDevice::makeDevice() {
+void HostDevice::makeDevice(std::uint32_t queues) {
     std::uint32_t count = 1;
     if (instanceFunctions_.vkEnumeratePhysicalDevices(instance_, &count, &physical_) < 0 || count == 0)
         throw vk::Error(vk::Failure::noDevice, "the host finds no device");
@@ -113,11 +113,12 @@ void HostDevice::makeDevice() {
             return (family.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
         });
     family_ = static_cast<std::uint32_t>(computes - families.begin());
-    const float priority = 1;
+    queueCount_ = std::min(queues, families.at(family_).queueCount);
+    const std::vector<float> priorities(queueCount_, 1.0f);
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = family_,
-                                        .queueCount = 1,
-                                        .pQueuePriorities = &priority};
+                                        .queueCount = queueCount_,
+                                        .pQueuePriorities = priorities.data()};
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue};
@@ -135,6 +136,12 @@ vk::HostDevice HostDevice::handles() const {
             .enabledInstanceExtensions = extensions_};
 }
 
+VkQueue HostDevice::queue(std::uint32_t index) const {
+    VkQueue queue = VK_NULL_HANDLE;
+    functions_.vkGetDeviceQueue(device_, family_, std::min(index, queueCount_ - 1), &queue);
+    return queue;
+}
+
 void HostDevice::replace(const std::string& name, PFN_vkVoidFunction replacement) {
     replacements.functions[name] = replacement;
 }
@@ -145,8 +152,6 @@ PFN_vkVoidFunction HostDevice::original(const std::string& name) const {
 }
 
 void HostDevice::submit(const std::function<void(VkCommandBuffer)>& record) {
-    VkQueue queue = VK_NULL_HANDLE;
-    functions_.vkGetDeviceQueue(device_, family_, 0, &queue);
     const VkCommandPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                            .queueFamilyIndex = family_};
     VkCommandPool pool = VK_NULL_HANDLE;
@@ -167,7 +172,7 @@ void HostDevice::submit(const std::function<void(VkCommandBuffer)>& record) {
     vk::check(functions_.vkCreateFence(device_, &fenceInfo, nullptr, &fence), "vkCreateFence", "the host");
     const VkSubmitInfo submitInfo{
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
-    vk::check(functions_.vkQueueSubmit(queue, 1, &submitInfo, fence), "vkQueueSubmit", "the host");
+    vk::check(functions_.vkQueueSubmit(queue(0), 1, &submitInfo, fence), "vkQueueSubmit", "the host");
     const std::chrono::nanoseconds longest = longestSubmission;
     const VkResult result =
         functions_.vkWaitForFences(device_, 1, &fence, VK_TRUE, static_cast<std::uint64_t>(longest.count()));

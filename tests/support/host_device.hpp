@@ -1,4 +1,4 @@
-// Instance and device as another engine makes them: without optional features, with one queue, its own
+// Instance and device as another engine makes them: without optional features, with one queue or two, its own
 // messenger and, if a test requests it, replaced Vulkan functions.
 #pragma once
 
@@ -13,6 +13,7 @@ namespace sinew::test {
 struct HostRequest {
     bool hasGpuAssistedValidation = false; ///< instead of synchronisation validation
     bool hasDebugUtils = true;             ///< whether Sinew gets it; the host always has a messenger
+    std::uint32_t queues = 1;              ///< fewer if the family has fewer
 };
 
 /// One object at a time. The destructor destroys device and instance, upon which the layer reports leaks.
@@ -28,6 +29,11 @@ public:
     const vk::InstanceFunctions& instanceFunctions() const noexcept { return instanceFunctions_; }
     const vk::DeviceFunctions& functions() const noexcept { return functions_; }
 
+    std::uint32_t queueFamily() const noexcept { return family_; }
+    /// One of the device's queues, of one family; the last one if there are fewer.
+    VkQueue queue(std::uint32_t index) const;
+    std::uint32_t queueCount() const noexcept { return queueCount_; }
+
     /// Gives Sinew `replacement` instead of the instance or device function `name`.
     void replace(const std::string& name, PFN_vkVoidFunction replacement);
     /// The loader's function of this name, for a replacement that forwards calls.
@@ -42,7 +48,7 @@ public:
 
 private:
     void makeInstance(const HostRequest& request);
-    void makeDevice();
+    void makeDevice(std::uint32_t queues);
 
     vk::Loader loader_;
     std::vector<std::string> messages_;
@@ -53,7 +59,7 @@ private:
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
-    std::uint32_t family_ = 0;
+    std::uint32_t family_ = 0, queueCount_ = 1;
 };
 
 } // namespace sinew::test
