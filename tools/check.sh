@@ -7,5 +7,5 @@ python3 tools/check_layers.py
 python3 tools/figures.py --check
 python3 tools/gallery.py --check
 python3 tools/check_docs.py
-find include src apps tools tests python \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 clang-format --dry-run --Werror
+find include src apps tools tests python examples \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 clang-format --dry-run --Werror
 echo "format: good"

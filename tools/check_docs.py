@@ -15,7 +15,7 @@ MOST_LINES, MOST_COLUMNS = 150, 110
 REFERENCES = ["CHANGELOG.md"] + [f"docs/{name}.md" for name in ("scene-files", "report", "accuracy", "performance")]
 # The first words that no sentence of a page may have: a sentence names its subject first.
 FIRST_WORDS = re.compile(r"(?:^|[.:;!?]\s+|\|\s+)(?:[*]+ ?)?(Of|What|Which|Likewise|Where|Who|As|The same)\b")
-SOURCES = ("src", "include", "shaders", "apps", "tools", "tests", "python", "cmake", "scenes")
+SOURCES = ("src", "include", "shaders", "apps", "tools", "tests", "python", "cmake", "scenes", "examples")
 SUFFIXES = {".cpp", ".hpp", ".h", ".inc", ".comp", ".glsl", ".vert", ".frag", ".cmake", ".txt", ".toml", ".sh", ".py", ".json"}
 FOLDERS = ["", "src/", "include/", "include/sinew/", "apps/viewer/", "docs/", "tests/", "src/mesh/", "tests/sim/collision/", "tests/scenes/",
            "tests/viewer/", "src/sim/", "shaders/glsl/"]
@@ -23,7 +23,7 @@ FOLDERS += [f"{folder.relative_to(ROOT).as_posix()}/" for top in ("src/sim", "sh
             if folder.is_dir()]
 # Rules for comments of these folders: the largest share that may begin with one of these words, and no citation of a document
 # by a section, in brackets, that is not in the repository.
-COMMENTED = ("src", "include", "shaders", "apps", "tools", "tests", "python")
+COMMENTED = ("src", "include", "shaders", "apps", "tools", "tests", "python", "examples")
 MOST_UNCLEAR = 0.02
 UNCLEAR_FIRST_WORDS = re.compile(r"(?:Of|What|Who|Whoever|Where|Which|Likewise)\b")
 CITATION = re.compile(r"\((?:(?:methods|contacts|cases|lattice|cutting|skins|platform|reliability): |[a-z-]+: (?:[A-Z]\d?|\d[\d.]*)[,;)])")
