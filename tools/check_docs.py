@@ -12,7 +12,7 @@ PAGES = ["README.md"] + [f"docs/{name}.md" for name in (
     "embedding", "c-and-python", "gallery", "viewer", "viewer-inside", "extending", "extending-viewer", "limits", "glossary")]
 MOST_LINES, MOST_COLUMNS = 150, 110
 # Pages of reference, of any length and width.
-REFERENCES = ["CHANGELOG.md"] + [f"docs/{name}.md" for name in ("scene-files", "report", "accuracy", "performance")]
+REFERENCES = ["CHANGELOG.md"] + [f"docs/{name}.md" for name in ("scene-files", "report", "accuracy", "performance", "platforms")]
 # The first words that no sentence of a page may have: a sentence names its subject first.
 FIRST_WORDS = re.compile(r"(?:^|[.:;!?]\s+|\|\s+)(?:[*]+ ?)?(Of|What|Which|Likewise|Where|Who|As|The same)\b")
 SOURCES = ("src", "include", "shaders", "apps", "tools", "tests", "python", "cmake", "scenes", "examples")
