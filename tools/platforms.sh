@@ -64,7 +64,7 @@ case $platform in
         options+=(-DCMAKE_TOOLCHAIN_FILE=cmake/toolchains/arm64.cmake)
         run=(qemu-aarch64 -L "$root") steps=4 filter=$layered
         export SINEW_UNVALIDATED=1
-        programs=(test_vk test_determinism test_physics test_gauss_seidel test_forces test_saved_state) # qemu takes 20 times as long
+        programs=(test_vk test_determinism test_physics test_gauss_seidel test_forces test_saved_state) # qemu takes some 100 times as long
         ;;
     clang)
         options+=(-DCMAKE_CXX_COMPILER=clang++)
