@@ -39,6 +39,15 @@ bool isAbsolute(const char* path) {
     return path != nullptr && fs::path(path).is_absolute();
 }
 
+// Only files that keep() has written: the folder may be shared with other programs.
+bool isOurs(const fs::directory_entry& entry) {
+    std::error_code error;
+    if (entry.path().extension() != ending || !entry.is_regular_file(error) || error) return false;
+    std::string first(title.size(), '\0');
+    std::ifstream stream(entry.path(), std::ios::binary);
+    return stream.read(first.data(), static_cast<std::streamsize>(first.size())) && first == title;
+}
+
 } // namespace
 
 fs::path cacheFolder(const char* own, const char* xdg, const char* home) {
@@ -49,8 +58,12 @@ fs::path cacheFolder(const char* own, const char* xdg, const char* home) {
     return {};
 }
 
-UserCache::UserCache()
-    : folder_(cacheFolder(std::getenv(cacheVariable), std::getenv("XDG_CACHE_HOME"), std::getenv("HOME"))) {}
+UserCache::UserCache() {
+    // Read once: other threads may change the environment later.
+    static const fs::path folder =
+        cacheFolder(std::getenv(cacheVariable), std::getenv("XDG_CACHE_HOME"), std::getenv("HOME"));
+    folder_ = folder;
+}
 
 fs::path UserCache::fileOf(const std::string& kind, const std::string& key) const {
     char number[20];
@@ -84,7 +97,7 @@ void UserCache::keep(const std::string& kind, const std::string& key,
         if (folder_.empty() || head.size() + bytes.size() + sizeof(std::uint64_t) > mostBytes ||
             std::ranges::equal(find(kind, key), bytes))
             return;
-        fs::create_directories(folder_);
+        if (fs::create_directories(folder_)) fs::permissions(folder_, fs::perms::owner_all);
         mesh::writeWhole(fileOf(kind, key), [&](std::ostream& stream) {
             const std::uint64_t hash = hashOf(head, bytes);
             stream << head << textOf(bytes);
@@ -100,7 +113,7 @@ void UserCache::deleteOldest() const {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
         std::error_code error;
         const fs::file_time_type time = entry.last_write_time(error);
-        if (!error && entry.path().extension() == ending) files.emplace_back(time, entry.path());
+        if (!error && isOurs(entry)) files.emplace_back(time, entry.path());
     }
     std::ranges::sort(files);
     for (std::size_t f = 0; f + mostFiles < files.size(); ++f) {

@@ -100,8 +100,9 @@ TEST_F(Cache, TakesADamagedOrForeignFileForNone) {
 
 TEST_F(Cache, HasABoundedSizeAndDeletesTheOldest) {
     const UserCache cache(folder);
-    write(folder / "of others", "1");
     const auto now = fs::file_time_type::clock::now();
+    write(folder / "others.cache", "1");
+    fs::last_write_time(folder / "others.cache", now - std::chrono::hours(1000));
     for (std::size_t i = 0; i < UserCache::mostFiles + 3; ++i) {
         cache.keep("a", std::to_string(i), bytesOf("1"));
         for (const fs::path& file : files())
@@ -109,6 +110,7 @@ TEST_F(Cache, HasABoundedSizeAndDeletesTheOldest) {
                 fs::last_write_time(file, now - std::chrono::hours(100 - i));
     }
     EXPECT_EQ(files().size(), UserCache::mostFiles + 1);
+    EXPECT_TRUE(fs::exists(folder / "others.cache"));
     EXPECT_TRUE(cache.find("a", "2").empty());
     EXPECT_FALSE(cache.find("a", "3").empty());
     cache.keep("b", "", std::vector<std::byte>(UserCache::mostBytes));
@@ -163,6 +165,45 @@ TEST_F(CacheOnADevice, MeasuresFormsOnceAndRemembersThem) {
               app::FormSource::measured);
     EXPECT_EQ(app::chooseForms(device, queue, scene, {.solver = sim::Solver::jacobi}, cache).source,
               app::FormSource::usual);
+}
+
+namespace {
+
+// The bytes of the last pipeline cache that a device was made with, through functions that stand between.
+std::string initial;
+PFN_vkGetInstanceProcAddr instanceFunctions = nullptr;
+PFN_vkGetDeviceProcAddr deviceFunctions = nullptr;
+PFN_vkCreatePipelineCache createCache = nullptr;
+
+VKAPI_ATTR VkResult VKAPI_CALL noteCache(VkDevice device, const VkPipelineCacheCreateInfo* info,
+                                         const VkAllocationCallbacks* allocator, VkPipelineCache* cache) {
+    initial.assign(static_cast<const char*>(info->pInitialData), info->initialDataSize);
+    return createCache(device, info, allocator, cache);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceFunction(VkDevice device, const char* name) {
+    if (std::string_view(name) != "vkCreatePipelineCache") return deviceFunctions(device, name);
+    createCache = reinterpret_cast<PFN_vkCreatePipelineCache>(deviceFunctions(device, name));
+    return reinterpret_cast<PFN_vkVoidFunction>(&noteCache);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceFunction(VkInstance instance, const char* name) {
+    const PFN_vkVoidFunction found = instanceFunctions(instance, name);
+    if (std::string_view(name) != "vkGetDeviceProcAddr") return found;
+    deviceFunctions = reinterpret_cast<PFN_vkGetDeviceProcAddr>(found);
+    return reinterpret_cast<PFN_vkVoidFunction>(&deviceFunction);
+}
+
+} // namespace
+
+TEST_F(CacheOnADevice, GivesKeptPipelinesToTheDriver) {
+    app::keepPipelines(device, cache);
+    instanceFunctions = loader.getInstanceProcAddr();
+    const vk::Device without = app::createDevice(&instanceFunction, {}, UserCache(fs::path()));
+    EXPECT_TRUE(initial.empty());
+    const vk::Device with = app::createDevice(&instanceFunction, {}, cache);
+    EXPECT_FALSE(initial.empty());
+    EXPECT_NE(contents(files().at(0)).find(initial), std::string::npos) << "the bytes of the file";
 }
 
 TEST_F(CacheOnADevice, KeepsPipelinesForThisDeviceAlone) {
