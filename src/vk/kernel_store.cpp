@@ -43,12 +43,15 @@ std::vector<std::shared_ptr<const Kernel>> KernelStore::getAll(const Device& dev
     };
     std::vector<std::future<std::size_t>> others; // each returns the pipelines that it made
     const std::size_t threads = std::min<std::size_t>(threads_, requests.size());
-    for (std::size_t t = 1; t < threads; ++t)
-        others.push_back(std::async(std::launch::async, [&] {
-            const std::size_t before = pipelinesMade(); // an identity may be that of an earlier thread
-            work();
-            return pipelinesMade() - before;
-        }));
+    try {
+        for (std::size_t t = 1; t < threads; ++t)
+            others.push_back(std::async(std::launch::async, [&] {
+                const std::size_t before = pipelinesMade(); // an identity may be that of an earlier thread
+                work();
+                return pipelinesMade() - before;
+            }));
+    } catch (const std::system_error&) { // no more threads: those that run make all
+    }
     std::exception_ptr error;
     const auto attempt = [&](const auto& part) {
         try {
