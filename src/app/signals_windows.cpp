@@ -16,9 +16,12 @@ Handlers installed{};
 std::atomic<bool> isAsked = false;
 std::atomic<unsigned> waits = 0; // a newer one makes those before it void
 
-BOOL WINAPI answer(DWORD) {
+BOOL WINAPI answer(DWORD event) {
     if (isAsked.exchange(true)) return FALSE; // a second time: the system ends the process
     installed.interrupt();
+    // The system ends the process of a closed console, or of a user who leaves, when this returns, or some
+    // seconds later.
+    if (event != CTRL_C_EVENT && event != CTRL_BREAK_EVENT) Sleep(INFINITE);
     return TRUE;
 }
 
