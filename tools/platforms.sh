@@ -68,7 +68,7 @@ case $platform in
         ;;
     clang)
         options+=(-DCMAKE_CXX_COMPILER=clang++)
-        folder=build/clang
+        folder=build/platform-clang # build/clang has all tests
         ;;
     linux | swiftshader) folder=build/release ;;
     *) sed -n '2,/^set/{/^#/p}' "$0" >&2; exit 2 ;;
@@ -172,12 +172,15 @@ run_tests() {
 }
 
 write_states() {
-    local scene file=$results/$platform-$1.txt
+    local scene hash failed=0 file=$results/$platform-$1.txt
     mkdir -p $results
     "${run[@]}" "$folder/bin/sinew$suffix" devices | tr -d '\r' | sed -n 's/^\* *[0-9][0-9]* */device: /p' | tee "$file"
     for scene in $(scenes); do
-        echo "$(basename "$scene" .toml) $("${run[@]}" "$folder/bin/sinew$suffix" run "$scene" --frames "$1" 2>&1 | tr -d '\r' | sed -n 's/^state hash: //p')"
-    done | tee -a "$file"
+        hash=$("${run[@]}" "$folder/bin/sinew$suffix" run "$scene" --frames "$1" 2>&1 | tr -d '\r' | sed -n 's/^state hash: //p') || true
+        [[ -n $hash ]] || failed=1
+        echo "$(basename "$scene" .toml) ${hash:-failed}" | tee -a "$file"
+    done
+    return $failed
 }
 
 shift
