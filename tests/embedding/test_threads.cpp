@@ -9,7 +9,9 @@
 #include <array>
 #include <condition_variable>
 #include <cstring>
+#include <future>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 
 namespace sinew::test {
@@ -94,13 +96,20 @@ public:
     }
     void waitFor(std::uint64_t wanted) {
         std::unique_lock lock(mutex_);
-        changed_.wait(lock, [&] { return frames_ >= wanted; });
+        changed_.wait(lock, [&] { return frames_ >= wanted || isStopped_; });
+        if (isStopped_) throw std::runtime_error("the other thread failed");
+    }
+    void stop() {
+        const std::lock_guard lock(mutex_);
+        isStopped_ = true;
+        changed_.notify_all();
     }
 
 private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::uint64_t frames_ = 0;
+    bool isStopped_ = false;
 };
 
 struct Engine {
@@ -120,12 +129,23 @@ struct Engine {
     }
 
     void play() {
-        std::thread drawer([this] { draw(); });
-        step();
-        drawer.join();
+        std::future<void> drawer = std::async(std::launch::async, [this] { untilItFails([&] { draw(); }); });
+        untilItFails([&] { step(); });
+        drawer.get();
         for (std::size_t i = 0; i < inFlight; ++i) {
             stepping[i]->wait();
             drawing[i]->wait();
+        }
+    }
+
+    // The other thread waits for this one's frames: it ends too.
+    template <typename Part> void untilItFails(const Part& part) {
+        try {
+            part();
+        } catch (...) {
+            stepped.stop();
+            drawn.stop();
+            throw;
         }
     }
 
