@@ -44,6 +44,8 @@ const std::map<std::string, std::string> looseDecisions{
     {"isNear(struct-Searched-u1-struct-ContactFace",
      "a face is searched by find_faces or by find_wide_faces"},
     {"isPast(", "contacts and stops look at paths of their own: a stop acts on what contacts left"},
+    {"isRegarded(",
+     "a path that is not regarded is tested against all colliders, which finds the same contacts"},
     {"isSliver(",
      "find_faces looks farther around a sliver, and find_face_contacts passes it over: one is enough"}};
 
