@@ -1,12 +1,11 @@
 // A game-like loop without a window: capsules of the host walk about and push soft bodies, of which one
 // leaves and another one arrives every 12 frames. Prints frame times, the process's memory and the bytes of
-// device memory at the start, in the middle and at the end; exit code 1 if it grew in the second half: device
-// memory at all, the other by more than 5 %.
+// device memory at the start, in the middle and at the end; exit code 1 if device memory grew in the second
+// half, or, in a game of at least 5,000 frames, the process by more than 5 %.
 //   game [FRAMES]    10,000 by default
 #include "game/hosted_device.hpp"
 
 #include "sinew/bodies.hpp"
-#include "sinew/ranges.hpp"
 #include "sinew/vk/queue.hpp"
 #include "sinew/world.hpp"
 
@@ -24,7 +23,7 @@ namespace {
 using namespace sinew;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t walkers = std::min<std::uint32_t>(50, sim::ranges::mostHostColliders);
+constexpr std::uint32_t walkers = 50;
 constexpr std::size_t mostBodies = 6;
 constexpr std::uint64_t framesBetweenChanges = 12;
 
@@ -121,7 +120,7 @@ int main(int argc, char** argv) try {
         times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
         const std::uint64_t tenth = frame * 10 / frames;
         for (auto [when, memory] : {std::pair(std::uint64_t{1}, &start), {4, &middle}, {9, &end}})
-            if (tenth == when) {
+            if (tenth == when && !world.isChanging()) {
                 memory->residentMib = std::min(memory->residentMib, residentMib());
                 memory->deviceBytes = std::min(memory->deviceBytes, hosted.bytes());
             }
@@ -139,7 +138,9 @@ int main(int argc, char** argv) try {
                     static_cast<double>(memory.deviceBytes) / (1024 * 1024));
     for (const std::string& complaint : world.simulation().complaints())
         std::printf("complaint: %s\n", complaint.c_str());
-    return end.deviceBytes > middle.deviceBytes || end.residentMib > 1.05 * middle.residentMib ? 1 : 0;
+    // The first frames of a process make kernels and blocks of memory that later ones use again.
+    const bool grew = frames >= 5000 && end.residentMib > 1.05 * middle.residentMib;
+    return end.deviceBytes > middle.deviceBytes || grew ? 1 : 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;

@@ -1,8 +1,10 @@
 // Soft organs in a QVulkanWindow: Sinew records into Qt's command buffer, on Qt's device, and the skins are
 // drawn from the buffers of the simulation.
-//   qt_window             S drops an organ, Delete removes the oldest; drag to pull, drag with the right
-//   button to cut qt_window --play DIR  does all of that by itself and writes pictures into DIR qt_window
-//   --validate  asks for the validation layer; exit code 1 if it complains
+// Keys: S drops an organ, Delete removes the oldest. Dragging pulls, with the right button it cuts.
+//
+// --play DIR does all of that by itself and writes pictures into DIR.
+//
+// --validate asks for the validation layer; the exit code is 1 if it complains.
 #include "qt_window/drawing.hpp"
 #include "qt_window/organs.hpp"
 
@@ -13,7 +15,9 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
 
 namespace {
 
@@ -109,6 +113,7 @@ private:
         std::printf("%s: %zu organs, %u pieces%s\n", qPrintable(file), renderer_->organs()->count(),
                     renderer_->organs()->pieces(), isSaved ? "" : ": not written");
         hasFailed_ |= !isSaved;
+        pieces_[name] = renderer_->organs()->pieces();
     }
     void mousePressEvent(QMouseEvent* event) override {
         press(event->position(), event->button() == Qt::RightButton);
@@ -123,6 +128,7 @@ private:
     Renderer* renderer_ = nullptr;
     std::optional<QPointF> at_;
     bool isCut_ = false, hasFailed_ = false;
+    std::map<std::string, std::uint32_t> pieces_; // when each picture was taken
     int spawned_ = 0, frame_ = 0;
     std::filesystem::path folder_;
 };
@@ -152,7 +158,8 @@ void Window::playFrame() {
     if (frame == 330) removeOldest();
     if (frame == 340) {
         take("removed");
-        QGuiApplication::exit(hasFailed_ || renderer_->organs()->count() != 2 ? 1 : 0);
+        const bool isDone = pieces_["cut"] > pieces_["pulled"] && renderer_->organs()->count() == 2;
+        QGuiApplication::exit(hasFailed_ || !isDone ? 1 : 0);
         return;
     }
     requestUpdate();
@@ -190,7 +197,12 @@ int main(int argc, char** argv) {
     QVulkanInstance instance;
     instance.setApiVersion(QVersionNumber(1, 2));
     if (arguments.contains("--validate")) {
-        instance.setLayers({"VK_LAYER_KHRONOS_validation"});
+        const QByteArray layer = "VK_LAYER_KHRONOS_validation";
+        if (!instance.supportedLayers().contains(layer)) {
+            std::fprintf(stderr, "error: no validation layer\n");
+            return 4;
+        }
+        instance.setLayers({layer});
         instance.installDebugOutputFilter([](VkDebugReportFlagsEXT flags, VkDebugReportObjectTypeEXT,
                                              std::uint64_t, std::size_t, std::int32_t, const char*,
                                              const char* message) {
