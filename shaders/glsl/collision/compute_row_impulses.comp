@@ -60,7 +60,7 @@ void press(uint owner, uint element) {
 void main() {
     const uint rows = touchedSlots == 0u ? bounds.entries : touched[TOUCHED_ROWS];
     for (uint row = gl_GlobalInvocationID.x; row < rows; row += gl_NumWorkGroups.x * GROUP_SIZE) {
-        const uint k = isReversed ? rows - 1u - row : row, element = touchedSlots == 0u ? k : touched[firstTouched(TOUCHED_ROWS) + k];
+        const uint element = touchedSlots == 0u ? elementOf(row) : touched[firstTouched(TOUCHED_ROWS) + row];
         press(owners[element], element);
     }
 }
