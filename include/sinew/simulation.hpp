@@ -268,8 +268,8 @@ public:
     /// Settings::publishesVelocities the view of velocities is empty.
     vk::BufferView positions() const noexcept;
     vk::BufferView velocities() const noexcept;
-    /// Positions at the start of the newest recorded step, as positions(). After a reset or a loaded state
-    /// the first step makes them. Those of an undone step equal positions(). Empty without
+    /// Positions at the start of the newest recorded step, as positions(). After a reset the
+    /// first step makes them. Those of an undone step equal positions(). Empty without
     /// Settings::keepsPrevious.
     vk::BufferView previousPositions() const noexcept;
     /// Pieces of cuttable bodies after the newest step. pieces() has for each particle a uint32, the particle
