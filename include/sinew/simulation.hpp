@@ -281,9 +281,9 @@ public:
     /// layout::SkinVertex (position, normal; stride 32) and 32-bit triangle indices; empty views without
     /// skins.
     vk::BufferView skinVertices() const noexcept;
-    /// What skinVertices() held before the newest recordSkin(), in the same order; zeros after the first one
-    /// of this simulation, one that has taken over included. Vertices that a cut has made since have no such
-    /// place. Empty without Settings::keepsPrevious.
+    /// Contents of skinVertices() before the newest recordSkin(), in the same order; zeros after the first
+    /// one of this simulation, one that has taken over included. Vertices that a cut has made since have no
+    /// such place. Empty without Settings::keepsPrevious.
     vk::BufferView previousSkinVertices() const noexcept;
     vk::BufferView skinIndices() const noexcept;
     const std::vector<SkinRange>& skins() const noexcept;

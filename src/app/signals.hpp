@@ -3,7 +3,7 @@
 
 namespace sinew::app::signals {
 
-/// What a system calls. Both are safe in signal handlers and on other threads.
+/// Functions that a system calls. Both are safe in signal handlers and on other threads.
 struct Handlers {
     void (*interrupt)() noexcept; ///< somebody asked the program to end
     void (*leave)() noexcept;     ///< the time that startWaiting() began is over

@@ -27,7 +27,7 @@ public:
     static constexpr std::uintmax_t mostBytes = std::uintmax_t{64} << 20; ///< of a file
     static constexpr std::size_t mostFiles = 16; ///< of the folder; keep() deletes the oldest others
 
-    /// What was kept of this kind, a word, under this key, a line of text; empty if there is none.
+    /// The bytes that were kept of this kind, a word, under this key, a line of text; empty if there is none.
     std::vector<std::byte> find(const std::string& kind, const std::string& key) const;
     /// Keeps `bytes` instead of what was kept before. Writes nothing if these are the same, or too many.
     void keep(const std::string& kind, const std::string& key,

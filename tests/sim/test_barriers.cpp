@@ -114,8 +114,8 @@ unsigned workOf(const Pass& pass, std::uint32_t buffer) {
     return work;
 }
 
-// What has to wait for `work` after the barriers of the passes (first, last]: the work that a chain of
-// dependencies leads to. Arguments are read before shaders run, so what orders shaders orders these.
+// The work that has to wait for `work` after the barriers of the passes (first, last]: the work that a chain
+// of dependencies leads to. Arguments are read before shaders run, so what orders shaders orders these.
 unsigned orderedAfter(std::span<const Pass* const> passes, unsigned work, std::size_t first, std::size_t last,
                       std::size_t way) {
     unsigned reached = work == arguments ? shaders : work;

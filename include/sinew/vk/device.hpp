@@ -88,8 +88,8 @@ struct SINEW_API DeviceDescription {
     std::vector<std::string> missing{}; ///< sentences about what it lacks; empty = usable
     std::uint32_t storageBuffers = 0;   ///< that a kernel may bind; the core needs up to mostStorageBuffers
     bool isChosen = false;              ///< `create` would choose it for this request
-    /// Of the device and its driver's version and build: while it stays the same, pipelines and measured
-    /// times of an earlier run apply. Hexadecimal digits.
+    /// Identity of the device and its driver's version and build: while it stays the same, pipelines and
+    /// measured times of an earlier run apply. Hexadecimal digits.
     std::string identity{};
 };
 

@@ -17,8 +17,8 @@ namespace sinew::vk {
 
 enum class Access : std::uint8_t { read = 1, write = 2, readWrite = 3 };
 
-/// What a barrier orders besides compute shaders before it and after it: transfers (fills, copies, updates)
-/// before it, and transfers and reads of the arguments of indirect dispatches after it.
+/// Kinds of work that a barrier orders besides compute shaders before it and after it: transfers (fills,
+/// copies, updates) before it, and transfers and reads of the arguments of indirect dispatches after it.
 struct BarrierScope {
     bool afterTransfers = true, beforeTransfers = true, beforeArguments = true;
     bool operator==(const BarrierScope&) const = default;

@@ -1,4 +1,4 @@
-// What touches in a substep (touched.h), for passes that need not visit all candidates.
+// Lists of the contacts of a substep (touched.h), for passes that need not visit all candidates.
 layout(constant_id = 9) const uint touchedSlots = 0u; // slots of the state; 0 = no such lists: passes visit all candidates
 
 // Rows are last: they may be more than slots.

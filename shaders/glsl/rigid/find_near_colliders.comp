@@ -34,13 +34,13 @@ float leastGap(vec3 core, float radius, ColliderPose pose, vec3 middle, vec3 siz
     return length(max(abs(toLocal(pose, middle)) - extent - core, 0.0)) - radius;
 }
 
-// What a collider moves in the step, seen from points as far as `reach` [m]. Turns are at most half turns, whose arcs
+// The motion of a collider in the step, seen from points as far as `reach` [m]. Turns are at most half turns, whose arcs
 // are up to 1.12 of the chord of the quaternions.
 float wayOf(ColliderPose from, ColliderPose to, float reach) {
     return length(to.position.xyz - from.position.xyz) + 2.3 * length(to.rotation - from.rotation) * reach;
 }
 
-// Where the path of a particle in a substep, seen from a collider, is shorter than the sum of the gaps at its ends,
+// If the path of a particle in a substep, seen from a collider, is shorter than the sum of the gaps at its ends,
 // they do not meet (contactOf). No gap in the step is below the mean of those at its ends minus half of the
 // collider's way. False for NaN.
 bool isFar(Collider collider, ColliderPose from, ColliderPose to, Around around) {

@@ -1,4 +1,4 @@
-// Of many colliders most are far from all particles of a work group. find_near_colliders.comp looks once a step for
+// Most of many colliders are far from all particles of a work group. find_near_colliders.comp looks once a step for
 // those near the box in which its particles may move in this step, and a particle whose path lies in the box tests
 // those alone. What is left out is a collider that would give no contact, so results keep their bits; a particle that
 // has left the box tests all. Included after colliders.glsl; the kernel declares `near` and `step`.

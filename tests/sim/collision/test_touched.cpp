@@ -26,7 +26,7 @@ template <typename T> std::vector<T> read(test::Runner& runner, const std::strin
     return {};
 }
 
-// What the last substep listed, and what its lists of candidates and its contacts have of it.
+// The lists of the last substep, and what its lists of candidates and its contacts have of it.
 struct Visited {
     std::size_t candidates = 0;
     std::vector<std::uint32_t> particles, rows, points;

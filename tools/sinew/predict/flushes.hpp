@@ -1,4 +1,4 @@
-// What the barriers of a step flush on two drivers, by their public rules: no figure is measured.
+// Flushes of the barriers of a step on two drivers, by their public rules: no figure is measured.
 #pragma once
 
 #include "sim/program/program.hpp"
@@ -8,7 +8,7 @@
 
 namespace sinew::tools {
 
-/// What a driver does at a barrier that orders this.
+/// The work of a driver at a barrier that orders this.
 struct Flush {
     const char* name;
     bool (*isDone)(const vk::BarrierScope&);
