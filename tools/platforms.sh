@@ -156,10 +156,13 @@ run_tests() {
     list_programs
     ((${#all[@]})) || all=("${programs[@]}")
     for name in "${all[@]}"; do
-        output=$("${run[@]}" "$folder/bin/$name$suffix" --gtest_brief=1 --gtest_filter="$filter" 2>&1 | tr -d '\r') || true
+        code=0
+        output=$("${run[@]}" "$folder/bin/$name$suffix" --gtest_brief=1 --gtest_filter="$filter" 2>&1 | tr -d '\r') || code=$?
         good=$(sed -nE 's/^\[  PASSED  \] ([0-9]+) .*/\1/p' <<<"$output")
         bad=$(sed -nE 's/^\[  FAILED  \] ([^ ,]*[.][^ ,]*).*/\1/p' <<<"$output" | sort -u)
-        [[ -n $good ]] || bad+=" $name ended early: $(tail -n 3 <<<"$output")" # it crashed
+        if [[ -z $good || $code != 0 && -z $bad ]]; then # it crashed
+            bad+=" $name ended with $code: $(tail -n 3 <<<"$output")"
+        fi
         echo "$name: ${good:-0} passed"
         passed=$((passed + ${good:-0}))
         if [[ -n $bad ]]; then
@@ -176,8 +179,9 @@ write_states() {
     mkdir -p $results
     "${run[@]}" "$folder/bin/sinew$suffix" devices | tr -d '\r' | sed -n 's/^\* *[0-9][0-9]* */device: /p' | tee "$file"
     for scene in $(scenes); do
-        hash=$("${run[@]}" "$folder/bin/sinew$suffix" run "$scene" --frames "$1" 2>&1 | tr -d '\r' | sed -n 's/^state hash: //p') || true
-        [[ -n $hash ]] || failed=1
+        if ! hash=$("${run[@]}" "$folder/bin/sinew$suffix" run "$scene" --frames "$1" 2>&1 | tr -d '\r' | sed -n 's/^state hash: //p'); then
+            failed=1 hash=
+        fi
         echo "$(basename "$scene" .toml) ${hash:-failed}" | tee -a "$file"
     done
     return $failed

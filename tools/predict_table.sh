@@ -10,7 +10,7 @@ mapfile -t cards < <(grep -v '^#' tools/sinew/predict/cards.csv | tail -n +2 | c
 
 # row_of SCENE CARD: "ms of a calm step; ms with lists (longest pass: what most of it is)"
 row_of() {
-    "$sinew" describe "scenes/$1.toml" --predict "$2" 2>/dev/null | awk '
+    "$sinew" describe "scenes/$1.toml" --predict "$2" | awk '
         /^  pass / { isFirst = 1; next }
         isFirst { pass = $1; bound = $NF; isFirst = 0 }
         /^  all: / { sub(/^  all: /, ""); sub(/ ms,.*/, ""); all = all (all == "" ? "" : "; ") $0 }
@@ -22,6 +22,9 @@ printf ' | %s' "${cards[@]}"
 printf ' |\n|---%s|\n' "$(printf '|---%.0s' "${cards[@]}")"
 for scene in "${scenes[@]}"; do
     printf '| %s' "$scene"
-    for card in "${cards[@]}"; do printf ' | %s' "$(row_of "$scene" "$card")"; done
+    for card in "${cards[@]}"; do
+        row=$(row_of "$scene" "$card") # ends the script if it fails
+        printf ' | %s' "$row"
+    done
     printf ' |\n'
 done
