@@ -46,6 +46,8 @@ const std::map<std::string, std::string> looseDecisions{
     {"isPast(", "contacts and stops look at paths of their own: a stop acts on what contacts left"},
     {"isRegarded(",
      "a path that is not regarded is tested against all colliders, which finds the same contacts"},
+    {"keepsApart(", "search_patches asks for more than check_patches; a patch that is given up searches, "
+                    "which changes nothing"},
     {"isSliver(",
      "find_faces looks farther around a sliver, and find_face_contacts passes it over: one is enough"}};
 

@@ -1,5 +1,5 @@
-// The block of cells around one or two faces in which find_faces searches for points. Requires the names of that
-// kernel.
+// The block of cells around a box of faces in which their points are searched for. Requires the names bounds, apart, push
+// and START of a kernel.
 const float mostCells = 1000.0; // around a face
 
 #include "collision/cell_points.glsl"
@@ -14,10 +14,6 @@ struct Box {
     vec3 low, high;
     float reach;
 };
-
-Box boxOf(Searched one, Searched other) {
-    return Box(min(one.low, other.low), max(one.high, other.high), max(one.reach, other.reach));
-}
 
 // The distance from the box beyond which no point of the grid is near; slightly larger because of rounding [m].
 float rangeOf(Box box) {

@@ -24,6 +24,7 @@ layout(push_constant) uniform Push { FaceFindPush push; };
 layout(std430, binding = 6) coherent volatile buffer Bounds { GridBounds bounds; };
 #define PAIRS_BINDING 7
 #define FINDS_PAIRS
+#define FINDS_ROWS
 #define ENTRIES_OF_PAIR 1u
 #include "collision/listed_pairs.glsl"
 FETCHED_VEC4(HEADINGS_BINDING, Headings, headingAt)
@@ -77,11 +78,8 @@ Searched searchedOf(uint f) {
 
 #include "collision/face_bonds.glsl"
 
-// True if x is within `reach` of the face's box; `reach` includes radius and motion of the point.
-bool isInBox(vec3 low, vec3 high, vec3 x, float reach) {
-    const vec3 d = max(max(low - x, x - high), vec3(0.0));
-    return dot3(d, d) < reach * reach;
-}
+#include "collision/in_box.glsl"
+// `reach` includes radius and motion of the point.
 bool isInBox(Searched face, vec3 x, float reach) { return isInBox(face.low, face.high, x, reach); }
 
 // True if a plane square to the line from the face's center to x keeps the two more than `reach` apart.
@@ -140,6 +138,8 @@ void listUnlessExcluded(Searched face, uint i) {
     const uint pair = newPair();
     if (pair == noPair) return;
     const uint next = atomicExchange(pointChains[i], 2u * pair + 1u);
-    const uint nextOfFace = f < push.moving ? atomicExchange(faceChains[f], 2u * pair + 2u) : 0u;
+    const bool isLinked = f < push.moving;
+    const uint nextOfFace = isLinked ? atomicExchange(faceChains[f], 2u * pair + 2u) : 0u;
+    listOwners(i, next, f, isLinked ? nextOfFace : ~0u);
     pairs[pair] = uvec4(i, 2u * f + bond, next, nextOfFace);
 }

@@ -42,6 +42,7 @@ FETCHED_VEC4(16, Velocities, velocityAt)
 #define VELOCITY(i) velocityAt(i).xyz
 layout(push_constant) uniform Push { FaceFindPush push; };
 #define FINDS_PAIRS
+#define FINDS_ROWS
 #define ENTRIES_OF_PAIR 1u
 #include "collision/listed_pairs.glsl"
 

@@ -1,7 +1,8 @@
 #version 460
 // Every two small faces that share an edge search for points near them, in the cells around both and among the points
 // outside of the grid, and list the pairs in any order: sort_lists and index_rows_by_owner sort. Most of the time goes
-// into visits of points that are near neither. Faces with too many points around them are left to find_wide_faces.
+// into visits of points that are near neither. Faces with too many points around them are left to find_wide_faces. Faces
+// of a patch of a sheet search only if search_patches says so.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define WEIGHT_BINDING 15
@@ -20,7 +21,8 @@ layout(std430, binding = 14) readonly buffer SearchedFaces { uint searchedFaces[
 
 #include "collision/motion_classes.glsl"
 #include "collision/face_cells.glsl"
-#include "collision/grid_rows.glsl"
+
+layout(constant_id = 3) const bool hasWide = true; // false: there are too few points for a face to leave any to find_wide_faces
 
 // Particles have headings if some face deforms; only then are faces in pairs (face_lists.cpp).
 bool arePaired(uint f, uint g) { return hasHeadings && g != f; }
@@ -33,38 +35,12 @@ bool mayBeNear(Searched face, uint i, vec3 x, bool isApart) {
     return !isCorner(face, i) && isInBox(face, x, reach) && !isBeyondPlane(face, x, reach) && (radius + motion <= push.most && motion <= most) != isApart;
 }
 
-// Points near the box of the faces, up to so many at a time. Tests of a face cost much more
-// than visits, also where a branch skips them on a software device, and most visited points are near no face.
-#define MOST_FOUND 16u
-shared uint found[MOST_FOUND * GROUP_SIZE];
-uint foundAt(uint k) { return found[k * GROUP_SIZE + gl_LocalInvocationIndex]; }
-
-// A search of the cells, in turns that each end when so many points are found.
-struct Search {
-    uint done, all; // visits of the turns so far, of the whole search
-    uint found;     // points of this turn
-};
-
-void findInRows(Box box, float range, Rows rows, Frame frame, uint total, inout Search search) {
-    for (uint visit = max(search.done, search.all) - search.all; visit < rows.all && search.found < MOST_FOUND; ++visit) {
-        search.done = search.all + visit + 1u;
-        const uvec4 point = SORTED(placeOf(rows, visit, total));
-        const vec3 x = uintBitsToFloat(point.xyz);
-        if (!isInBox(box.low, box.high, x, range) || !isIn(rows, visit, cellOf(x, frame))) continue;
-        found[search.found * GROUP_SIZE + gl_LocalInvocationIndex] = point.w;
-        ++search.found;
-    }
-    search.all += rows.all;
+Box boxOf(Searched one, Searched other) {
+    return Box(min(one.low, other.low), max(one.high, other.high), max(one.reach, other.reach));
 }
 
-void findInGrid(Box box, Cells cells, Frame frame, uint total, inout Search search) {
-    const float range = rangeOf(box);
-    search.all = search.found = 0u;
-    for (int z = cells.first.z; z <= cells.last.z; ++z)
-        for (int y = cells.first.y; y <= cells.last.y; y += 3)
-            for (int x = cells.first.x; x <= cells.last.x; x += 3)
-                findInRows(box, range, rowsFrom(ivec3(x, y, z), cells.last, frame), frame, total, search);
-}
+bool isSought(uint i) { return true; }
+#include "collision/near_points.glsl"
 
 // Lists those of the found points with a bit in `near` that are near the face.
 void listNear(Searched face, uint near) {
@@ -103,11 +79,12 @@ void searchApart(Searched face) {
     }
 }
 
-void leaveToWide(uint f) { apart[FACE_POINTS_FIRST + push.points + atomicAdd(apart[FACE_POINTS_WIDE], 1u)] = f; }
+void leaveToWide(uint f) { apart[FACE_POINTS_FIRST + push.points + push.searched + atomicAdd(apart[FACE_POINTS_WIDE], 1u)] = f; }
 
 void main() {
-    const uint item = itemIndex(push.searched);
-    if (item >= push.searched) return;
+    const uint all = push.loose + apart[FACE_POINTS_SEARCHING], k = itemIndex(all);
+    if (k >= all) return;
+    const uint item = k < push.loose ? k : apart[FACE_POINTS_FIRST + push.points + k - push.loose];
     const uint first = searchedFaces[2u * item], second = searchedFaces[2u * item + 1u];
     const uint f = first != ~0u ? first : second, g = second != ~0u ? second : first;
     if (f == ~0u) return;
@@ -119,7 +96,7 @@ void main() {
     const Frame frame = frameOf(bounds, push.cells);
     Cells cells = Cells(ivec3(0), ivec3(-1), 0u);
     if (total > 0u) cells = cellsAround(box, frame);
-    if (max(cells.points, apart[FACE_POINTS_APART]) > FACE_MOST_POINTS) {
+    if (hasWide && max(cells.points, apart[FACE_POINTS_APART]) > FACE_MOST_POINTS) {
         leaveToWide(f);
         if (arePaired(f, g)) leaveToWide(g);
         return;

@@ -20,7 +20,7 @@ void main() {
     const uint all = push.large + apart[FACE_POINTS_WIDE];
     if (all > FACE_MOST_WIDE) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // reported as overflow
     for (uint l = 0u; l < min(all, FACE_MOST_WIDE) && !isFull(); ++l) {
-        const uint f = l < push.large ? large[l] : apart[FACE_POINTS_FIRST + push.points + l - push.large];
+        const uint f = l < push.large ? large[l] : apart[FACE_POINTS_FIRST + push.points + push.searched + l - push.large];
         if (f == ~0u) continue; // removed by a cut
         const Searched face = searchedOf(f);
         const float reach = face.reach + size;

@@ -1,7 +1,7 @@
 #version 460
 // Runs before faces search for points, or edges for edges: lists the points too wide or too fast for the grid, in any
 // order, and finds the largest size among all others, which bounds the search range. For edges the points are their
-// midpoints. Saves contact memory, since the lists are rebuilt after this pass.
+// midpoints. Saves contact memory and empties the lists, which are rebuilt after this pass.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 #include "common/math.glsl"
@@ -15,11 +15,12 @@ layout(std430, binding = 3) readonly buffer Headings { vec4 headings[]; };
 layout(std430, binding = 11) readonly buffer Bounds { GridBounds bounds; };
 layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(std430, binding = 5) readonly buffer Contacts { ContactCandidate contacts[]; };
-layout(std430, binding = 6) readonly buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 6) buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 7) readonly buffer Memory { vec4 memory[]; }; // slip [m]; w: side and overlap
 layout(std430, binding = 8) writeonly buffer Kept { vec4 kept[]; };
 layout(std430, binding = 9) writeonly buffer KeptOthers { uint keptOthers[]; }; // index of the face or edge
 layout(std430, binding = 10) writeonly buffer KeptLists { uvec2 keptLists[]; };
+layout(std430, binding = 12) writeonly buffer LinkLists { uvec2 linkLists[]; };
 layout(push_constant) uniform Push { FaceFindPush push; };
 #include "collision/keep_list.glsl"
 #include "collision/motion_classes.glsl"
@@ -28,6 +29,8 @@ layout(push_constant) uniform Push { FaceFindPush push; };
 void main() {
     const uint i = itemIndex(push.points);
     keptLists[i] = keep(lists[i]);
+    lists[i] = uvec2(0u); // sort_lists and index_rows_by_owner visit those of found pairs alone
+    for (uint f = i; f < push.moving; f += push.points) linkLists[f] = uvec2(0u);
     if (radii[i] < 0.0) return;
     const float motion = motionOf(velocities[i].xyz, hasHeadings ? headings[i] : vec4(0.0), bounds.horizon);
     const float size = radii[i] + motion;

@@ -61,5 +61,6 @@ void list(Searched one, uint f) {
     const bool isFirst = owns(one, f, edgeAt(f).isMoving != 0u);
     const uint owner = isFirst ? one.index : f, other = isFirst ? f : one.index;
     const uint next = atomicExchange(chains[owner], 2u * pair + 1u), nextOfOther = atomicExchange(linkChains[other], 2u * pair + 2u);
+    listOwners(owner, next, other, nextOfOther);
     pairs[pair] = uvec4(owner, other, next, nextOfOther);
 }

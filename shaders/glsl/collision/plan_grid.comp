@@ -17,6 +17,8 @@ layout(constant_id = 5) const bool listsTouched = false; // else the next three 
 layout(std430, binding = 6) writeonly buffer TouchedPoints { DispatchArguments touchedPoints[]; };
 layout(std430, binding = 7) writeonly buffer TouchedArguments { DispatchArguments touchedArguments[]; };
 layout(std430, binding = 8) buffer Touched { uint touched[]; };
+layout(constant_id = 6) const bool hasRows = false; // else the next one is empty
+layout(std430, binding = 9) writeonly buffer Making { DispatchArguments making[]; }; // search_patches and plan_rows add to them
 layout(std140, binding = 3) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
 
@@ -28,7 +30,7 @@ void clearTouched() {
     ++touched[TOUCHED_SUBSTEP];
 }
 
-uint groupsOf(uint items) { return (items - 1u) / GROUP_SIZE + 1u; }
+uint groupsOf(uint items) { return (items + GROUP_SIZE - 1u) / GROUP_SIZE; }
 
 void plan(uint element, bool runs, uint items) {
     arguments[element] = DispatchArguments(runs ? groupsOf(items) : 0u, 1u, 1u, 0u);
@@ -60,12 +62,17 @@ void planPasses(bool isBuilt, bool isComplete) {
     plan(GRID_CELL_CHUNKS, isBuilt, push.cells / GRID_CHUNK);
     plan(GRID_ONE_GROUP, isBuilt, 1u);
     if (push.others > 0u) plan(GRID_OTHERS, isBuilt, push.others);
+    plan(GRID_PATCHES, isBuilt, push.patches);
+    if (hasRows) {
+        making[MAKING_FACES] = DispatchArguments(isBuilt ? groupsOf(push.loose) : 0u, 1u, 1u, 0u);
+        making[MAKING_OWNERS] = making[MAKING_LINKS] = DispatchArguments(0u, 1u, 1u, 0u);
+    }
     plan(GRID_SLOWED, isSlowed, push.count);
     plan(GRID_SWEPT, isBuilt && !areFew, push.count);
     plan(GRID_UNSWEPT, isBuilt && areFew, push.count);
     if (isBuilt) {
         bounds.listed = bounds.listedParticles = 0u; // the passes that make lists count again
-        bounds.pairs = bounds.entries = bounds.links = 0u;
+        bounds.pairs = bounds.entries = bounds.links = bounds.owners = bounds.linked = 0u;
         bounds.lowX = bounds.lowY = bounds.lowZ = ~0u;
         bounds.highX = bounds.highY = bounds.highZ = 0u;
         bounds.edge = areFew ? push.quietEdge : push.edge;

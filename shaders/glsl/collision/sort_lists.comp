@@ -1,7 +1,7 @@
 #version 460
-// Makes the contact list of every particle or, FACES, of every point with faces or, EDGES, of every edge with the
-// edges in rows that it owns, from the pairs that were found: sorted by index, with the contact distance and,
-// hasMemory, the contact memory. listsOwners: lists the groups with a candidate; for edges index_rows_by_owner does so.
+// Makes the contact list of every particle or, FACES, of points with faces or, EDGES, of edges with the edges in rows that
+// they own, from the pairs that were found: sorted by index, with the contact distance and, hasMemory, the contact memory.
+// listsOwners: lists the groups with a candidate; for edges index_rows_by_owner does so.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/kernel.glsl"
@@ -34,7 +34,10 @@ layout(std430, binding = 10) readonly buffer KeptLists { uvec2 keptLists[]; };
 #define GROUPS_BINDING 11
 #define LISTS_PARTICLES
 #include "collision/listed_groups.glsl"
-#elif !defined EDGES
+#define OWNERS_BINDING (PARTICLES_BINDING + 3)
+#elif defined EDGES
+#define OWNERS_BINDING 11
+#else
 #define HITS_BINDING 11
 #define HITS_ACCESS
 #include "common/hit_masks.glsl"
@@ -56,11 +59,6 @@ float reachOf(float own, uint entry) {
 #else
 uint otherOf(uint entry) { return entry; }
 float reachOf(float own, uint other) { return own + radii[other]; }
-#endif
-#ifdef FACES
-#define OWNERS_BINDING (PARTICLES_BINDING + 3)
-#elif defined EDGES
-#define OWNERS_BINDING 11
 #endif
 #ifdef OWNERS_BINDING
 layout(std430, binding = OWNERS_BINDING) writeonly buffer Owners { uint owners[]; }; // one per element
@@ -119,19 +117,27 @@ void returnMemory(uvec2 list, uint i) {
     }
 }
 
-// Reports the mean number of entries per owner that would be needed, if that exceeds the capacity, or a list that is
-// too long. Returns the length of the list. Only the first lists of a step that lack capacity report it: after pairs
-// were lost later results depend on which, and counting stops somewhere beyond 4 times the capacity.
+#ifdef OWNERS_BINDING
+#define ITEMS bounds.owners // those that have a pair; lists of all others are empty
+#else
+#define ITEMS OWNERS
+#define ownerAt(i) i
+#endif
+
+// Reports a list that is too long, and a lack of capacity as plan_rows does for rows. Returns the length of the list.
 uint checked(uint i, uint n) {
     const uint room = push.room / ENTRIES_OF_PAIR, found = min(bounds.pairs, 4u * room + 1u);
     if (found <= room && n > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);
+#ifndef OWNERS_BINDING
     if (i == 0u && found > room && status.candidates == 0u) status.candidates = (ENTRIES_OF_PAIR * found - 1u) / OWNERS + 1u;
+#endif
     return min(n, LIST_MOST);
 }
 
 void main() {
-    const uint i = itemIndex(OWNERS);
-    const uint chain = chains[i], n = checked(i, lengthOf(chain));
+    const uint item = itemIndex(ITEMS);
+    if (item >= ITEMS) return;
+    const uint i = ownerAt(item), chain = chains[i], n = checked(i, lengthOf(chain));
     uvec2 list = uvec2(0u, n);
     if (n > 0u) list.x = atomicAdd(bounds.entries, n);
     owner = i;

@@ -262,6 +262,7 @@ struct GridBounds {
     // The newest lists (pooled_lists): number of pairs found, including those that did not fit; entries of all
     // lists; links from faces to entries.
     uint pairs, entries, links;
+    uint owners, linked; // of rows: owners of the pairs that were found, and others that have links
     uint lacksLists; // StatusWords::lacksLists of the last step
     float edge;      // smallest size of a cell in the grid that was built last [m]
     uint drivenWay;  // bits of the largest radius and way of a driven particle too fast for such cells (clamp_speeds) [m]
@@ -287,7 +288,14 @@ struct GridBounds {
 #define GRID_SLOWED 5
 #define GRID_SWEPT 6
 #define GRID_UNSWEPT 7
-#define GRID_ARGUMENTS 8
+#define GRID_PATCHES 8 // of sheets
+#define GRID_ARGUMENTS 9
+
+// Indices into the arguments of the passes that make lists of rows, as many as there is work.
+#define MAKING_FACES 0 // faces that search for points, in pairs
+#define MAKING_OWNERS 1 // owners of pairs that were found
+#define MAKING_LINKS 2  // others that have links
+#define MAKING_ARGUMENTS 3
 
 // Largest number of particles too fast for cells; if there are more, all of them are slowed down.
 #define MOST_FAST 256
@@ -308,6 +316,7 @@ struct GridPush {
     float pace;   // largest heading, as a distance in a substep [m]
     float leeway; // most that a particle may stray beyond what all may [m]
     uint isLater; // 1 = in a substep after the first
+    uint loose, patches; // faces that search whenever lists are made, in pairs; patches of sheets
 };
 
 // Element of a contact list, which is a contiguous range of the pool of all lists (ListRange).
@@ -388,14 +397,36 @@ struct ListRange {
 #define FACE_MOST_POINTS 20000 // largest number of points that a face tests itself
 #define FACE_MOST_WIDE 50000   // largest number of faces that a point tests itself
 
+// Squares of a sheet whose faces search for points together, and the region around them (patch_shape.glsl).
+struct SheetPatch {
+    uint first;  // slot of the first node of the region, which has PATCH_REGION x PATCH_REGION nodes
+    uint stride; // distance in slots between its rows
+    uint nodes;  // its own nodes in the region, a byte each: the first x and y, then their number in x and in y
+    uint pairs, pairCount; // its faces: pairs among the searched ones, from FaceFindPush::loose on
+    float spacing;         // distance of neighbours at rest [m]
+    float reach;           // distance at which a point and a face of the sheet touch [m]
+    float nearest;         // shortest distance at rest of a point and a face of the sheet that may touch [m]
+};
+#define PATCH_SQUARES 4u
+#define PATCH_REGION (PATCH_SQUARES + 3u) // nodes: one more than squares, and a rim
+
 struct FaceFindPush {
-    uint points, searched; // particles; small faces; in whole work groups
+    uint points, searched; // particles; pairs of small faces; in whole work groups
     uint cells;            // cells of the grid
     float most;    // largest radius + motion of a point in the grid, in a substep or along its heading [m]
     float margin;  // distance beyond the reach up to which a pair is listed [m]
     uint room;     // capacity of the pool, in entries of all lists together
     uint moving;   // faces below this index have a corner that moves
     uint large;    // number of faces that every point is tested with, besides wide ones
+    uint loose;    // pairs of small faces that are in no patch; those of patches follow
+};
+
+struct SearchPatchesPush {
+    uint points, patches; // particles; patches of sheets
+    uint cells;           // cells of the grid
+    uint loose;           // as in FaceFindPush
+    float thickness;      // largest thickness of a face of a patch [m]
+    float margin;         // as in FaceFindPush [m]
 };
 
 // An edge of faces that takes part in contacts with other edges. The grid holds its midpoint.

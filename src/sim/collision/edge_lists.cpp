@@ -63,6 +63,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
                     program, {.radii = tables.points,
                               .margin = request.margin,
                               .edge = 2 * largest + request.margin,
+                              .linked = static_cast<std::uint32_t>(count),
                               .others = static_cast<std::uint32_t>(paddedCount(std::max(count, ends))),
                               .bodies = request.bodies,
                               .particles = request.particles,
@@ -123,7 +124,7 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     std::vector<BufferId> buffers{lists.speeds, lists.radii, lists.points, unbound, particles.step};
     const std::vector<BufferId> keeping = pooled_lists::keepingBuffers(lists.pooled);
     buffers.insert(buffers.end(), keeping.begin(), keeping.end());
-    buffers.push_back(grid.bounds);
+    buffers.insert(buffers.end(), {grid.bounds, lists.pooled.links->ranges});
     constexpr std::uint32_t limitsMotionId = 3; // constant_id in list_large_points.comp
     program.dispatchIndirect(k::listLargePoints, grid.particles, buffers, lists.push, {{limitsMotionId, 1}});
     program.dispatchIndirect(k::findEdges, grid.particles,
@@ -133,13 +134,14 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
                               program.program().status, lists.pooled.links->chains, particles.step,
                               particles.velocities},
                              lists.push);
+    pooled_lists::addPlan(program, grid, lists.points, lists.push, row_contacts::edges.constants());
     buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.thickness);
     buffers.push_back(lists.pooled.links->owners);
-    program.dispatchIndirect(k::sortEdges, grid.particles, buffers, lists.push);
+    program.dispatchIndirect(k::sortEdges, grid.owners, buffers, lists.push);
     const pooled_lists::Links& links = *lists.pooled.links;
-    program.dispatchIndirect(k::indexRowsByOwner, grid.particles,
+    program.dispatchIndirect(k::indexRowsByOwner, grid.linked,
                              {lists.pooled.pairs, links.chains, lists.pooled.contacts, lists.pooled.ranges,
-                              links.elements, links.ranges, lists.points, grid.bounds, lists.edges,
+                              links.elements, links.ranges, grid.bounds, lists.edges,
                               program.program().status, grid.touching.arguments, lists.marks, lists.touching},
                              lists.push, row_contacts::edges.constants());
 }

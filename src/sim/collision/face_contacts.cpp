@@ -187,12 +187,16 @@ face_lists::Lists addLists(ProgramBuilder& program, const SceneModel& model, Fac
     // Lists of thin cloth with coarse faces may last longer than its radius allows: an eighth of a face adds
     // few candidates.
     const float length = std::max(median(wide), median(faces.extents) / 8);
+    const std::vector<sheet_patches::Sheet> sheets =
+        beyond > 0 ? std::vector<sheet_patches::Sheet>{}
+                   : sheet_patches::sheetsOf(scene, layout, radii, faces.faces);
     face_lists::Lists lists = face_lists::add(program, {.radii = radii,
                                                         .inverseMasses = masses,
                                                         .faces = faces.faces,
                                                         .moving = faces.moving,
                                                         .extents = faces.extents,
                                                         .exclusions = exclusions,
+                                                        .sheets = sheets,
                                                         .liveLinks = hasInner ? cutting.links : BufferId{},
                                                         .margin = model.settings.contactMargin * length,
                                                         .beyond = beyond,

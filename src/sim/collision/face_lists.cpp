@@ -17,9 +17,10 @@ namespace sinew::sim::collision::face_lists {
 namespace {
 
 namespace k = kernels;
+using sheet_patches::FacePair;
 
-// constant_ids in face_search.glsl and list_large_points.comp
-constexpr std::uint32_t hasLinksId = 1, hasHeadingsId = 2, limitsMotionId = 3;
+// constant_ids in face_search.glsl, list_large_points.comp and find_faces.comp
+constexpr std::uint32_t hasLinksId = 1, hasHeadingsId = 2, limitsMotionId = 3, hasWideId = 3;
 
 // In the grid all points have radius 0: the size of cells follows from the faces.
 std::vector<float> pointsOf(std::span<const float> radii) {
@@ -58,7 +59,7 @@ bool deform(const Request& request) {
 
 // All other faces, those that deform in pairs that share an edge where possible; a face alone is paired with
 // none. Faces of colliders are mostly too large for their neighbours' points to be theirs.
-std::vector<std::uint32_t> pairedFaces(const Request& request, float edge) {
+std::vector<FacePair> pairedFaces(const Request& request, float edge) {
     std::map<Edge, std::vector<std::uint32_t>> around;
     std::vector<bool> isLeft(request.faces.size());
     for (std::uint32_t f = 0; f < request.faces.size(); ++f) {
@@ -66,7 +67,7 @@ std::vector<std::uint32_t> pairedFaces(const Request& request, float edge) {
         if (isLeft[f] && deforms(request, request.faces[f]))
             for (const Edge& one : edgesOf(request.faces[f])) around[one].push_back(f);
     }
-    std::vector<std::uint32_t> pairs;
+    std::vector<FacePair> pairs;
     for (std::uint32_t f = 0; f < request.faces.size(); ++f) {
         if (!isLeft[f]) continue;
         isLeft[f] = false;
@@ -75,10 +76,22 @@ std::vector<std::uint32_t> pairedFaces(const Request& request, float edge) {
             for (const std::uint32_t g : around[one])
                 if (isLeft[g]) partner = std::min(partner, g);
         if (partner != none) isLeft[partner] = false;
-        pairs.insert(pairs.end(), {f, partner});
+        pairs.push_back({f, partner});
     }
-    pairs.resize(2 * paddedCount(std::max<std::size_t>(pairs.size() / 2, 1)), none);
     return pairs;
+}
+
+float thickestOf(std::span<const sheet_patches::Sheet> sheets) {
+    float thickest = 0;
+    for (const sheet_patches::Sheet& sheet : sheets) thickest = std::max(thickest, sheet.thickness);
+    return thickest;
+}
+
+std::vector<std::uint32_t> padded(std::span<const FacePair> pairs) {
+    std::vector<std::uint32_t> words;
+    for (const FacePair& pair : pairs) words.insert(words.end(), {pair[0], pair[1]});
+    words.resize(2 * paddedCount(std::max<std::size_t>(pairs.size(), 1)), none);
+    return words;
 }
 
 std::vector<BufferId> searchBuffers(const Lists& lists, const ParticleBuffers& particles) {
@@ -114,11 +127,16 @@ Lists add(ProgramBuilder& program, const Request& request) {
     const std::vector<float> points = pointsOf(request.radii);
     const std::vector<float> watched = watchedOf(request);
     const std::vector<std::uint32_t> large = largeFaces(request.extents, edge);
-    const std::vector<std::uint32_t> pairs = pairedFaces(request, edge);
+    std::vector<FacePair> inPairs = pairedFaces(request, edge);
+    const std::vector<layout::SheetPatch> patches =
+        sheet_patches::sortIntoPatches(inPairs, request.sheets, request.faces);
+    const std::vector<std::uint32_t> pairs = padded(inPairs);
+    const auto loose = patches.empty() ? static_cast<std::uint32_t>(inPairs.size()) : patches.front().pairs;
     Lists lists{.grid = hash_grid::add(program, {.radii = points,
                                                  .margin = request.margin,
                                                  .edge = cellOfFaces * edge,
-                                                 .others = static_cast<std::uint32_t>(paddedCount(faces)),
+                                                 .searching = static_cast<std::uint32_t>(pairs.size() / 2),
+                                                 .linked = request.moving + 1,
                                                  .bodies = request.bodies,
                                                  .watched = watched,
                                                  .reach = reachOf(request),
@@ -126,14 +144,19 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                  .substeps = request.substeps,
                                                  .name = "faces.grid",
                                                  .radiiName = "faces.grid.radii"})};
-    const layout::GridPush& grid = lists.grid.push;
+    const layout::GridPush grid = lists.grid.push;
     lists.push = {.points = grid.count,
                   .searched = static_cast<std::uint32_t>(pairs.size() / 2),
                   .cells = grid.cells,
                   .most = edge,
                   .margin = request.margin + request.beyond,
                   .moving = request.moving,
-                  .large = static_cast<std::uint32_t>(large.size())};
+                  .large = static_cast<std::uint32_t>(large.size()),
+                  .loose = loose};
+    lists.patches = sheet_patches::add(program, patches, thickestOf(request.sheets));
+    lists.grid.push.loose = loose;
+    lists.grid.push.patches = lists.patches.count;
+    lists.grid.patches = {lists.grid.arguments, GRID_PATCHES, lists.patches.count, true};
     lists.pooled = pooled_lists::add(program, {.name = "faces",
                                                .owners = count,
                                                .each = request.capacity,
@@ -145,7 +168,8 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);
     lists.excluded = program.upload("faces.excluded", request.exclusions);
-    lists.points = program.scratch<std::uint32_t>("faces.points", FACE_POINTS_FIRST + count + faces);
+    lists.points =
+        program.scratch<std::uint32_t>("faces.points", FACE_POINTS_FIRST + count + pairs.size() / 2 + faces);
     lists.liveLinks = request.liveLinks;
     lists.searched = program.upload("faces.searched", pairs);
     lists.large = program.upload("faces.large", large);
@@ -162,6 +186,7 @@ void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& 
 
 void addListCheck(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Moved moved{particles.positions, particles.velocities, particles.step};
+    sheet_patches::addCheck(program, lists.patches, lists.grid, moved);
     hash_grid::addListCheckOfMembers(program, lists.grid, moved);
     hash_grid::addCells(program, lists.grid, particles.positions, moved, lists.points);
 }
@@ -172,9 +197,12 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
                                   particles.step};
     const std::vector<BufferId> keeping = pooled_lists::keepingBuffers(lists.pooled);
     parting.insert(parting.end(), keeping.begin(), keeping.end());
-    parting.push_back(grid.bounds);
+    parting.insert(parting.end(), {grid.bounds, lists.pooled.links->ranges});
     program.dispatchIndirect(k::listLargePoints, grid.particles, parting, lists.push,
                              {{hasHeadingsId, grid.push.ahead > 0}, {limitsMotionId, grid.push.ahead > 0}});
+    sheet_patches::addSearch(program, lists.patches, lists.grid,
+                             {particles.positions, particles.velocities, particles.step},
+                             {lists.radii, lists.points, lists.push});
     std::vector<BufferId> buffers = searchBuffers(lists, particles);
     const bool hasLinks = lists.liveLinks != BufferId{};
     const bool hasHeadings = grid.push.ahead > 0;
@@ -182,21 +210,27 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     buffers.insert(buffers.end(), {grid.sorted, grid.starts, lists.points, grid.headings, lists.searched,
                                    lists.inverseMasses});
     buffers.push_back(boundIf(hasLinks, lists.liveLinks));
-    program.dispatchIndirect(k::findFaces, grid.others, buffers, lists.push, constants);
-    buffers = searchBuffers(lists, particles);
-    buffers.insert(buffers.end(),
-                   {lists.large, lists.points, grid.headings, program.program().status, lists.inverseMasses});
-    buffers.push_back(boundIf(hasLinks, lists.liveLinks));
-    program.dispatchIndirect(k::findWideFaces, grid.particles, buffers, lists.push, constants);
+    const bool hasWide = lists.push.large > 0 || lists.push.points > FACE_MOST_POINTS;
+    ProgramBuilder::Constants searching = constants;
+    searching[hasWideId] = hasWide;
+    program.dispatchIndirect(k::findFaces, grid.searching, buffers, lists.push, searching);
+    if (hasWide) {
+        buffers = searchBuffers(lists, particles);
+        buffers.insert(buffers.end(), {lists.large, lists.points, grid.headings, program.program().status,
+                                       lists.inverseMasses});
+        buffers.push_back(boundIf(hasLinks, lists.liveLinks));
+        program.dispatchIndirect(k::findWideFaces, grid.particles, buffers, lists.push, constants);
+    }
+    pooled_lists::addPlan(program, grid, lists.points, lists.push, row_contacts::faces.constants());
     buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.radii);
     buffers.insert(buffers.end(), {grid.touching.arguments, lists.marks, lists.touching, lists.faces,
                                    lists.pooled.links->owners});
-    program.dispatchIndirect(k::sortFaces, grid.particles, buffers, lists.push);
-    program.dispatchIndirect(k::indexRowsByOwner, grid.others,
+    program.dispatchIndirect(k::sortFaces, grid.owners, buffers, lists.push);
+    program.dispatchIndirect(k::indexRowsByOwner, grid.linked,
                              {lists.pooled.pairs, lists.pooled.links->chains, lists.pooled.contacts,
                               lists.pooled.ranges, lists.pooled.links->elements, lists.pooled.links->ranges,
-                              lists.points, grid.bounds, lists.faces, program.program().status,
-                              grid.touching.arguments, lists.marks, lists.touching},
+                              grid.bounds, lists.faces, program.program().status, grid.touching.arguments,
+                              lists.marks, lists.touching},
                              lists.push, row_contacts::faces.constants());
 }
 

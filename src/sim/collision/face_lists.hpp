@@ -7,6 +7,7 @@
 #pragma once
 
 #include "sim/collision/pooled_lists.hpp"
+#include "sim/collision/sheet_patches.hpp"
 #include "sim/model/state.hpp"
 
 #include <vector>
@@ -28,12 +29,13 @@ struct Request {
     /// strides between rows and slices of its slots. Word k + 2 = 1: points joined to corners only by
     /// diagonals touch at LINKED_REACH.
     std::span<const std::uint32_t> exclusions;
-    BufferId liveLinks;                          ///< CuttingBuffers::links; only if there are such rows
-    float margin = 0;                            ///< M [m]
-    float beyond = 0;                            ///< additional listing distance beyond contact and M [m]
-    std::uint32_t capacity = 0;                  ///< mean capacity, in faces near a point
-    const body_frames::Bodies* bodies = nullptr; ///< as in hash_grid::Request
-    std::uint32_t substeps = 1;                  ///< of a step
+    std::span<const sheet_patches::Sheet> sheets; ///< whose faces search in patches
+    BufferId liveLinks;                           ///< CuttingBuffers::links; only if there are such rows
+    float margin = 0;                             ///< M [m]
+    float beyond = 0;                             ///< additional listing distance beyond contact and M [m]
+    std::uint32_t capacity = 0;                   ///< mean capacity, in faces near a point
+    const body_frames::Bodies* bodies = nullptr;  ///< as in hash_grid::Request
+    std::uint32_t substeps = 1;                   ///< of a step
 };
 
 /// Lists owned by points; moving faces have links.
@@ -44,6 +46,7 @@ struct Lists {
     BufferId radii, inverseMasses, faces, excluded;
     BufferId points; ///< FACE_POINTS_...: the points that the grid is too fine for, such faces
     BufferId searched, large;
+    sheet_patches::Patches patches;
     BufferId liveLinks;       ///< as in Request
     BufferId touching, marks; ///< work groups with a particle that is a point or corner in a list
 };

@@ -13,8 +13,8 @@ namespace sinew::sim::collision::hash_grid {
 
 namespace {
 
-constexpr std::uint32_t listsTouchedId = 5; // constant_id in plan_grid.comp
-constexpr std::uint32_t hasHeadingsId = 1;  // constant_id in count_cells.comp and check_surface_lists.comp
+constexpr std::uint32_t listsTouchedId = 5, hasRowsId = 6; // constant_id in plan_grid.comp
+constexpr std::uint32_t hasHeadingsId = 1; // constant_id in count_cells.comp and check_surface_lists.comp
 
 // Slots of the table: with twice as many as particles, rows rarely share slots unless the grid is dense.
 // scan_sums needs whole groups of chunks.
@@ -33,11 +33,12 @@ layout::GridPush pushOf(const ProgramBuilder& program, const Grid& grid) {
 void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step, bool isLast = true) {
     layout::GridPush push = pushOf(program, grid);
     if (!isLast) push.bodies = 0; // frames advance once a substep
-    program.dispatch(kernels::planGrid, GROUP_ITEMS,
-                     {grid.bounds, grid.arguments, grid.frames.frames, step, grid.touching.arguments,
-                      program.program().status, grid.touched.points, grid.touched.arguments,
-                      grid.touched.lists},
-                     push, {{listsTouchedId, grid.touched.slots > 0}});
+    program.dispatch(
+        kernels::planGrid, GROUP_ITEMS,
+        {grid.bounds, grid.arguments, grid.frames.frames, step, grid.touching.arguments,
+         program.program().status, grid.touched.points, grid.touched.arguments, grid.touched.lists,
+         grid.owners.arguments},
+        push, {{listsTouchedId, grid.touched.slots > 0}, {hasRowsId, grid.owners.arguments != unbound}});
 }
 
 // Velocities change too much after that for lists to last longer.
@@ -110,6 +111,12 @@ Grid add(ProgramBuilder& program, const Request& request) {
     grid.cellChunks = {grid.arguments, GRID_CELL_CHUNKS, cells / GRID_CHUNK, true};
     grid.oneGroup = {grid.arguments, GRID_ONE_GROUP, GROUP_ITEMS, true};
     grid.others = {grid.arguments, GRID_OTHERS, request.others, true};
+    const BufferId making =
+        request.linked > 0 ? program.scratch<layout::DispatchArguments>(name + ".making", MAKING_ARGUMENTS)
+                           : unbound;
+    grid.searching = {making, MAKING_FACES, request.searching, true};
+    grid.owners = {making, MAKING_OWNERS, grid.push.count, true};
+    grid.linked = {making, MAKING_LINKS, std::max(grid.push.count, request.linked), true};
     grid.swept = {grid.arguments, GRID_SWEPT, grid.push.count, true};
     grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.count, true};
     const BufferId touching = program.scratch<layout::DispatchArguments>(name + ".touching", 3);

@@ -20,7 +20,9 @@ struct Request {
     float edge = 0;               ///< smallest size of a cell [m]
     /// The same while no particle moves farther than `quiet` in a substep [m]; 0 = no other size.
     float quietEdge = 0;
-    std::uint32_t others = 0; ///< items of further passes that run with a build; 0 = none
+    std::uint32_t searching = 0; ///< pairs of faces that may search for points
+    std::uint32_t linked = 0;    ///< faces or edges that others have links to; 0 = lists have no links
+    std::uint32_t others = 0;    ///< items of further passes that run with a build; 0 = none
     /// Distance that a particle may move in a substep before contacts are searched along its path [m]; below
     /// 0 if particles are not checked.
     float quiet = -1;
@@ -78,8 +80,10 @@ struct Grid {
     BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
     BufferId ways;     ///< by which particles may come near others in the substep [m]; unbound = none
     BufferId headings; ///< velocities of particles relative to frames when lists were made; unbound = none
-    IndirectItems particles, particleChunks, cellChunks, oneGroup,
-        others; ///< of passes that run with a build
+    IndirectItems particles, particleChunks, cellChunks, oneGroup, others,
+        patches;                  ///< of passes that run with a build
+    IndirectItems searching;      ///< pairs of faces that search for points
+    IndirectItems owners, linked; ///< of rows: owners of found pairs, others with links
     /// Items in work groups with a candidate: owners of lists, particles.
     IndirectItems touching, touchingParticles;
     IndirectItems entries; ///< all used entries of the pool; only if pairs have links

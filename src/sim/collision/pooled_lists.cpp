@@ -43,11 +43,12 @@ Memory addMemory(ProgramBuilder& program, const Request& request, std::size_t ro
 Lists add(ProgramBuilder& program, const Request& request) {
     const std::string& name = request.name;
     const std::size_t room = request.owners * request.each, entriesOfPair = request.others > 0 ? 1 : 2;
+    const std::size_t ofRows = request.others > 0 ? request.owners + request.others : 0;
     Lists lists{.room = static_cast<std::uint32_t>(room),
                 .contacts = bufferOf(program, name + ".contacts", room, request.initial.contacts),
                 .ranges = bufferOf(program, name + ".lists", request.owners, request.initial.ranges),
-                .pairs =
-                    program.scratch<layout::vec4>(name + ".pairs", room / entriesOfPair + (room + 3) / 4),
+                .pairs = program.scratch<layout::vec4>(
+                    name + ".pairs", room / entriesOfPair + (room + 3) / 4 + (ofRows + 3) / 4),
                 .chains = program.scratch<std::uint32_t>(name + ".chains", request.owners)};
     if (request.others > 0)
         lists.links = {.elements = program.scratch<std::uint32_t>(name + ".links", room),
@@ -69,6 +70,14 @@ std::vector<BufferId> keepingBuffers(const Lists& lists) {
     const Memory& memory = *lists.memory;
     return {lists.contacts,     lists.ranges,       memory.memory,
             memory.kept.memory, memory.kept.others, memory.kept.ranges};
+}
+
+void addPlan(ProgramBuilder& program, const hash_grid::Grid& grid, BufferId points,
+             const layout::FaceFindPush& push, const ProgramBuilder::Constants& kind) {
+    program.dispatchIndirect(
+        kernels::planRows, grid.oneGroup,
+        {points, grid.bounds, program.program().status, grid.owners.arguments, grid.touching.arguments}, push,
+        kind);
 }
 
 std::vector<BufferId> sortingBuffers(ProgramBuilder& program, const Lists& lists, const hash_grid::Grid& grid,
@@ -99,7 +108,9 @@ void addPublishing(ProgramBuilder& program, const Lists& lists, const hash_grid:
     program.dispatch(kernels::publishLists, items, buffers, layout::CountPush{grid.push.count},
                      {{hasMemoryId, hasMemory}});
     // While everything sleeps no pass plans the number of groups, and lists must not be made again.
-    if (program.program().sleep.arguments != BufferId{}) program.fill(grid.arguments, 0);
+    if (program.program().sleep.arguments == BufferId{}) return;
+    program.fill(grid.arguments, 0);
+    if (grid.owners.arguments != unbound) program.fill(grid.owners.arguments, 0);
 }
 
 IndirectItems entriesInUse(const Lists& lists, const hash_grid::Grid& grid) {

@@ -69,11 +69,16 @@ Lists add(ProgramBuilder& program, const Request& request);
 /// The buffers of a kernel that saves memory (keep_list.glsl).
 std::vector<BufferId> keepingBuffers(const Lists& lists);
 
+/// Appends, after a search for rows: the plan of the passes that make lists of the found pairs. `points`:
+/// FACE_POINTS_...; `kind`: constants of row_contacts::Kind.
+void addPlan(ProgramBuilder& program, const hash_grid::Grid& grid, BufferId points,
+             const layout::FaceFindPush& push, const ProgramBuilder::Constants& kind);
+
 /// The first buffers of sort_lists.comp. `radii` by owner.
 std::vector<BufferId> sortingBuffers(ProgramBuilder& program, const Lists& lists, const hash_grid::Grid& grid,
                                      BufferId radii);
 
-/// The used entries of a pool, as items of a pass; plan_grid and index_rows_by_owner write their number.
+/// The used entries of a pool, as items of a pass; plan_grid and plan_rows write their number.
 IndirectItems entriesInUse(const Lists& lists, const hash_grid::Grid& grid);
 
 /// Appends the end of a step. Lists of an undone step are made again; no lists are made while everything

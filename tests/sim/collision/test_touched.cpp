@@ -60,23 +60,21 @@ Visited visitedBy(test::Runner& runner) {
 
 } // namespace
 
-// Most candidates of cloth that swings touch nothing: a substep without a contact gives the passes behind the
-// search nothing to do.
+// Cloth that swings and waves, but does not fold, has no candidates: its patches are alone
+// (sheet_patches.hpp). A substep without a contact gives the passes behind the search nothing to do.
 TEST(Touched, IsNothingInClothThatSwings) {
     Scene scene;
     addCloth(scene, {.size = {24, 24}, .spacing = 0.02f, .areaDensity = 0.2f, .thickness = 0.0115f});
     for (const std::uint32_t corner : {0u, 23u}) scene.particles[corner].inverseMass = 0;
     test::Runner runner(scene, {.substeps = 32});
-    std::size_t candidates = 0;
     for (int step = 0; step < 10; ++step) {
         ASSERT_EQ(runner.run(1).nonFinite, 0u);
         const Visited visited = visitedBy(runner);
-        candidates += visited.candidates;
+        EXPECT_EQ(visited.candidates, 0u) << step;
+        EXPECT_TRUE(visited.points.empty()) << step;
         EXPECT_TRUE(visited.particles.empty()) << step;
         EXPECT_TRUE(visited.rows.empty()) << step;
-        EXPECT_LT(10 * visited.points.size(), visited.candidates) << step;
     }
-    EXPECT_GE(candidates, 5000u);
 }
 
 // The lists of a substep have each particle of a contact once, and all contacts, whatever is between them.
