@@ -26,11 +26,9 @@ layout(std430, binding = 8) writeonly buffer Impulses { vec4 impulses[]; }; // [
 layout(std140, binding = 10) uniform Step { StepParams step; };
 layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // one per particle
 layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
-layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
-#include "collision/row_items.glsl"
+layout(std430, binding = 13) readonly buffer Touched { uint touched[]; };
 #include "collision/touched.h"
 #include "collision/touched.glsl"
-layout(std430, binding = 14) readonly buffer Touched { uint touched[]; };
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
 #include "collision/row.glsl"
@@ -58,9 +56,8 @@ void press(uint owner, uint element) {
 }
 
 void main() {
-    const uint rows = touchedSlots == 0u ? bounds.entries : touched[TOUCHED_ROWS];
-    for (uint row = gl_GlobalInvocationID.x; row < rows; row += gl_NumWorkGroups.x * GROUP_SIZE) {
-        const uint element = touchedSlots == 0u ? elementOf(row) : touched[firstTouched(TOUCHED_ROWS) + row];
+    FOR_EACH_TOUCHED_ROW(row) {
+        const uint element = touchedRow(row);
         press(owners[element], element);
     }
 }

@@ -20,11 +20,7 @@ FETCHED_VEC4(5, Memory, memoryAt)     // w: side and overlap, 0 = no contact so 
 #define VELOCITY(i) velocityAt(i)
 #define CONTACT(k) contactAt(k)
 #define MEMORY(k) memoryAt(k)
-ContactEdge edgeAt(uint e) {
-    if (!usesTexels) return edges[e];
-    const uvec4 words = texelFetch(edgeTexels, int(e));
-    return ContactEdge(words.x, words.y, words.z, uintBitsToFloat(words.w));
-}
+#include "collision/edge_at.glsl"
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };           // one per edge: first element that it owns, count
 layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n from the other to the owner, depth [m]; 0 = none
 layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; w: new memory
@@ -32,10 +28,11 @@ layout(std140, binding = 8) uniform Step { StepParams step; };
 #define SHEETS_BINDING 13
 #include "collision/one_sheet.glsl"
 layout(constant_id = 5) const bool hasZones = false; // edges of two sheets may pass each other; else bindings 14 and 15 are empty
-layout(std430, binding = 14) writeonly buffer Finding { DispatchArguments finding[]; }; // of the search for edges that pass
+layout(std430, binding = 14) buffer Finding { DispatchArguments finding[]; }; // of the search for edges that pass
 layout(std430, binding = 15) writeonly buffer Meets { uint meeting[]; };                // by element, see meeting_marks.glsl
-layout(std140, binding = 16) uniform Bounds { GridBounds bounds; };
-#include "collision/row_items.glsl"
+layout(std430, binding = 16) readonly buffer Touched { uint touched[]; };
+#include "collision/touched.h"
+#include "collision/touched.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #define MARKS_BINDING 9
 #include "collision/keeps_rest.glsl"
@@ -46,8 +43,8 @@ layout(std430, binding = 12) readonly buffer LinkLists { uvec2 linkLists[]; }; /
 #include "collision/edge_touch.glsl"
 
 void main() {
-    FOR_EACH_ROW(row) {
-        const uint element = elementOf(row);
+    FOR_EACH_TOUCHED_ROW(row) {
+        const uint element = touchedRow(row);
         const uvec2 candidate = CONTACT(element);
         meets = 0u;
         const Touch touch = touchOf(uvec2(owners[element], candidate.x), uintBitsToFloat(candidate.y), MEMORY(element).w);
@@ -57,7 +54,5 @@ void main() {
         meeting[element] = meets;
         mayPass = mayPass || meets != 0u && touch.depth > push.quick;
     }
-    if (!hasZones) return;
-    if (gl_GlobalInvocationID.x == 0u) finding[ZONE_GROUPS + 1].groupsX = gl_NumWorkGroups.x;
-    if (mayPass) finding[ZONE_OF_EDGES].groupsX = gl_NumWorkGroups.x;
+    if (hasZones && mayPass) finding[ZONE_OF_EDGES].groupsX = finding[ZONE_GROUPS + 1].groupsX;
 }

@@ -20,8 +20,9 @@ layout(std430, binding = 7) buffer Parts { uint parts[]; };                   //
 layout(std140, binding = 8) uniform Step { StepParams step; };
 #define SPEEDS_BINDING 9
 layout(std430, binding = 12) readonly buffer Owners { uint owners[]; }; // one per element
-layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
-#include "collision/row_items.glsl"
+layout(std430, binding = 13) readonly buffer Touched { uint touched[]; };
+#include "collision/touched.h"
+#include "collision/touched.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #include "collision/separation.glsl"
 
@@ -49,8 +50,8 @@ void separate(ContactEdge one, ContactEdge other, float reach, bool touches) {
 }
 
 void main() {
-    FOR_EACH_ROW(row) {
-        const uint element = elementOf(row);
+    FOR_EACH_TOUCHED_ROW(row) {
+        const uint element = touchedRow(row);
         const uvec2 candidate = contacts[element];
         separate(edges[owners[element]], edges[candidate.x], uintBitsToFloat(candidate.y), directions[element].w != 0.0);
     }

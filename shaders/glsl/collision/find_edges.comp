@@ -23,11 +23,7 @@ FETCHED_UINT(6, Excluded, excludedAt) // first of each edge, then partners, sort
 #define SORTED(k) sortedAt(k)
 #define START(slot) startAt(slot)
 #define EXCLUDED(k) excludedAt(k)
-ContactEdge edgeAt(uint e) {
-    if (!usesTexels) return edges[e];
-    const uvec4 words = texelFetch(edgeTexels, int(e));
-    return ContactEdge(words.x, words.y, words.z, uintBitsToFloat(words.w));
-}
+#include "collision/edge_at.glsl"
 layout(std430, binding = 7) coherent volatile buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 8) readonly buffer Points { uint apart[]; }; // FACE_POINTS_...
 FETCHED_VEC4(9, Headings, headingAt)

@@ -65,13 +65,10 @@ void listRows(uint i, uvec2 list) {
         if (!touches && weights[element].w == 0.0 && MEMORY(element) == vec4(0.0)) continue;
         listTouched(TOUCHED_ROWS, element);
         if (!touches) continue;
-        listTouchedParticle(i);
         const uint face = CONTACT(element).x;
-        if (face >= push.moving) continue;
-        const ContactFace corners = faceAt(face);
-        listTouchedParticle(corners.a);
-        listTouchedParticle(corners.b);
-        listTouchedParticle(corners.c);
+        ContactFace corners = ContactFace(i, i, i, 0.0);
+        if (face < push.moving) corners = faceAt(face);
+        listTouchedParticles(i, corners.a, corners.b, corners.c);
     }
 }
 
@@ -106,7 +103,7 @@ void findContacts(uint i, uvec2 list) {
 }
 
 void main() {
-    const uint i = touchedItem(push.count);
+    const uint i = touchedItem();
     if (i == ~0u) return;
     const uvec2 list = lists[i];
     findContacts(i, list);

@@ -40,7 +40,7 @@ void separate(Corner point, vec3 along, uvec2 candidate, bool touches) {
 }
 
 void main() {
-    const uint i = touchedItem(push.count);
+    const uint i = touchedItem();
     if (i == ~0u || sheets[i] == 0u) return;
     const uvec2 list = lists[i];
     const Corner point = cornerOf(i);

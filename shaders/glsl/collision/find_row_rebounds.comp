@@ -14,11 +14,12 @@ layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Surfaces { uint surfaces[]; }; // one per particle
 layout(std430, binding = 7) readonly buffer Pairs { SurfacePair pairs[]; };
 layout(std140, binding = 8) uniform Step { StepParams step; };
-layout(std430, binding = 9) writeonly buffer Bounces { vec4 bounces[]; };  // n, speed [m/s]; 0 = does not rebound
-layout(std140, binding = 10) uniform Bounds { GridBounds bounds; };
+layout(std430, binding = 9) writeonly buffer Impulses { vec4 impulses[]; }; // w: speed [m/s]; 0 = does not rebound
+layout(std430, binding = 10) readonly buffer Touched { uint touched[]; };
 #define BEFORE(i) before[i]
 #define WEIGHT(k) weights[k]
-#include "collision/row_items.glsl"
+#include "collision/touched.h"
+#include "collision/touched.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
 #include "collision/row.glsl"
@@ -30,9 +31,8 @@ float speedOf(uint owner, uint element) {
 }
 
 void main() {
-    FOR_EACH_ROW(row) {
-        const uint element = elementOf(row);
-        const vec4 direction = directions[element];
-        bounces[element] = vec4(direction.xyz, direction.w > 0.0 ? speedOf(owners[element], element) : 0.0);
+    FOR_EACH_TOUCHED_ROW(row) {
+        const uint element = touchedRow(row);
+        if (directions[element].w > 0.0) impulses[element] = vec4(vec3(0.0), speedOf(owners[element], element));
     }
 }

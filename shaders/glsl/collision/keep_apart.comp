@@ -16,9 +16,13 @@ layout(std140, binding = 5) uniform Step { StepParams step; };
 #define SPEEDS_BINDING 6
 layout(push_constant) uniform Push { FacePush push; };
 #include "collision/body_speeds.glsl"
+#define TOUCHED_LIST TOUCHED_PARTICLES
+#include "collision/touched.h"
+#include "collision/touched.glsl"
 
 void main() {
-    const uint i = itemIndex(push.count);
+    const uint i = touchedSlots == 0u ? itemIndex(push.count) : touchedItem();
+    if (i == ~0u) return;
     const float part = uintBitsToFloat(parts[i]);
     if (part == 1.0) return;
     parts[i] = floatBitsToUint(1.0);

@@ -5,6 +5,8 @@
 #define RUNS_LISTED
 #include "common/kernel.glsl"
 #include "collision/rows_of.glsl"
+layout(constant_id = 1) const bool ofRebounds = false; // sums rows that rebound alone; else the next buffer is empty
+layout(std430, binding = 9) readonly buffer Impulses { vec4 impulses[]; }; // w: speed of a rebound [m/s]
 #define TOUCHED_LIST TOUCHED_PARTICLES
 #include "collision/touched.h"
 #include "collision/touched.glsl"
@@ -13,11 +15,11 @@ layout(std430, binding = 8) writeonly buffer Shares { float shares[]; };       /
 
 float sum = 0.0;
 void visit(uint element, uint place) {
-    if (DIRECTION(element).w > 0.0) sum += abs(betaOf(element, place));
+    if (DIRECTION(element).w > 0.0 && (!ofRebounds || impulses[element].w > 0.0)) sum += abs(betaOf(element, place));
 }
 
 void main() {
-    const uint i = touchedItem(push.count);
+    const uint i = touchedItem();
     if (i == ~0u) return;
     visitRows(i);
     shares[i] = sum * velocities[i].w;

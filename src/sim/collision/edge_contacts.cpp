@@ -2,6 +2,7 @@
 #include "sim/collision/edge_contacts.hpp"
 
 #include "common/rest_slack.h"
+#include "kernels.hpp"
 #include "sim/collision/debris_contacts.hpp"
 
 #include <algorithm>
@@ -10,6 +11,8 @@
 namespace sinew::sim::collision::edge_contacts {
 
 namespace {
+
+namespace k = kernels;
 
 using edge_lists::Edge;
 
@@ -63,6 +66,23 @@ bool isSparse(const Scene& scene, const Edge& edge) {
     return edge.thickness < dense * std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
 }
 
+// constant_ids in find_edge_rows.comp and find_edge_contacts.comp
+constexpr std::uint32_t keepsRestId = 1, hasZonesId = 5;
+
+// Appends the pass that lists pairs which may touch.
+void addRows(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
+    const row_contacts::Rows& rows = contacts.rows;
+    ProgramBuilder::Constants constants = rows.touched.constants();
+    constants[keepsRestId] = rows.keepsRest;
+    constants[hasZonesId] = contacts.meeting != unbound;
+    row_contacts::addOverRows(program, rows, k::findEdgeRows,
+                              {predicted.positions, predicted.velocities, rows.shapes, rows.lists.contacts,
+                               rows.lists.links->owners, rows.lists.memory->memory, rows.directions,
+                               predicted.step, contacts.finding, contacts.meeting, rows.touched.arguments,
+                               rows.touched.lists},
+                              constants);
+}
+
 } // namespace
 
 std::vector<Edge> edgesThatMeet(const SceneModel& model) {
@@ -85,6 +105,8 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const std::vector
     Contacts contacts{.lists = addLists(program, model, edges, faces.rows.keepsRest),
                       .rows = {},
                       .constants = faces.separations.constants()};
+    contacts.lists.grid.touched = row_contacts::addTouched(
+        program, "edges", static_cast<std::uint32_t>(model.layout.count), contacts.lists.pooled.room);
     const edge_lists::Lists& lists = contacts.lists;
     contacts.rows = {.kind = &row_contacts::edges,
                      .push = {.count = lists.push.points,
@@ -98,6 +120,7 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const std::vector
                      .elements = lists.grid.entries,
                      .bounds = lists.grid.bounds,
                      .particles = {lists.grid.touchingParticles, lists.touching},
+                     .touched = lists.grid.touched,
                      .surfaces = faces.rows.surfaces,
                      .marks = faces.rows.marks,
                      .keepsRest = faces.rows.keepsRest};
@@ -105,12 +128,14 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const std::vector
                       cornersOf(edges, model.layout, model.inverseMass, model.settings.keepsForces),
                       particles);
     const bool mayPass = faces.zones.areBetweenSheets;
-    constexpr std::uint32_t hasZonesId = 5; // constant_id in find_edge_contacts.comp
     contacts.constants[hasZonesId] = mayPass;
-    if (mayPass) contacts.meeting = program.scratch<std::uint32_t>("zones.meeting_edges", lists.pooled.room);
-    contacts.rows.touching = {
-        lists.pooled.links->owners, lists.pooled.links->elements,          lists.pooled.links->ranges,
-        faces.separations.sheets,   boundIf(mayPass, faces.zones.finding), contacts.meeting};
+    if (mayPass) {
+        contacts.finding = faces.zones.finding;
+        contacts.meeting = program.scratch<std::uint32_t>("zones.meeting_edges", lists.pooled.room);
+    }
+    contacts.rows.touching = {lists.pooled.links->owners, lists.pooled.links->elements,
+                              lists.pooled.links->ranges, faces.separations.sheets,
+                              contacts.finding,           contacts.meeting};
     ContactBuffers& shown = program.program().contacts;
     shown.edges = lists.edges;
     shown.edgePairs = lists.pooled.contacts;
@@ -140,6 +165,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
     edge_lists::addLists(program, contacts.lists, predicted);
     ProgramBuilder::Constants constants = row_contacts::restConstants(contacts.rows.keepsRest, isFirst);
     constants.merge(ProgramBuilder::Constants(contacts.constants));
+    addRows(program, contacts, predicted);
     row_contacts::addPasses(program, contacts.rows, predicted, constants);
 }
 

@@ -19,6 +19,7 @@ struct Contacts {
     edge_lists::Lists lists;
     row_contacts::Rows rows;             ///< with the surfaces of contacts with faces
     ProgramBuilder::Constants constants; ///< of the kernel that finds contacts
+    BufferId finding = unbound;          ///< arguments of the search of zones; only if two sheets may meet
     BufferId meeting = unbound;          ///< as in impact_zones::FoundEdges; only if two sheets may meet
 
     /// The edges that impact zones search; none if no two sheets may meet.

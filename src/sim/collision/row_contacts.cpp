@@ -11,46 +11,35 @@ namespace {
 
 namespace k = kernels;
 
-// The particles that a pass visits: those of rows that touch, or those of all rows.
-enum class Visited : bool { touching, all };
+// Rows among which particles are divided: those that touch, or those of them that rebound.
+enum class Dividing : bool { touches, rebounds };
 
-void addOverVisited(ProgramBuilder& program, const Rows& rows, Visited visited, const vk::ShaderCode& code,
-                    std::vector<BufferId> buffers, ProgramBuilder::Constants constants) {
-    if (visited == Visited::all || rows.touched.slots == 0)
-        addOverParticles(program, rows, code, std::move(buffers), constants);
-    else
-        addOverTouched(program, rows, TOUCHED_PARTICLES, code, std::move(buffers), std::move(constants));
-}
-
-// Appends the pass that divides particles among the rows whose last word of `directions` is not 0.
-void addShares(ProgramBuilder& program, const Rows& rows, Visited visited, BufferId directions,
+// Appends the pass that divides particles.
+void addShares(ProgramBuilder& program, const Rows& rows, Dividing dividing,
                const ParticleBuffers& particles) {
-    addOverVisited(program, rows, visited, k::sumRowWeights,
-                   {rows.lists.ranges, directions, rows.weights, rows.corners, rows.lists.links->elements,
-                    rows.lists.links->ranges, rows.cornerEnds, particles.velocities, rows.shares},
-                   rows.kind->constants());
+    constexpr std::uint32_t ofReboundsId = 1; // constant_id in sum_row_weights.comp
+    const bool ofRebounds = dividing == Dividing::rebounds;
+    ProgramBuilder::Constants constants = rows.kind->constants();
+    constants[ofReboundsId] = ofRebounds;
+    addOverTouched(program, rows, TOUCHED_PARTICLES, k::sumRowWeights,
+                   {rows.lists.ranges, rows.directions, rows.weights, rows.corners,
+                    rows.lists.links->elements, rows.lists.links->ranges, rows.cornerEnds,
+                    particles.velocities, rows.shares, boundIf(ofRebounds, rows.impulses)},
+                   std::move(constants));
 }
 
 // Appends the pass that applies impulses to particles.
-void addImpulses(ProgramBuilder& program, const Rows& rows, Visited visited, BufferId directions,
-                 const vk::ShaderCode& code, const ParticleBuffers& particles,
-                 ProgramBuilder::Constants constants = {}) {
-    std::vector<BufferId> buffers{rows.lists.ranges,
-                                  directions,
-                                  rows.weights,
-                                  rows.corners,
-                                  rows.lists.links->elements,
-                                  rows.lists.links->ranges,
-                                  rows.cornerEnds,
-                                  rows.impulses,
-                                  particles.velocities,
-                                  particles.positions,
-                                  particles.step};
+void addImpulses(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode& code,
+                 const ParticleBuffers& particles, ProgramBuilder::Constants constants = {}) {
+    std::vector<BufferId> buffers{
+        rows.lists.ranges,          rows.directions,          rows.weights,    rows.corners,
+        rows.lists.links->elements, rows.lists.links->ranges, rows.cornerEnds, rows.impulses,
+        particles.velocities,       particles.positions,      particles.step};
     forces::bindTo(particles, rows.kind->forces, buffers, constants);
     const bool hasStops = particles.forces != nullptr && !rows.kind->areEdges;
     for (const BufferId buffer : rows.forceRows) buffers.push_back(hasStops ? buffer : unbound);
     constants.merge(rows.kind->constants());
-    addOverVisited(program, rows, visited, code, std::move(buffers), std::move(constants));
+    addOverTouched(program, rows, TOUCHED_PARTICLES, code, std::move(buffers), std::move(constants));
 }
 
 sleep::SeenRows seenOf(const Rows& rows) {
@@ -61,11 +50,16 @@ sleep::SeenRows seenOf(const Rows& rows) {
 
 } // namespace
 
-constinit const Kind faces{
-    .name = "faces", .touch = &k::findFaceContacts, .forces = &forces::Forces::ofStops};
+constinit const Kind faces{.name = "faces",
+                           .touch = &k::findFaceContacts,
+                           .searched = TOUCHED_POINTS,
+                           .forces = &forces::Forces::ofStops};
 
-constinit const Kind edges{
-    .name = "edges", .areEdges = true, .touch = &k::findEdgeContacts, .forces = &forces::Forces::ofContacts};
+constinit const Kind edges{.name = "edges",
+                           .areEdges = true,
+                           .touch = &k::findEdgeContacts,
+                           .searched = TOUCHED_ROWS,
+                           .forces = &forces::Forces::ofContacts};
 
 void addOverParticles(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode& code,
                       std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants) {
@@ -85,7 +79,7 @@ void addOverTouched(ProgramBuilder& program, const Rows& rows, std::uint32_t lis
     constants.merge(rows.touched.constants());
     const bool arePoints = list == TOUCHED_POINTS;
     const IndirectItems items{arePoints ? rows.touched.points : rows.touched.arguments, arePoints ? 0 : list,
-                              rows.touched.slots};
+                              list == TOUCHED_ROWS ? rows.elements.most : rows.touched.slots};
     program.dispatchIndirect(code, items, buffers, rows.push, constants);
 }
 
@@ -121,8 +115,6 @@ void add(ProgramBuilder& program, Rows& rows, const Corners& corners, const Part
     rows.directions = program.scratch<layout::vec4>(name + ".directions", elements);
     rows.weights = program.scratch<layout::vec4>(name + ".weights", elements);
     rows.impulses = program.scratch<layout::vec4>(name + ".impulses", elements);
-    if (rows.surfaces.hasRestitution)
-        rows.bounces = program.scratch<layout::vec4>(name + ".bounces", elements);
     rows.shares = program.scratch<float>(name + ".shares", particles.layout.count);
 }
 
@@ -143,48 +135,38 @@ void addPasses(ProgramBuilder& program, const Rows& rows, const ParticleBuffers&
         predicted.positions,  predicted.velocities, rows.shapes,  lists.contacts, lists.ranges,
         lists.memory->memory, rows.directions,      rows.weights, predicted.step, rows.marks};
     buffers.insert(buffers.end(), rows.touching.begin(), rows.touching.end());
-    const vk::ShaderCode& touch = *rows.kind->touch;
-    if (rows.touched.slots > 0)
-        addOverTouched(program, rows, TOUCHED_POINTS, touch, std::move(buffers), constants);
-    else
-        addOverRows(program, rows, touch, std::move(buffers), constants);
+    addOverTouched(program, rows, rows.kind->searched, *rows.kind->touch, std::move(buffers), constants);
     sleep::addRowTouches(program, predicted, seenOf(rows));
     events::addRows(program, predicted, seenOf(rows));
-    addShares(program, rows, Visited::touching, rows.directions, predicted);
-    ProgramBuilder::Constants impulseConstants = rows.kind->constants();
-    impulseConstants.merge(rows.touched.constants());
-    const bool hasTouched = rows.touched.slots > 0;
-    program.dispatchIndirect(
-        k::computeRowImpulses,
-        hasTouched ? IndirectItems{rows.touched.arguments, TOUCHED_ROWS, rows.elements.most} : rows.elements,
-        {predicted.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.directions,
-         rows.weights, rows.shares, lists.memory->memory, rows.impulses, rows.before, predicted.step,
-         rows.surfaces.ofParticles, rows.surfaces.pairs, rows.bounds, rows.touched.lists},
-        rows.push, impulseConstants);
-    addImpulses(program, rows, Visited::touching, rows.directions, k::applyRowImpulses, predicted,
-                remainderConstants(predicted.layout));
+    addShares(program, rows, Dividing::touches, predicted);
+    addOverTouched(program, rows, TOUCHED_ROWS, k::computeRowImpulses,
+                   {predicted.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.directions,
+                    rows.weights, rows.shares, lists.memory->memory, rows.impulses, rows.before,
+                    predicted.step, rows.surfaces.ofParticles, rows.surfaces.pairs},
+                   rows.kind->constants());
+    addImpulses(program, rows, k::applyRowImpulses, predicted, remainderConstants(predicted.layout));
 }
 
 void addBounces(ProgramBuilder& program, const Rows& rows, const ParticleBuffers& state) {
     if (!rows.surfaces.hasRestitution) return;
     const pooled_lists::Lists& lists = rows.lists;
-    addOverRows(program, rows, k::findRowRebounds,
-                {rows.before, rows.shapes, lists.contacts, lists.links->owners, rows.directions, rows.weights,
-                 rows.surfaces.ofParticles, rows.surfaces.pairs, state.step, rows.bounces},
-                rows.kind->constants());
-    addShares(program, rows, Visited::all, rows.bounces, state);
-    addOverRows(program, rows, k::solveRowRebounds,
-                {state.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.bounces,
-                 rows.weights, rows.shares, rows.impulses},
-                rows.kind->constants());
-    addImpulses(program, rows, Visited::all, rows.bounces, k::applyRowRebounds, state);
+    addOverTouched(program, rows, TOUCHED_ROWS, k::findRowRebounds,
+                   {rows.before, rows.shapes, lists.contacts, lists.links->owners, rows.directions,
+                    rows.weights, rows.surfaces.ofParticles, rows.surfaces.pairs, state.step, rows.impulses},
+                   rows.kind->constants());
+    addShares(program, rows, Dividing::rebounds, state);
+    addOverTouched(program, rows, TOUCHED_ROWS, k::solveRowRebounds,
+                   {state.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.directions,
+                    rows.weights, rows.shares, rows.impulses},
+                   rows.kind->constants());
+    addImpulses(program, rows, k::applyRowRebounds, state);
 }
 
 void addPublishing(ProgramBuilder& program, const Rows& rows, const hash_grid::Grid& grid) {
     pooled_lists::addPublishing(program, rows.lists, grid);
     // Lists stay while everything sleeps, when no pass plans the number of groups.
-    if (rows.sleeps) program.fill(grid.touching.arguments, 0);
-    if (!rows.sleeps || rows.touched.slots == 0) return;
+    if (!rows.sleeps) return;
+    program.fill(grid.touching.arguments, 0);
     program.fill(rows.touched.points, 0);
     program.fill(rows.touched.arguments, 0);
 }

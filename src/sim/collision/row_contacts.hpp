@@ -31,8 +31,8 @@ namespace sinew::sim::collision::row_contacts {
 struct Kind {
     const char* name = nullptr; ///< of buffers
     bool areEdges = false;
-    const vk::ShaderCode* touch =
-        nullptr; ///< finds contacts: over Rows::touched if that exists, else over rows
+    const vk::ShaderCode* touch = nullptr; ///< finds contacts
+    std::uint32_t searched = 0;            ///< the list that `touch` visits, as in touched.h
     ProgramBuilder::Constants (forces::Forces::*forces)() const = nullptr; ///< elements of impulses
     /// Constants of all kernels of rows.
     ProgramBuilder::Constants constants() const {
@@ -67,7 +67,7 @@ struct Rows {
     IndirectItems elements;     ///< used entries of `lists`
     BufferId bounds;            ///< of the grid: holds the number of entries
     Groups particles;           ///< work groups with a particle in a row
-    hash_grid::Touched touched; ///< what touches in a substep; without it passes visit all candidates
+    hash_grid::Touched touched; ///< what touches in a substep
     surfaces::Surfaces surfaces;
     BufferId marks;         ///< contact_lists::linkedMarks; another buffer if the kernels read none
     bool keepsRest = false; ///< of any particle
@@ -75,7 +75,6 @@ struct Rows {
     bool sleeps = false;                    ///< whether the scene may sleep
     BufferId corners, cornerEnds;           ///< see Corners
     BufferId directions, weights, impulses; ///< by element of `lists`
-    BufferId bounces;                       ///< by element of `lists`; only with restitution
     BufferId shares;                        ///< by slot
     BufferId before;                        ///< velocities at the start of the substep, set in each
     std::vector<BufferId> touching;         ///< additional buffers of the kernel that finds contacts
@@ -93,7 +92,7 @@ void addOverParticles(ProgramBuilder& program, const Rows& rows, const vk::Shade
 void addOverRows(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode& code,
                  std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {});
 
-/// Appends a pass over what touches: `list` as in touched.h, of particles or points.
+/// Appends a pass over what touches: `list` as in touched.h. The kernel gets the lists after `buffers`.
 void addOverTouched(ProgramBuilder& program, const Rows& rows, std::uint32_t list, const vk::ShaderCode& code,
                     std::vector<BufferId> buffers, ProgramBuilder::Constants constants = {});
 

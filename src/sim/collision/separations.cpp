@@ -33,8 +33,8 @@ void addSearch(ProgramBuilder& program, const Separations& separations, const ro
     std::ranges::copy(buffersOf(separations), std::back_inserter(buffers));
     if (rows.kind->areEdges) {
         buffers.push_back(lists.links->owners);
-        row_contacts::addOverRows(program, rows, k::findEdgeSeparations, std::move(buffers),
-                                  speedConstants(separations));
+        row_contacts::addOverTouched(program, rows, TOUCHED_ROWS, k::findEdgeSeparations, std::move(buffers),
+                                     speedConstants(separations));
     } else {
         buffers.push_back(lists.ranges);
         row_contacts::addOverTouched(program, rows, TOUCHED_POINTS, k::findFaceSeparations,
@@ -78,7 +78,12 @@ void addPasses(ProgramBuilder& program, const Separations& separations, const ro
     std::ranges::copy(buffersOf(separations), std::back_inserter(buffers));
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
     constants.merge(speedConstants(separations));
-    row_contacts::addOverParticles(program, rows, k::keepApart, std::move(buffers), constants);
+    // Corners of faces within reach that do not touch are in no list of what touches; ends of edges are.
+    if (rows.kind->areEdges)
+        row_contacts::addOverTouched(program, rows, TOUCHED_PARTICLES, k::keepApart, std::move(buffers),
+                                     std::move(constants));
+    else
+        row_contacts::addOverParticles(program, rows, k::keepApart, std::move(buffers), constants);
 }
 
 } // namespace sinew::sim::collision::separations

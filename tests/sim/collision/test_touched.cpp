@@ -26,27 +26,31 @@ template <typename T> std::vector<T> read(test::Runner& runner, const std::strin
     return {};
 }
 
-// The lists of the last substep, and what its lists of candidates and its contacts have of it.
+// What the last substep listed of a kind of contacts, and what its lists of candidates and its contacts have
+// of it.
 struct Visited {
     std::size_t candidates = 0;
     std::vector<std::uint32_t> particles, rows, points;
     std::set<std::uint32_t> inContact, touching;
+
+    void setListed(const std::vector<std::uint32_t>& words, std::size_t slots) {
+        const auto list = [&](std::uint32_t which, std::size_t section) {
+            const auto first = words.begin() + static_cast<std::ptrdiff_t>(TOUCHED_MARKS + section * slots);
+            return std::vector<std::uint32_t>(first, first + words[which]);
+        };
+        particles = list(TOUCHED_PARTICLES, 1);
+        rows = list(TOUCHED_ROWS, 3);
+        points = list(TOUCHED_POINTS, 2);
+    }
 };
 
-Visited visitedBy(test::Runner& runner) {
+Visited facesVisitedBy(test::Runner& runner) {
     const auto lists = read<layout::ListRange>(runner, "faces.lists");
-    const auto words = read<std::uint32_t>(runner, "faces.touched");
     const auto faces = read<layout::ContactFace>(runner, "faces");
     const auto contacts = read<layout::ContactCandidate>(runner, "faces.contacts");
     const auto directions = read<layout::vec4>(runner, "faces.directions");
-    const auto list = [&](std::uint32_t which, std::size_t section) {
-        const auto first =
-            words.begin() + static_cast<std::ptrdiff_t>(TOUCHED_MARKS + section * lists.size());
-        return std::vector<std::uint32_t>(first, first + words[which]);
-    };
-    Visited visited{.particles = list(TOUCHED_PARTICLES, 1),
-                    .rows = list(TOUCHED_ROWS, 3),
-                    .points = list(TOUCHED_POINTS, 2)};
+    Visited visited;
+    visited.setListed(read<std::uint32_t>(runner, "faces.touched"), lists.size());
     for (std::uint32_t i = 0; i < lists.size(); ++i)
         for (std::uint32_t row = lists[i].first; row < lists[i].first + lists[i].count; ++row) {
             ++visited.candidates;
@@ -54,6 +58,25 @@ Visited visitedBy(test::Runner& runner) {
             const layout::ContactFace& face = faces[contacts[row].other];
             visited.touching.insert(row);
             visited.inContact.insert({i, face.a, face.b, face.c});
+        }
+    return visited;
+}
+
+Visited edgesVisitedBy(test::Runner& runner) {
+    const auto lists = read<layout::ListRange>(runner, "edges.lists");
+    const auto edges = read<layout::ContactEdge>(runner, "edges");
+    const auto contacts = read<layout::ContactCandidate>(runner, "edges.contacts");
+    const auto directions = read<layout::vec4>(runner, "edges.directions");
+    Visited visited;
+    visited.setListed(read<std::uint32_t>(runner, "edges.touched"),
+                      read<layout::ListRange>(runner, "faces.lists").size());
+    for (std::uint32_t e = 0; e < lists.size(); ++e)
+        for (std::uint32_t row = lists[e].first; row < lists[e].first + lists[e].count; ++row) {
+            ++visited.candidates;
+            if (directions[row].w == 0) continue;
+            const layout::ContactEdge &own = edges[e], &other = edges[contacts[row].other];
+            visited.touching.insert(row);
+            visited.inContact.insert({own.a, own.b, other.a, other.b});
         }
     return visited;
 }
@@ -69,7 +92,7 @@ TEST(Touched, IsNothingInClothThatSwings) {
     test::Runner runner(scene, {.substeps = 32});
     for (int step = 0; step < 10; ++step) {
         ASSERT_EQ(runner.run(1).nonFinite, 0u);
-        const Visited visited = visitedBy(runner);
+        const Visited visited = facesVisitedBy(runner);
         EXPECT_EQ(visited.candidates, 0u) << step;
         EXPECT_TRUE(visited.points.empty()) << step;
         EXPECT_TRUE(visited.particles.empty()) << step;
@@ -86,7 +109,7 @@ TEST(Touched, HasEachContactAndItsParticlesOnce) {
         const Status status = runner.run(1);
         ASSERT_EQ(status.nonFinite + status.contactRoom, 0u);
         if (step % 4 != 3) continue;
-        const Visited visited = visitedBy(runner);
+        const Visited visited = facesVisitedBy(runner);
         contacts += visited.touching.size();
         const std::set<std::uint32_t> particles(visited.particles.begin(), visited.particles.end());
         EXPECT_EQ(particles.size(), visited.particles.size()) << "no particle twice";
@@ -97,4 +120,27 @@ TEST(Touched, HasEachContactAndItsParticlesOnce) {
         EXPECT_LT(rows.size(), visited.candidates);
     }
     EXPECT_GE(contacts, 100u);
+}
+
+// Few candidates of edges are listed, among them all that touch, and their ends.
+TEST(Touched, HasEachContactBetweenEdgesAndItsEndsOnce) {
+    const Scene scene = test::clothOnBox(0.15f);
+    test::Runner runner(scene, {.substeps = 16, .contactRoom = 200});
+    std::size_t contacts = 0, rows = 0, candidates = 0;
+    for (int step = 0; step < 40; ++step) {
+        const Status status = runner.run(1);
+        ASSERT_EQ(status.nonFinite + status.contactRoom, 0u);
+        const Visited visited = edgesVisitedBy(runner);
+        contacts += visited.touching.size();
+        rows += visited.rows.size();
+        candidates += visited.candidates;
+        const std::set<std::uint32_t> particles(visited.particles.begin(), visited.particles.end());
+        EXPECT_EQ(particles.size(), visited.particles.size()) << "no particle twice";
+        EXPECT_TRUE(std::ranges::includes(particles, visited.inContact)) << "step " << step;
+        const std::set<std::uint32_t> listed(visited.rows.begin(), visited.rows.end());
+        EXPECT_EQ(listed.size(), visited.rows.size());
+        EXPECT_TRUE(std::ranges::includes(listed, visited.touching)) << "step " << step;
+    }
+    EXPECT_GE(contacts, 100u);
+    EXPECT_LT(2 * rows, candidates);
 }
