@@ -17,9 +17,12 @@ layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
 layout(push_constant) uniform Push { GridPush push; };
 #include "collision/patch_shape.glsl"
 
+layout(constant_id = 1) const uint parts = 1u; // invocations of a patch, which share the rows of its region
+
 void main() {
-    const uint k = itemIndex(push.patches);
-    if (k >= push.patches || alone[k] == 0u) return;
+    const uint all = parts * push.patches, item = itemIndex(all), k = item / parts;
+    if (item >= all || alone[k] == 0u) return;
     const SheetPatch own = patches[k];
-    if (!keepsApart(own, 1.001 * own.reach, 0.0)) atomicMax(bounds.moved, floatBitsToUint(1e-30));
+    const uint rows = (PATCH_REGION - 1u) / parts;
+    if (!keepsApart(own, 1.001 * own.reach, 0.0, item % parts * rows, rows)) atomicMax(bounds.moved, floatBitsToUint(1e-30));
 }

@@ -40,22 +40,23 @@ bool isWide(vec4 right, vec4 down, float least) {
     return min(a.x, a.y) > 0.0 && min(b.x, b.y) > 0.0 && a.x * b.x >= c.x * c.x && a.y * b.y >= c.y * c.y;
 }
 
-// True if no two points of the region that are at least SheetPatch::nearest apart at rest come nearer than `reach` in the
-// substep, nor in `ahead` more if all keep their velocities. False if something is NaN.
-bool keepsApart(SheetPatch own, float reach, float ahead) {
+// With all rows of squares: true if no two points of the region that are at least SheetPatch::nearest apart at rest come
+// nearer than `reach` in the substep, nor in `ahead` more if all keep their velocities. Some rows may be looked at apart:
+// all must be wide in the same view. False if something is NaN.
+bool keepsApart(SheetPatch own, float reach, float ahead, uint firstRow, uint rows) {
     const View view = viewOf(own);
     const float least = reach / own.nearest;
     const vec3 origin = POSITION(own.first).xyz; // keeps sums small
     vec4 above[PATCH_REGION]; // nodes of the row before; xy: at the start, zw: at the end
     bool isWhole = true;
-    for (uint y = 0u; y < PATCH_REGION; ++y) {
+    for (uint y = firstRow; y <= firstRow + rows; ++y) {
         vec4 left = vec4(0.0), leftDown = vec4(0.0), aboveLeft = vec4(0.0);
         [[unroll]] for (uint x = 0u; x < PATCH_REGION; ++x) {
             const uint i = regionNode(own, x, y);
             const vec3 v = step.h * VELOCITY(i).xyz, end = POSITION(i).xyz - origin + ahead * v, start = end - (1.0 + ahead) * v;
             const vec4 node = vec4(dot(start, view.right), dot(start, view.down), dot(end, view.right), dot(end, view.down));
             const vec4 down = node - above[x], right = node - left, rightAbove = above[x] - aboveLeft;
-            if (x > 0u && y > 0u) // all four triangles of the square: its diagonal may be either
+            if (x > 0u && y > firstRow) // all four triangles of the square: its diagonal may be either
                 isWhole = isWhole && isWide(right, down, least) && isWide(right, leftDown, least) && isWide(rightAbove, down, least) && isWide(rightAbove, leftDown, least);
             aboveLeft = above[x];
             above[x] = node;

@@ -132,7 +132,7 @@ void main() {
     const uint k = itemIndex(push.patches);
     if (k >= push.patches) return;
     own = patches[k];
-    const bool isAlone = keepsApart(own, MORE_THAN_REACH * own.reach, SUBSTEPS_AHEAD) && !isNearAny(nodesOfPatch());
+    const bool isAlone = keepsApart(own, MORE_THAN_REACH * own.reach, SUBSTEPS_AHEAD, 0u, PATCH_REGION - 1u) && !isNearAny(nodesOfPatch());
     alone[k] = isAlone ? 1u : 0u;
     if (!isAlone) leaveToFaces();
 }

@@ -197,6 +197,7 @@ face_lists::Lists addLists(ProgramBuilder& program, const SceneModel& model, Fac
                                                         .extents = faces.extents,
                                                         .exclusions = exclusions,
                                                         .sheets = sheets,
+                                                        .sharesPatches = model.settings.forms.chunk == 1,
                                                         .liveLinks = hasInner ? cutting.links : BufferId{},
                                                         .margin = model.settings.contactMargin * length,
                                                         .beyond = beyond,

@@ -153,7 +153,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .moving = request.moving,
                   .large = static_cast<std::uint32_t>(large.size()),
                   .loose = loose};
-    lists.patches = sheet_patches::add(program, patches, thickestOf(request.sheets));
+    lists.patches = sheet_patches::add(program, patches, thickestOf(request.sheets), request.sharesPatches);
     lists.grid.push.loose = loose;
     lists.grid.push.patches = lists.patches.count;
     lists.grid.patches = {lists.grid.arguments, GRID_PATCHES, lists.patches.count, true};

@@ -30,6 +30,7 @@ struct Request {
     /// diagonals touch at LINKED_REACH.
     std::span<const std::uint32_t> exclusions;
     std::span<const sheet_patches::Sheet> sheets; ///< whose faces search in patches
+    bool sharesPatches = false;                   ///< several invocations check a patch, as suits a GPU
     BufferId liveLinks;                           ///< CuttingBuffers::links; only if there are such rows
     float margin = 0;                             ///< M [m]
     float beyond = 0;                             ///< additional listing distance beyond contact and M [m]

@@ -199,9 +199,11 @@ std::vector<layout::SheetPatch> sortIntoPatches(std::vector<FacePair>& pairs, st
     return patches;
 }
 
-Patches add(ProgramBuilder& program, std::span<const layout::SheetPatch> patches, float thickness) {
+Patches add(ProgramBuilder& program, std::span<const layout::SheetPatch> patches, float thickness,
+            bool isShared) {
     if (patches.empty()) return {};
     return {.count = static_cast<std::uint32_t>(patches.size()),
+            .parts = isShared ? region - 1 : 1,
             .thickness = thickness,
             .table = program.upload("faces.patches", patches),
             .alone = program.scratch<std::uint32_t>("faces.patches.alone", patches.size())};
@@ -210,10 +212,11 @@ Patches add(ProgramBuilder& program, std::span<const layout::SheetPatch> patches
 void addCheck(ProgramBuilder& program, const Patches& patches, const hash_grid::Grid& grid,
               const hash_grid::Moved& moved) {
     if (patches.count == 0) return;
+    constexpr std::uint32_t partsId = 1; // constant_id in check_patches.comp
     program.dispatch(
-        k::checkPatches, patches.count,
-        {moved.positions, moved.velocities, moved.step, patches.table, patches.alone, grid.bounds},
-        grid.push);
+        k::checkPatches, patches.parts * patches.count,
+        {moved.positions, moved.velocities, moved.step, patches.table, patches.alone, grid.bounds}, grid.push,
+        {{partsId, patches.parts}});
 }
 
 void addSearch(ProgramBuilder& program, const Patches& patches, const hash_grid::Grid& grid,

@@ -37,11 +37,14 @@ std::vector<layout::SheetPatch> sortIntoPatches(std::vector<FacePair>& pairs, st
 
 struct Patches {
     std::uint32_t count = 0;
+    std::uint32_t parts = 1;                   ///< invocations that check a patch
     float thickness = 0;                       ///< the largest [m]
     BufferId table = unbound, alone = unbound; ///< layout::SheetPatch; 1 = alone
 };
 
-Patches add(ProgramBuilder& program, std::span<const layout::SheetPatch> patches, float thickness);
+/// `isShared`: several invocations check a patch, as suits a GPU.
+Patches add(ProgramBuilder& program, std::span<const layout::SheetPatch> patches, float thickness,
+            bool isShared);
 
 /// Appends, before the check of members of frames: the check of patches that are alone.
 void addCheck(ProgramBuilder& program, const Patches& patches, const hash_grid::Grid& grid,

@@ -74,7 +74,8 @@ std::vector<layout::vec4> wordsOf(const std::vector<Vector3d>& all, double scale
 // A program that only updates the lists of a sheet.
 class Device {
 public:
-    Device(const Sheet& sheet, float margin, bool isReversed = false) : builder_(isReversed, true) {
+    Device(const Sheet& sheet, float margin, bool isReversed = false, bool isShared = false)
+        : builder_(isReversed, true) {
         builder_.program().status = builder_.scratch<layout::StatusWords>("status", 1);
         const std::vector<layout::StepParams> step(1, layout::StepParams{.h = substep});
         particles_ = {.count = count,
@@ -92,6 +93,7 @@ public:
                                        .extents = extents,
                                        .exclusions = sheet.exclusions,
                                        .sheets = sheets,
+                                       .sharesPatches = isShared,
                                        .margin = margin,
                                        .capacity = 300});
         builder_.beginPhase("solve");
@@ -277,13 +279,13 @@ void expectComplete(const Sheet& sheet, const State& state, const Device& device
 
 } // namespace
 
-TEST(SheetPatches, HideNothingThatTouchesInTwelveHundredShapes) {
+TEST(PatchesOfSheets, HideNothingThatTouchesInTwelveHundredShapes) {
     std::mt19937 random(29);
     std::array<Found, forms.size()> found;
     std::size_t shapes = 0;
     for (const float thickness : {0.0115f, 0.01f, 0.005f, 0.02f}) {
         const Sheet sheet(thickness);
-        Device device(sheet, thickness / 4), backwards(sheet, thickness / 4, true);
+        Device device(sheet, thickness / 4), backwards(sheet, thickness / 4, true, true);
         for (int turn = 0; turn < 50; ++turn)
             for (std::size_t k = 0; k < forms.size(); ++k, ++shapes) {
                 SCOPED_TRACE(testing::Message()
@@ -310,7 +312,7 @@ TEST(SheetPatches, HideNothingThatTouchesInTwelveHundredShapes) {
     }
 }
 
-TEST(SheetPatches, AreAllAloneInAFlatSheetAndListNothing) {
+TEST(PatchesOfSheets, AreAllAloneInAFlatSheetAndListNothing) {
     std::mt19937 random(3);
     const Sheet sheet(0.0115f);
     Device device(sheet, 0.003f);
@@ -333,10 +335,12 @@ TEST(SheetPatches, AreAllAloneInAFlatSheetAndListNothing) {
 
 // Every node stays within the slack of lists, but a strip of the sheet is squeezed until a corner touches the
 // face across the diagonal.
-TEST(SheetPatches, AreGivenUpWhenTheirShapeChanges) {
+class SheetPatches : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Shared, SheetPatches, testing::Bool());
+TEST_P(SheetPatches, AreGivenUpWhenTheirShapeChanges) {
     std::mt19937 random(4);
     const Sheet sheet(0.0115f);
-    Device device(sheet, 0.5f * spacing); // slack of about a quarter of a spacing
+    Device device(sheet, 0.5f * spacing, false, GetParam()); // slack of about a quarter of a spacing
     const State flat = placed(random, sheet, Form::flat, 0, false);
     State state = flat;
     for (Vector3d& way : state.way) way.setZero();
