@@ -18,14 +18,11 @@ layout(std430, binding = 8) readonly buffer Contacts { uvec2 contacts[]; }; // C
 layout(std430, binding = 9) readonly buffer Owners { uint owners[]; };      // one per element
 layout(std430, binding = 10) writeonly buffer Solving { DispatchArguments solving[]; };
 layout(std430, binding = 11) readonly buffer Meets { uint meeting[]; }; // by element of the lists (meeting_marks.glsl)
-layout(std430, binding = 12) readonly buffer Lists { uvec2 lists[]; };         // one per edge: first element that it owns, count
-layout(std430, binding = 13) readonly buffer Links { uint links[]; };          // elements that others own
-layout(std430, binding = 14) readonly buffer LinkLists { uvec2 linkLists[]; }; // ranges in links, by edge
-layout(std430, binding = 15) readonly buffer Sheets { uint sheets[]; };        // by slot (sheet_marks.h)
-layout(std430, binding = 16) readonly buffer Thickness { float thickness[]; }; // by edge [m]
-layout(std140, binding = 17) uniform Bounds { GridBounds bounds; };
+layout(std430, binding = 12) readonly buffer Sheets { uint sheets[]; };        // by slot (sheet_marks.h)
+layout(std430, binding = 13) readonly buffer Thickness { float thickness[]; }; // by edge [m]
+layout(std430, binding = 14) readonly buffer Looked { vec4 looked[]; };        // predicted positions before contacts between edges
+layout(std140, binding = 15) uniform Bounds { GridBounds bounds; };
 layout(push_constant) uniform Push { ZonePush push; };
-#include "collision/meeting_marks.glsl"
 #include "collision/row_items.glsl"
 #include "collision/zone_edge_test.glsl"
 #include "collision/zone_pairs.glsl"
@@ -37,13 +34,17 @@ void testPair(ContactEdge first, ContactEdge second, float reach) {
     if (time <= 1.0) addPair(all, time);
 }
 
-// Whether contacts may throw an edge past others that are in no list.
+// Distance by which a particle has been moved off the way on which edges in lists were looked at [m].
+float thrownBy(uint i) {
+    const vec4 velocity = velocities[i];
+    return velocity.w == 0.0 ? 0.0 : length(positions[i].xyz - step.thetaH * velocity.xyz - looked[i].xyz);
+}
+
+// Whether an edge may pass others that are in no list. On that way two such edges are farther apart than both are thick:
+// to meet, one of them must have been moved off it by as much as it is thick.
 bool isThrown(uint e) {
-    const uvec2 list = lists[e], linked = linkLists[e];
-    uint mark = 0u;
-    for (uint element = list.x; element < list.x + list.y; ++element) mark = max(mark, meeting[element]);
-    for (uint link = linked.x; link < linked.x + linked.y; ++link) mark = max(mark, meeting[links[link]]);
-    return mark == MEETS_FAST && uintBitsToFloat(LOOSE(edges[e].a)) > 0.0;
+    const ContactEdge edge = edges[e];
+    return sheets[edge.a] != 0u && uintBitsToFloat(LOOSE(edge.a)) > 0.0 && max(thrownBy(edge.a), thrownBy(edge.b)) > 0.999 * thickness[e];
 }
 
 // Tests an edge with all of other sheets.

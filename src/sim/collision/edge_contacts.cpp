@@ -132,6 +132,7 @@ Contacts add(ProgramBuilder& program, const SceneModel& model, const std::vector
     if (mayPass) {
         contacts.finding = faces.zones.finding;
         contacts.meeting = program.scratch<std::uint32_t>("zones.meeting_edges", lists.pooled.room);
+        contacts.looked = program.scratch<layout::vec4>("zones.looked", positionCount(model.layout));
     }
     contacts.rows.touching = {lists.pooled.links->owners, lists.pooled.links->elements,
                               lists.pooled.links->ranges, faces.separations.sheets,
@@ -149,10 +150,8 @@ std::optional<impact_zones::FoundEdges> Contacts::passing() const {
     return impact_zones::FoundEdges{.edges = lists.edges,
                                     .contacts = rows.lists.contacts,
                                     .owners = rows.lists.links->owners,
-                                    .lists = rows.lists.ranges,
                                     .thickness = lists.thickness,
-                                    .links = rows.lists.links->elements,
-                                    .linkLists = rows.lists.links->ranges,
+                                    .looked = looked,
                                     .bounds = rows.bounds,
                                     .meeting = meeting,
                                     .most = rows.elements.most};
@@ -165,6 +164,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
     edge_lists::addLists(program, contacts.lists, predicted);
     ProgramBuilder::Constants constants = row_contacts::restConstants(contacts.rows.keepsRest, isFirst);
     constants.merge(ProgramBuilder::Constants(contacts.constants));
+    if (contacts.looked != unbound) program.copy(predicted.positions, contacts.looked);
     addRows(program, contacts, predicted);
     row_contacts::addPasses(program, contacts.rows, predicted, constants);
 }

@@ -19,8 +19,8 @@ struct Contacts {
     edge_lists::Lists lists;
     row_contacts::Rows rows;             ///< with the surfaces of contacts with faces
     ProgramBuilder::Constants constants; ///< of the kernel that finds contacts
-    BufferId finding = unbound;          ///< arguments of the search of zones; only if two sheets may meet
-    BufferId meeting = unbound;          ///< as in impact_zones::FoundEdges; only if two sheets may meet
+    /// Only if two sheets may meet: arguments of the search of zones, and those of impact_zones::FoundEdges.
+    BufferId finding = unbound, meeting = unbound, looked = unbound;
 
     /// The edges that impact zones search; none if no two sheets may meet.
     std::optional<impact_zones::FoundEdges> passing() const;

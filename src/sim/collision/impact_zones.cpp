@@ -54,9 +54,9 @@ void addPasses(ProgramBuilder& program, const Zones& zones, const FoundPoints& p
                     {points.faces, points.contacts, points.lists, zones.solving, points.searched,
                      points.large, zones.meeting, points.sheets, points.groups});
     if (edges)
-        ofEdges.insert(ofEdges.end(), {edges->edges, edges->contacts, edges->owners, zones.solving,
-                                       edges->meeting, edges->lists, edges->links, edges->linkLists,
-                                       points.sheets, edges->thickness, edges->bounds});
+        ofEdges.insert(ofEdges.end(),
+                       {edges->edges, edges->contacts, edges->owners, zones.solving, edges->meeting,
+                        points.sheets, edges->thickness, edges->looked, edges->bounds});
     solving.insert(solving.end(), {zones.zones, zones.finding});
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
     forces::bindTo(state, &forces::Forces::ofContacts, solving, constants);

@@ -51,11 +51,11 @@ struct FoundPoints {
 
 /// Contacts between edges.
 struct FoundEdges {
-    BufferId edges, contacts, owners, lists, thickness;
-    BufferId links, linkLists; ///< elements that others own
-    BufferId bounds;           ///< of the grid: holds the number of elements in use
-    BufferId meeting;          ///< by element of the lists, for edges of two sheets (meeting_marks.glsl)
-    std::uint32_t most = 0;    ///< largest number of invocations
+    BufferId edges, contacts, owners, thickness;
+    BufferId looked;        ///< by slot: predicted positions at which edges were looked at
+    BufferId bounds;        ///< of the grid: holds the number of elements in use
+    BufferId meeting;       ///< by element of the lists, for edges of two sheets (meeting_marks.glsl)
+    std::uint32_t most = 0; ///< largest number of invocations
 };
 
 /// Appends the passes; nothing if there are no zones. Without `edges` only points are searched for.

@@ -131,10 +131,8 @@ std::map<std::uint32_t, double> searched(const State& state, bool isReversed) {
          builder.upload("edges", edges), builder.upload("contacts", contacts),
          builder.upload("owners", owners), builder.scratch<layout::DispatchArguments>("solving", ZONE_ROUNDS),
          builder.upload("meeting", std::vector<std::uint32_t>(pairCount, 1)),
-         builder.scratch<layout::ListRange>("lists", 2 * pairCount),
-         builder.scratch<std::uint32_t>("links", 1),
-         builder.scratch<layout::ListRange>("link_lists", 2 * pairCount),
          builder.scratch<std::uint32_t>("sheets", count), builder.scratch<float>("thickness", 2 * pairCount),
+         builder.upload("looked", state.predicted),
          builder.upload("bounds", std::vector<layout::GridBounds>{bounds})},
         layout::ZonePush{.count = count, .moving = 0, .sheets = 0, .large = 0, .round = 0});
     const StepProgram program = builder.finish();

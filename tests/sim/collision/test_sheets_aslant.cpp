@@ -5,6 +5,7 @@
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 #include "sinew/bodies.hpp"
+#include "support/full.hpp"
 
 #include <gtest/gtest.h>
 
@@ -200,4 +201,25 @@ TEST(SheetsAslant, PassNothingOfEachOther) {
                 EXPECT_LE(outcome.fastest, reaches == 20 ? 8 : 4)
                     << "a sheet that is hit edge on is pressed together";
             }
+}
+
+// Contacts throw corners past edges that were out of reach of their predicted paths, which are in no list.
+// The longer form has more angles and ways.
+TEST(SheetsAslant, PassNothingThatTheyAreThrownAt) {
+    const auto angles =
+        test::isFull() ? std::vector{8.0, 15.0, 22.5, 40.0, 50.0, 70.0, 80.0} : std::vector{80.0};
+    const auto ways = test::isFull() ? std::vector{8.0, 20.0, 40.0} : std::vector{20.0};
+    for (const double degrees : angles)
+        for (const double reaches : ways) {
+            const Meeting meeting{degrees, reaches, 4};
+            const Outcome outcome = outcomeOf(sheets(meeting), meeting);
+            std::printf(
+                "%.1f degrees, %.1f reaches a substep: %d edges and %d points pass, %d edges in faces at "
+                "the end, fastest %.2f\n",
+                degrees, reaches, outcome.passed.edges, outcome.passed.points, outcome.crossings,
+                outcome.fastest);
+            EXPECT_EQ(outcome.passed.edges, 0);
+            EXPECT_EQ(outcome.passed.points, 0);
+            EXPECT_EQ(outcome.crossings, 0);
+        }
 }
