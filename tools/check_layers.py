@@ -17,7 +17,7 @@ LAYERS = {
 # The rooms of the core, lowest first, as src/sim/CMakeLists.txt lists them; the reference, which shares no code with them, is last.
 ROOMS = re.findall(r"^sinew_room\((\w+)", (ROOT / "src/sim/CMakeLists.txt").read_text(encoding="utf-8"), re.M) + ["reference"]
 # Rooms whose names are part of their namespaces; what the others declare is in sinew::sim.
-SPACES = {"lattice", "forces", "events", "constraints", "rigid", "grabs", "fields", "sleep", "collision", "stiffness", "levels", "surface", "cutting", "solvers", "reference"}
+SPACES = {"lattice", "forces", "events", "constraints", "rigid", "grabs", "fields", "motions", "sleep", "collision", "stiffness", "levels", "surface", "cutting", "solvers", "reference"}
 # Rooms that see Vulkan.
 VULKAN_ROOMS = {"device", "simulation"}
 PURE_VK = {"sinew/vk/spirv.hpp", "sinew/vk/shader_code.hpp"}  # include no Vulkan header

@@ -52,7 +52,7 @@ inline constexpr Range colliderSize{.low = 0, .high = largest, .isLowOpen = true
 inline constexpr Range colliderLength{0, largest};                                 // [m]
 inline constexpr Range margin{0, largest};                                         // [m]
 inline constexpr Range pathTime{0, largest};                                       // [s]
-inline constexpr std::uint32_t mostGrabs = 8, mostHostColliders = 1024, mostFields = 16;
+inline constexpr std::uint32_t mostGrabs = 8, mostHostColliders = 1024, mostFields = 16, mostMotions = 64;
 /// Limit of colliders, without those of the host; MOST_MOVERS in layout.h is the sum of these limits.
 inline constexpr std::size_t mostColliders = 1024;
 inline constexpr std::size_t mostDriven = 64;

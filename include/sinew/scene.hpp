@@ -386,6 +386,8 @@ struct SINEW_API Settings {
     /// Force fields at a time (Step::fields), 0..16; 0 = no passes. With room for one, no body stays in
     /// shared memory (Forms::residentBytes).
     std::uint32_t fields = 0;
+    /// Motions in a step (Step::motions), 0..64; 0 = no passes.
+    std::uint32_t motions = 0;
     Forms forms{};
     /// False saves 16 bytes a particle: the buffer of public velocities is omitted, and an undone step leaves
     /// its particles at rest.

@@ -324,6 +324,9 @@ public:
     /// allocates its list. Equal on every device that computes the same bits, whatever the order of
     /// invocations and the forms of kernels.
     Events events(std::uint64_t frame) const;
+    /// The reason why a motion would have no effect, as a part of a sentence: "has a number that is not
+    /// finite"; null if it has one. Valid for good.
+    const char* faultOf(const Motion& motion) const noexcept;
     /// Sentences about mistakes in the host's recording that were ignored: a step before the first reset,
     /// more steps in flight than Settings::framesInFlight, more grabs, host colliders or anchors than
     /// allowed, an invalid blade or one without a cuttable body, and steps undone for lack of

@@ -79,6 +79,42 @@ struct ForceField {
     float scale = 1; ///< turbulence: distance over which it changes [m], above 0
 };
 
+/// What a Motion does, once, at the start of a step.
+enum class MotionKind {
+    addVelocity, ///< adds velocities of a rigid motion
+    setVelocity, ///< replaces all velocities by those
+    impulse,     ///< adds the velocities of the rigid motion that an impulse and its moment give
+    pose         ///< turns a body about its centre of mass and displaces it, with its velocities
+};
+
+/// A change of the motion of a body, or of all particles in a region, at the start of one step. It acts on
+/// particles that may move, also on sleeping ones, which wake with all that they touch. Poses come first;
+/// then velocities change, motion by motion. The centre of mass is that of the particles that a motion acts
+/// on, in their place after all poses. Momentum, and angular momentum about that centre, are exact to
+/// rounding. Motions are not part of Simulation::forces. They are undone with their step: pass them again
+/// with it.
+///
+/// A pose places a body as if it had always been there: nothing on the way is touched, and no speed follows
+/// from it. Contacts with other bodies begin anew; where it overlaps one, they part as in any collision.
+/// Links, attachments and grabs hold on to it and pull; a blade's stroke begins anew in it. Previous
+/// positions move with it, previous vertices of skins do not. It has no effect on a body with a fixed or
+/// driven particle.
+struct Motion {
+    static constexpr std::uint32_t allBodies = 0xffffffff;
+
+    MotionKind kind = MotionKind::addVelocity;
+    /// Index into Scene::bodies, with all its pieces but removed ones; or allBodies: loose particles too. A
+    /// pose needs one.
+    std::uint32_t body = allBodies;
+    Vec3 center{}; ///< of the region [m]
+    /// 0 = everywhere; else a motion acts on particles nearer to `center` than that, after all poses [m]. Of
+    /// a pose 0.
+    float radius = 0;
+    Vec3 linear{};  ///< velocity of the centre of mass [m/s]; impulse [N s]; of a pose its displacement [m]
+    Vec3 angular{}; ///< angular velocity [rad/s]; of an impulse its moment about the centre of mass [N m s]
+    Quaternion rotation{}; ///< of a pose, about the centre of mass; of unit length
+};
+
 /// The surface that the edge of a blade sweeps in a step: quads between two poly-lines, each split into two
 /// triangles by the diagonal from a point of `from` to the next point of `to`. It cuts links of cuttable
 /// bodies (Grid::isCuttable) at their positions at the start of the step, and may end inside a body. Both
@@ -119,6 +155,9 @@ struct SINEW_API Step {
     /// vector beyond 1e9, no such body, or a size below 1e-6 has no effect; a strength counts as at most 1e8.
     /// Read only during record().
     std::span<const ForceField> fields{};
+    /// Motions of this step, at most Settings::motions; one that Simulation::faultOf() names a fault of has
+    /// no effect. Read only during record().
+    std::span<const Motion> motions{};
     /// Wakes all sleeping particles (Settings::sleeps). Not needed for changes that the step itself contains:
     /// another gravity or dt, and other fields than in the step before, wake all; a moving anchor, collider
     /// or host collider wakes what it holds or comes near.

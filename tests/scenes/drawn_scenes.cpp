@@ -188,6 +188,7 @@ DrawnScene drawScene(std::uint32_t seed) {
     addWorld(drawn.scene, lots);
     drawn.settings.fields = lots.extraIn(3) ? 1 : 0;
     drawn.settings.events = lots.extraIn(2) ? allEvents : 0;
+    drawn.settings.motions = lots.extraIn(3) ? 2 : 0;
     return drawn;
 }
 

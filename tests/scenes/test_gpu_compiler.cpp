@@ -169,6 +169,7 @@ sim::Scene twoSheets() {
 void makeKernelsOfAllScenes(Maker& maker) {
     makeForms(maker, twoSheets(), {.substeps = fewSubsteps});
     makeKept(maker, twoSheets(), {.substeps = fewSubsteps, .hostColliders = 9}); // more share their sums
+    maker.make(twoSheets(), {.substeps = fewSubsteps, .motions = 1, .keepsPrevious = true});
     for (const fs::path& file : sceneFiles())
         for (const char* solver : {"split", "jacobi", "gauss_seidel"}) {
             SCOPED_TRACE(file.stem().string() + ", " + solver);

@@ -24,7 +24,7 @@ unsigned kindOf(const sim::Step& step) {
     return unsigned{!step.anchors.empty()} | unsigned{!step.grabs.empty()} << 1 |
            unsigned{!step.hostColliders.empty()} << 2 | unsigned{step.wakes} << 3 |
            unsigned{!step.blade.from.empty()} << 4 | unsigned{(step.ray.radius > 0)} << 5 |
-           unsigned{!step.fields.empty()} << 6;
+           unsigned{!step.fields.empty()} << 6 | unsigned{!step.motions.empty()} << 7;
 }
 
 // Without a thread pool, small scenes are several times faster on a software device. An existing value of the

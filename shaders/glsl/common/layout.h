@@ -587,6 +587,7 @@ struct DampColorPush {
 
 #include "common/forces_layout.h"
 #include "common/field_layout.h"
+#include "common/motion_layout.h"
 #include "common/carry_layout.h"
 #include "common/level_layout.h"
 struct SkinPush {

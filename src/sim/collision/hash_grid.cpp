@@ -148,7 +148,8 @@ Grid add(ProgramBuilder& program, const Request& request) {
                                        .starts = grid.starts,
                                        .sorted = grid.sorted,
                                        .count = grid.push.count,
-                                       .cells = cells});
+                                       .cells = cells,
+                                       .detected = grid.detected});
     return grid;
 }
 

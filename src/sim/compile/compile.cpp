@@ -142,6 +142,8 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     program.fill(built.status, 0);
     if (settings.keepsPrevious) program.copy(built.positions, built.previousPositions);
     build.add(&Feature::begin);
+    build.add(&Feature::cutBuffers);
+    build.add(&Feature::move);
     build.add(&Feature::cut); // begins a phase of its own
     program.beginPhase("solve");
     solver.addPasses(build); // Feature::open, then the stages of each substep

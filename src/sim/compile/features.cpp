@@ -11,6 +11,7 @@
 #include "sim/forces/forces.hpp"
 #include "sim/grabs/grab.hpp"
 #include "sim/levels/levels.hpp"
+#include "sim/motions/motions.hpp"
 #include "sim/rigid/colliders.hpp"
 #include "sim/rigid/driven.hpp"
 #include "sim/sleep/sleep.hpp"
@@ -22,11 +23,13 @@ namespace {
 
 constexpr Feature rows[] = {
     {.name = "cuts",
+     .cutBuffers = cutting::addBuffersOfCuts,
      .cut = cutting::addOpening,
      .cutEnd = cutting::addClosing,
      .rewrite = cutting::addRewriting,
      .skinNormals = cutting::addSkinNormals,
      .skinEnd = cutting::addSkinEnd},
+    {.name = "motions", .move = motions::add, .open = motions::addForgetting, .end = motions::addPrevious},
     {.name = "fields",
      .begin = fields::add,
      .substepBegin = fields::addPass,

@@ -86,6 +86,9 @@ void checkGrabs(const Settings& settings, Complaints& complaints) {
     if (settings.fields > ranges::mostFields)
         complaints.add("settings.fields",
                        "is " + number(settings.fields) + ", must be at most " + number(ranges::mostFields));
+    if (settings.motions > ranges::mostMotions)
+        complaints.add("settings.motions",
+                       "is " + number(settings.motions) + ", must be at most " + number(ranges::mostMotions));
 }
 
 void checkSleep(const Settings& settings, Complaints& complaints) {

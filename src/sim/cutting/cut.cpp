@@ -203,7 +203,7 @@ void addUpdates(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
 
 } // namespace
 
-void addOpening(Build& build) {
+void addBuffersOfCuts(Build& build) {
     ProgramBuilder& program = build.program;
     Cut added = addBuffers(program, build.model, build.particles);
     if (added.runs.empty()) return;
@@ -211,8 +211,14 @@ void addOpening(Build& build) {
     cut.bladePlaces = cut.buffers.places;
     addDebris(program, build.model.scene, cut, build.particles);
     events::addCutBuffers(program, build.particles);
+}
+
+void addOpening(Build& build) {
+    Cut* cut = build.find<Cut>();
+    if (!cut) return;
+    ProgramBuilder& program = build.program;
     program.beginPhase("cut");
-    program.only(When::cut, [&] { addBladePasses(program, cut, build.particles); });
+    program.only(When::cut, [&] { addBladePasses(program, *cut, build.particles); });
 }
 
 void addClosing(Build& build) {

@@ -13,6 +13,7 @@ namespace sinew::sim::cutting {
 
 /// Adds the buffers of StepProgram::cutting and a phase "cut", if the scene has cuttable bodies; otherwise
 /// this and the functions below add nothing.
+void addBuffersOfCuts(Build& build);
 void addOpening(Build& build);
 /// Appends the passes at the end of a step with a blade.
 void addClosing(Build& build);

@@ -198,6 +198,7 @@ Cut addBuffers(ProgramBuilder& program, const SceneModel& model, const ParticleB
     cut.buffers.savedLinks = program.scratch<std::uint32_t>("cut.saved_links", layout.count);
     cut.buffers.places = program.scratch<layout::vec4>("cut.places", layout.count);
     cut.placesBefore = program.scratch<layout::vec4>("cut.places_before", layout.count);
+    cut.buffers.placesBefore = cut.placesBefore;
     cut.blade = program.scratch<layout::BladeHead>("cut.blade", 1);
     cut.points = program.scratch<layout::vec4>("cut.points", 2 * ranges::mostBladePoints);
     cut.work = program.scratch<layout::CutWork>("cut.work", 1);

@@ -37,14 +37,6 @@ bool listsContacts(const Settings& settings) {
     return (settings.events & contactEvents) != 0;
 }
 
-std::vector<std::uint32_t> bodiesOf(const Scene& scene, const StateLayout& layout) {
-    std::vector<std::uint32_t> bodies(layout.count, NO_BODY);
-    for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
-        for (std::uint32_t i = 0; i < scene.bodies[b].particleCount; ++i)
-            bodies[layout.slot[scene.bodies[b].firstParticle + i]] = b;
-    return bodies;
-}
-
 // Distance up to which a particle counts as lying on a surface [m]; particles that never move lie on none.
 std::vector<float> reachesOf(const SceneModel& model, const std::vector<float>& limits) {
     constexpr float never = -1e38f;
@@ -132,7 +124,7 @@ void add(Build& build) {
     push.room = settings.eventRoom;
     events->haveContacts = listsContacts(settings);
     events->maySleep = settings.sleeps;
-    events->bodies = program.upload("events.bodies", bodiesOf(model.scene, model.layout));
+    events->bodies = program.upload("events.bodies", bodiesOfSlots(model.scene, model.layout, NO_BODY));
     events->noted = program.scratch<layout::BodyEvents>("events.noted", push.bodies);
     if (events->haveContacts) addContactBuffers(build, *events);
     if (events->maySleep) {

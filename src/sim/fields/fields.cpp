@@ -85,16 +85,6 @@ Surfaces surfacesOf(const SceneModel& model) {
     return surfaces;
 }
 
-std::vector<std::uint32_t> bodiesOf(const SceneModel& model) {
-    std::vector<std::uint32_t> bodies(model.layout.count, FIELD_NO_BODY);
-    for (std::uint32_t b = 0; b < model.scene.bodies.size(); ++b) {
-        const Body& body = model.scene.bodies[b];
-        for (std::uint32_t i = 0; i < body.particleCount; ++i)
-            bodies[model.layout.slot[body.firstParticle + i]] = b;
-    }
-    return bodies;
-}
-
 std::uint32_t groupsOf(std::size_t items) {
     return static_cast<std::uint32_t>((items + GROUP_ITEMS - 1) / GROUP_ITEMS);
 }
@@ -163,13 +153,13 @@ void add(Build& build) {
     if (count == 0) return;
     Surfaces surfaces = surfacesOf(model);
     const auto corners = static_cast<std::uint32_t>(surfaces.corners.size());
-    Fields& fields = build.keep(
-        Fields{.push = {slots, count, 0, 0},
-               .requests = program.scratch<layout::FieldRequest>("fields.requests", count),
-               .arguments = program.scratch<layout::DispatchArguments>("fields.arguments", FIELD_ARGUMENTS),
-               .bodies = program.upload("fields.bodies", bodiesOf(model)),
-               .corners = program.upload("fields.corners_of_slots", surfaces.ofSlots),
-               .areas = program.scratch<layout::vec4>("fields.areas", std::max(corners, 1u))});
+    Fields& fields = build.keep(Fields{
+        .push = {slots, count, 0, 0},
+        .requests = program.scratch<layout::FieldRequest>("fields.requests", count),
+        .arguments = program.scratch<layout::DispatchArguments>("fields.arguments", FIELD_ARGUMENTS),
+        .bodies = program.upload("fields.bodies", bodiesOfSlots(model.scene, model.layout, FIELD_NO_BODY)),
+        .corners = program.upload("fields.corners_of_slots", surfaces.ofSlots),
+        .areas = program.scratch<layout::vec4>("fields.areas", std::max(corners, 1u))});
     program.updateFields(fields.requests, fields.arguments);
     program.program().fields = {groupsOf(corners), groupsOf(slots)};
     if (corners == 0) return;

@@ -68,10 +68,12 @@ struct Substep {
 /// that a scene does not use adds nothing.
 struct Feature {
     const char* name = nullptr;
-    Build::Add buffers = nullptr; ///< before all passes
-    Build::Add begin = nullptr;   ///< start of a step
-    Build::Add cut = nullptr;     ///< of a step with a blade, before the phase that solves
-    Build::Add open = nullptr;    ///< once a step, before its substeps
+    Build::Add buffers = nullptr;    ///< before all passes
+    Build::Add begin = nullptr;      ///< start of a step
+    Build::Add cutBuffers = nullptr; ///< buffers of cuts, which the next stages use
+    Build::Add move = nullptr;       ///< before all that depends on where particles are
+    Build::Add cut = nullptr;        ///< of a step with a blade, before the phase that solves
+    Build::Add open = nullptr;       ///< once a step, before its substeps
     Build::AddInSubstep substepBegin = nullptr;
     Build::AddInSubstep afterLinks = nullptr;    ///< `split` only: before contacts
     Build::AddInSubstep afterContacts = nullptr; ///< projections

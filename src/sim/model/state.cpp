@@ -23,6 +23,14 @@ std::vector<std::uint32_t> slotsInOrder(const StateLayout& layout) {
     return slots;
 }
 
+std::vector<std::uint32_t> bodiesOfSlots(const Scene& scene, const StateLayout& layout, std::uint32_t none) {
+    std::vector<std::uint32_t> bodies(layout.count, none);
+    for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
+        for (std::uint32_t i = 0; i < scene.bodies[b].particleCount; ++i)
+            bodies[layout.slot[scene.bodies[b].firstParticle + i]] = b;
+    return bodies;
+}
+
 std::size_t positionCount(const StateLayout& layout) {
     return layout.hasRemainders ? 2 * layout.count : layout.count;
 }

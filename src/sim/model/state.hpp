@@ -53,6 +53,9 @@ std::vector<std::uint32_t> slotsInOrder(const StateLayout& layout);
 /// `particles` rounded up to whole work groups.
 std::size_t paddedCount(std::size_t particles);
 
+/// By slot: index of the particle's body in Scene::bodies, or `none`.
+std::vector<std::uint32_t> bodiesOfSlots(const Scene& scene, const StateLayout& layout, std::uint32_t none);
+
 /// Elements of a buffer of positions: one for each slot, twice as many with remainders.
 std::size_t positionCount(const StateLayout& layout);
 

@@ -77,9 +77,11 @@ enum class HostData : std::uint32_t {
     blade,
     bladePoints,
     fields,
-    fieldArguments
+    fieldArguments,
+    motions,
+    motionArguments
 };
-constexpr std::size_t hostDataCount = 10;
+constexpr std::size_t hostDataCount = 12;
 
 /// One of the ways to record a step, each with its own barriers.
 struct Recording {
@@ -220,6 +222,7 @@ struct CuttingBuffers {
     bool tears = false;       ///< whether a step without a blade may cut something
     std::vector<CutRun> runs; ///< ranges of the dispatches over cuttable slots
     BufferId places;          ///< by slot: position at the start of the step [m]
+    BufferId placesBefore;    ///< by slot: position at the last blade [m]; w = 0: there was none
     BufferId counts;          ///< one layout::CutCounts
     BufferId labels;          ///< by slot: the lowest slot of its piece
     BufferId particles;       ///< by slot: the particle in it, or layout's NO_PARTICLE
@@ -270,6 +273,7 @@ struct GridBuffers {
     BufferId sorted;         ///< capacity of `sorted`
     std::uint32_t count = 0; ///< elements that `sorted` may have
     std::uint32_t cells = 0; ///< slots of the table
+    BufferId detected;       ///< by slot of the state: position when lists were made [m]; w: body
 };
 
 /// The vertices of a sheet's skin along cuts, and what they depend on (surface/sheet_pieces.hpp).
@@ -286,6 +290,20 @@ struct HostColliderGroups {
 /// Group counts of the passes of force fields.
 struct FieldGroups {
     std::uint32_t areas = 0, applied = 0; ///< once a step, once a substep
+};
+
+/// What the host knows of a body that it moves: between which slots its particles are.
+struct MotionBody {
+    std::uint32_t first = 0, end = 0;
+    std::uint32_t origin = 0; ///< slot of its first particle
+    bool isHeld = false;      ///< has a particle that never moves, or is driven
+};
+
+/// Passes of motions (motions.hpp), and the bodies of the scene; the last one stands for all.
+struct MotionGroups {
+    std::uint32_t slots = 0, previous = 0;
+    std::array<std::uint32_t, 3> lists{}; ///< owners of contact lists with a memory, in work groups
+    std::vector<MotionBody> bodies{};
 };
 
 /// Buffers of sleeping bodies (sleep.hpp); invalid if no body can sleep.
@@ -359,6 +377,7 @@ struct StepProgram {
     SleepBuffers sleep;
     HostColliderGroups hostColliders;
     FieldGroups fields;
+    MotionGroups motions;
     ForceBuffers forces;
     EventBuffers events;
     CuttingBuffers cutting;
@@ -513,6 +532,10 @@ public:
     void updateFields(BufferId requests, BufferId arguments) {
         update(requests, HostData::fields);
         update(arguments, HostData::fieldArguments);
+    }
+    void updateMotions(BufferId requests, BufferId arguments) {
+        update(requests, HostData::motions);
+        update(arguments, HostData::motionArguments);
     }
     void updateBlade(BufferId blade, BufferId points) {
         update(blade, HostData::blade);

@@ -1,6 +1,7 @@
 // Sentences of misuse, one for each kind: what, where, value, remedy.
 #include "sim/simulation/misuse.hpp"
 
+#include "sim/motions/motions.hpp"
 #include "sinew/ranges.hpp"
 
 namespace sinew::sim {
@@ -32,6 +33,11 @@ std::string sentenceOf(Misuse kind, std::uint64_t given, std::uint64_t allowed) 
         return listed(given, "host colliders", allowed, "hostColliders", ranges::mostHostColliders);
     case Misuse::tooManyFields:
         return listed(given, "force fields", allowed, "fields", ranges::mostFields);
+    case Misuse::tooManyMotions:
+        return listed(given, "motions", allowed, "motions", ranges::mostMotions);
+    case Misuse::badMotion:
+        return "motion " + number(given) + " has no effect: it " +
+               motions::textOf(static_cast<motions::Fault>(allowed)) + ": ask Simulation::faultOf() before";
     case Misuse::tooManyAnchors:
         return number(given) + " anchors are given, the scene has " + number(allowed) +
                " attachments: the further ones are ignored: give one for each attachment, in their order";

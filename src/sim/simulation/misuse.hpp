@@ -16,6 +16,8 @@ enum class Misuse {
     tooManyGrabs,         ///< `given` listed, `allowed` by Settings
     tooManyHostColliders, ///< `given` listed, `allowed` by Settings
     tooManyFields,        ///< `given` listed, `allowed` by Settings
+    tooManyMotions,       ///< `given` listed, `allowed` by Settings
+    badMotion,            ///< motion `given` has no effect, by its fault `allowed` (motions::Fault)
     tooManyAnchors,       ///< more than the scene's attachments
     badBlade,             ///< `given` points in `from` and `allowed` points in `to`, or not finite
     nothingToCut,         ///< a blade or a ray, but no cuttable body

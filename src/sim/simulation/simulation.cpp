@@ -144,6 +144,10 @@ void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step
     state_->anchors.advance(step.anchors, dt);
     state_->grabs.advance(step.grabs, dt);
     state_->fields.advance(step.fields);
+    if (const std::size_t m = state_->motions.advance(step.motions); m < step.motions.size())
+        state_->misuse.note(
+            Misuse::badMotion, step.frame, m,
+            static_cast<std::uint64_t>(motions::faultOf(step.motions[m], state_->program.motions)));
     const bool isCalm =
         step.repeats && !isAgain && !isBlade && state_->mayBeCalm(dt / static_cast<float>(state_->substeps));
     const std::uint32_t lists = (step.repeats ? LISTS_REPEATS : 0) | (isCalm ? LISTS_CALM : 0) |
@@ -173,7 +177,8 @@ void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step
                            std::as_bytes(std::span(hostColliderArguments)),
                            std::as_bytes(state_->grabs.values()), state_->blade.head(),
                            state_->blade.points(), std::as_bytes(state_->fields.values()),
-                           std::as_bytes(state_->fields.arguments())},
+                           std::as_bytes(state_->fields.arguments()), std::as_bytes(state_->motions.values()),
+                           std::as_bytes(state_->motions.arguments())},
                           timestamps, {.hasBlade = hasBlade, .isCalm = isCalm});
     commands.barrier();
     state_->recordStatus(commands, step.frame);
@@ -360,6 +365,10 @@ Events Simulation::events(std::uint64_t frame) const {
     if (room > 0 && (state_->chosen.events & bitOf(EventKind::lacksRoom)) != 0)
         events.list.push_back({.kind = EventKind::lacksRoom, .count = room});
     return events;
+}
+
+const char* Simulation::faultOf(const Motion& motion) const noexcept {
+    return motions::textOf(motions::faultOf(motion, state_->program.motions));
 }
 
 std::vector<std::string> Simulation::complaints() {

@@ -12,6 +12,7 @@
 #include "sim/model/rounding.hpp"
 #include "sim/model/scene_key.hpp"
 #include "sim/model/touching.hpp"
+#include "sim/motions/motions.hpp"
 #include "sim/program/program_values.hpp"
 #include "sim/rigid/collider_paths.hpp"
 #include "sim/simulation/calm_steps.hpp"
@@ -61,6 +62,7 @@ struct Simulation::State {
     constraints::attachment::Anchors anchors;
     grabs::GrabRequests grabs;
     fields::FieldRequests fields;
+    motions::MotionRequests motions;
     rigid::ColliderPaths colliders;
     cutting::BladeWords blade;
     bool hasNewTopology = false; // loaded since the last step
@@ -125,6 +127,7 @@ struct Simulation::State {
           skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
           anchors(scene.attachments), grabs(settings.grabs, scene.particles.size()),
           fields(settings.fields, scene.bodies.size(), program.fields),
+          motions(settings.motions, program.motions),
           colliders(scene.colliders, scene.driven, settings.hostColliders),
           budget(dampedBudget(scene, settings)), theta(settings.solver == Solver::split ? settings.theta : 0),
           omega(settings.omega), damping(scene.damping), substeps(settings.substeps),
@@ -211,6 +214,7 @@ struct Simulation::State {
         noteMore(Misuse::tooManyGrabs, step.grabs.size(), chosen.grabs);
         noteMore(Misuse::tooManyHostColliders, step.hostColliders.size(), chosen.hostColliders);
         noteMore(Misuse::tooManyFields, step.fields.size(), chosen.fields);
+        noteMore(Misuse::tooManyMotions, step.motions.size(), chosen.motions);
         noteMore(Misuse::tooManyAnchors, step.anchors.size(), anchors.count());
         const bool asksForBlade = !step.blade.from.empty() || !step.blade.to.empty();
         if ((asksForBlade || step.ray.radius > 0) && !mayBeCut())
