@@ -73,7 +73,7 @@ if(SINEW_INSTALL)
     set_target_properties(sinew_headers PROPERTIES EXPORT_NAME headers)
     install(TARGETS sinew_headers EXPORT sinew_core COMPONENT core)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/sinew DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT core
-        PATTERN sinew.h EXCLUDE PATTERN sinew_world.h EXCLUDE PATTERN sinew_query.h EXCLUDE PATTERN sinew_events.h EXCLUDE) # of the component c
+        PATTERN sinew.h EXCLUDE PATTERN sinew_world.h EXCLUDE PATTERN sinew_query.h EXCLUDE PATTERN sinew_events.h EXCLUDE PATTERN sinew_motions.h EXCLUDE) # of the component c
     sinew_install_component(core)
     configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/sinewConfig.cmake.in ${PROJECT_BINARY_DIR}/sinewConfig.cmake
         INSTALL_DESTINATION ${SINEW_PACKAGE_FOLDER} NO_SET_AND_CHECK_MACRO)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sinew/sinew_events.h"
+#include "sinew/sinew_motions.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

@@ -35,8 +35,9 @@ struct Simulation : Owned<SinewSimulation, sinewDestroySimulation> {
 
     void step(std::uint32_t count, const std::optional<float>& dt, const std::optional<Vector>& gravity,
               const std::optional<Floats>& anchors, const std::vector<SinewGrab>& grabs,
-              const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders) {
-        const StepInput input(step_, dt, gravity, anchors, grabs, fields, hostColliders);
+              const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders,
+              const std::vector<SinewMotion>& motions) {
+        const StepInput input(step_, dt, gravity, anchors, grabs, fields, hostColliders, motions);
         runUnlocked([&] { return sinewStep(handle, &input.step, count); });
     }
 
@@ -141,6 +142,7 @@ void addSettings(py::module_& module) {
     add("grabs", &SinewSettings::grabs);
     add("fields", &SinewSettings::fields);
     add("host_colliders", &SinewSettings::hostColliders);
+    add("motions", &SinewSettings::motions);
     add("frames_in_flight", &SinewSettings::framesInFlight);
     add("omega", &SinewSettings::omega);
     add("theta", &SinewSettings::theta);
@@ -202,6 +204,24 @@ void addStepInput(py::module_& module) {
              py::arg("shape"), py::arg("position"), py::arg("rotation") = std::array<float, 4>{0, 0, 0, 1},
              py::arg("radius") = 0.0f, py::arg("half_length") = 0.0f, py::arg("half_extents") = Vector{},
              py::arg("friction") = 0.3f, py::arg("static_friction") = 0.0f, py::arg("max_speed") = 10.0f);
+    py::class_<SinewMotion>(module, "Motion")
+        .def(py::init([](const std::string& kind, std::uint32_t body, const Vector& linear,
+                         const Vector& angular, const std::array<float, 4>& rotation, const Vector& center,
+                         float radius) {
+                 constexpr const char* kinds[] = {"add_velocity", "set_velocity", "impulse", "pose"};
+                 const auto found = std::ranges::find(kinds, kind);
+                 if (found == std::end(kinds)) throw py::value_error("there is no motion of kind " + kind);
+                 return SinewMotion{static_cast<std::uint32_t>(found - std::begin(kinds)),
+                                    body,
+                                    toVec3(center),
+                                    radius,
+                                    toVec3(linear),
+                                    toVec3(angular),
+                                    {rotation[0], rotation[1], rotation[2], rotation[3]}};
+             }),
+             py::arg("kind"), py::arg("body") = SINEW_ALL_BODIES, py::arg("linear") = Vector{},
+             py::arg("angular") = Vector{}, py::arg("rotation") = std::array<float, 4>{0, 0, 0, 1},
+             py::arg("center") = Vector{}, py::arg("radius") = 0.0f);
     py::class_<SinewField>(module, "Field")
         .def(py::init([](const std::string& kind, const Vector& vector, const Vector& center, float radius,
                          float strength, float scale, std::uint32_t body) {
@@ -235,7 +255,8 @@ void addSimulation(py::module_& module) {
         .def("step", &Simulation::step, py::arg("count") = 1, py::arg("dt") = py::none(),
              py::arg("gravity") = py::none(), py::arg("anchors") = py::none(),
              py::arg("grabs") = std::vector<SinewGrab>{}, py::arg("fields") = std::vector<SinewField>{},
-             py::arg("host_colliders") = std::vector<SinewHostCollider>{})
+             py::arg("host_colliders") = std::vector<SinewHostCollider>{},
+             py::arg("motions") = std::vector<SinewMotion>{})
         .def("reset", [](Simulation& self) { runUnlocked([&] { return sinewReset(self.handle); }); })
         .def("update_skin",
              [](Simulation& self) { runUnlocked([&] { return sinewUpdateSkin(self.handle); }); })

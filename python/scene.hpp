@@ -292,7 +292,8 @@ struct Scene : Owned<SinewScene, sinewDestroyScene> {
 struct StepInput {
     StepInput(const SinewStep& before, const std::optional<float>& dt, const std::optional<Vector>& gravity,
               const std::optional<Floats>& anchors, const std::vector<SinewGrab>& grabs,
-              const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders)
+              const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders,
+              const std::vector<SinewMotion>& motions)
         : step(before) {
         if (dt) step.dt = *dt;
         if (gravity) step.gravity = toVec3(*gravity);
@@ -308,6 +309,8 @@ struct StepInput {
         step.fieldCount = static_cast<std::uint32_t>(fields.size());
         step.hostColliders = hostColliders.data();
         step.hostColliderCount = static_cast<std::uint32_t>(hostColliders.size());
+        step.motions = motions.data();
+        step.motionCount = static_cast<std::uint32_t>(motions.size());
     }
     StepInput(const StepInput&) = delete;
     StepInput& operator=(const StepInput&) = delete;

@@ -59,8 +59,9 @@ struct World : Owned<SinewWorld, sinewDestroyWorld> {
 
     void step(std::uint32_t count, const std::optional<float>& dt, const std::optional<Vector>& gravity,
               const std::optional<Floats>& anchors, const std::vector<SinewGrab>& grabs,
-              const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders) {
-        const StepInput input(step_, dt, gravity, anchors, grabs, fields, hostColliders);
+              const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders,
+              const std::vector<SinewMotion>& motions) {
+        const StepInput input(step_, dt, gravity, anchors, grabs, fields, hostColliders, motions);
         runUnlocked([&] { return sinewStepWorld(handle, &input.step, count); });
     }
 
@@ -189,7 +190,8 @@ void addWorld(py::module_& module) {
         .def("step", &World::step, py::arg("count") = 1, py::arg("dt") = py::none(),
              py::arg("gravity") = py::none(), py::arg("anchors") = py::none(),
              py::arg("grabs") = std::vector<SinewGrab>{}, py::arg("fields") = std::vector<SinewField>{},
-             py::arg("host_colliders") = std::vector<SinewHostCollider>{})
+             py::arg("host_colliders") = std::vector<SinewHostCollider>{},
+             py::arg("motions") = std::vector<SinewMotion>{})
         .def("positions", output(SINEW_POSITIONS), py::arg("part") = py::none())
         .def("velocities", output(SINEW_VELOCITIES), py::arg("part") = py::none())
         .def("pick", &World::pick, py::arg("origin"), py::arg("direction"), py::arg("length") = 0.0f,

@@ -367,7 +367,7 @@ typedef struct SinewSettings {
     uint32_t cutSurfaceRoom;               // triangles of the surface of cuts; 0 = by the scene
     uint32_t sleeps;                       // bodies at rest cost nothing
     uint32_t keepsForces;                  // for sinewGetBodyImpulses() and sinewGetImpulses()
-    uint32_t grabs, hostColliders, fields; // at a time: up to 8, 1024 and 16
+    uint32_t grabs, hostColliders, fields, motions; // in a step: up to 8, 1024, 16 and 64
     uint32_t framesInFlight;               // steps recorded and not finished, 1 to 64
     float omega, theta;                    // of `split`
     float weight, overRelaxation;          // of `jacobi`
@@ -455,12 +455,13 @@ typedef struct SinewStep {
     SinewVec3 gravity; // [m/s^2]
     uint32_t wakes;    // all sleeping particles
     uint32_t repeats;  // the host repeats steps with SinewStatus::lacksLists; sinewStep() does
-    uint32_t anchorCount, grabCount, hostColliderCount, fieldCount;
+    uint32_t anchorCount, grabCount, hostColliderCount, fieldCount, motionCount;
     uint32_t bladeCount;      // points of each poly-line, 2 to 256; 0 = no blade
     const SinewVec3* anchors; // of attachments at the end of the step [m]
     const SinewGrab* grabs;
     const SinewHostCollider* hostColliders;
     const SinewField* fields;
+    const struct SinewMotion* motions; // sinew_motions.h
     const SinewVec3 *bladeFrom, *bladeTo; // edge of the blade before and after the step [m]
     uint32_t bladeIsCarried;              // continues the stroke of the step before
     SinewVec3 rayFrom, rayTo;             // cuts links nearer than rayRadius to this segment [m]

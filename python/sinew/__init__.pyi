@@ -34,6 +34,7 @@ class Settings:
     grabs: int  # at a time, at most 8
     fields: int  # at a time, at most 16
     host_colliders: int  # at a time, at most 1024
+    motions: int  # in a step, at most 64
     frames_in_flight: int
     omega: float
     theta: float
@@ -98,6 +99,14 @@ class Field:
     def __init__(self, kind: Literal["uniform", "radial", "wind", "turbulence"], vector: Vector = (0, 0, 0), center: Vector = (0, 0, 0),
                  radius: float = 0.0, strength: float = 0.0, scale: float = 1.0, body: int = 0xFFFFFFFF) -> None: ...
 
+class Motion:
+    """A change of the motion of a body or region, once, at the start of the first step of step(): linear is a velocity [m/s], an impulse
+    [N s] or a displacement [m] of the centre of mass, angular a velocity [rad/s] or moment [N m s] about it, rotation that of a pose (x,
+    y, z, w). As SinewMotion in sinew.h."""
+    def __init__(self, kind: Literal["add_velocity", "set_velocity", "impulse", "pose"], body: int = 0xFFFFFFFF, linear: Vector = (0, 0, 0),
+                 angular: Vector = (0, 0, 0), rotation: Sequence[float] = (0, 0, 0, 1), center: Vector = (0, 0, 0),
+                 radius: float = 0.0) -> None: ...
+
 class State:
     """A saved state of a simulation."""
 
@@ -107,7 +116,8 @@ class Simulation:
     def __init__(self, device: Device, scene: Scene, settings: Optional[Settings] = None) -> None:
         """Without settings, those of the scene's file."""
     def step(self, count: int = 1, dt: Optional[float] = None, gravity: Optional[Vector] = None, anchors: Optional[ArrayLike] = None,
-             grabs: Sequence[Grab] = (), fields: Sequence[Field] = (), host_colliders: Sequence[HostCollider] = ()) -> None:
+             grabs: Sequence[Grab] = (), fields: Sequence[Field] = (), host_colliders: Sequence[HostCollider] = (),
+             motions: Sequence[Motion] = ()) -> None:
         """Takes `count` steps with this input and waits for them; dt [s] and gravity [m/s^2] are by default those of the scene."""
     def reset(self) -> None: ...
     def update_skin(self) -> None:
@@ -169,7 +179,8 @@ class World:
     def update(self) -> None:
         """Waits until all changes have arrived: find() then gives the indices that the next step has."""
     def step(self, count: int = 1, dt: Optional[float] = None, gravity: Optional[Vector] = None, anchors: Optional[ArrayLike] = None,
-             grabs: Sequence[Grab] = (), fields: Sequence[Field] = (), host_colliders: Sequence[HostCollider] = ()) -> None:
+             grabs: Sequence[Grab] = (), fields: Sequence[Field] = (), host_colliders: Sequence[HostCollider] = (),
+             motions: Sequence[Motion] = ()) -> None:
         """update(), then `count` steps as Simulation.step()."""
     def positions(self, part: Optional[Part] = None) -> NDArray[np.float32]:
         """A copy for a part, or for all: (n, 4), position [m] and inverse mass [1/kg], 0 while the particle sleeps."""

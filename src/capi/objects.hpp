@@ -42,6 +42,7 @@ struct StepInput {
     std::vector<sim::HostCollider> hostColliders;
     std::array<sim::Grab, sim::ranges::mostGrabs + 1> grabs{};
     std::array<sim::ForceField, sim::ranges::mostFields + 1> fields{};
+    std::array<sim::Motion, sim::ranges::mostMotions + 1> motions{};
 };
 
 /// Events of the steps of one call, with the frame of each.
@@ -126,8 +127,9 @@ private:
 
 /// Throws Failed (UNSUPPORTED) if the device has no queue of its own.
 vk::Queue& queueOf(DeviceObject& device);
-/// The step of the core, with spans into `input`. Allocates nothing.
-sim::Step stepOf(const SinewStep& step, StepInput& input);
+/// The step of the core, with spans into the object's input. Allocates nothing. Throws for a motion that has
+/// no effect.
+sim::Step stepOf(const SinewStep& step, SimulationObject& object);
 SinewStatus fromStatus(const sim::StepStatus& status);
 /// Moves complaints of the core to those that are not yet returned.
 void collectComplaints(SimulationObject& object);

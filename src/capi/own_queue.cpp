@@ -105,7 +105,7 @@ SinewResult sinewStep(SinewSimulation simulation, const SinewStep* step, uint32_
         const Use<SimulationObject> object(simulation.id, Access::write);
         if (!object->owned)
             throw Failed{SINEW_ERROR_UNSUPPORTED, "the simulation belongs to a world: use sinewStepWorld"};
-        const sim::Step taken = stepOf(given, object->input);
+        const sim::Step taken = stepOf(given, *object);
         Submitting queue(object->device);
         resetOnce(*object, queue);
         OwnStepper(*object, queue, taken).take(count);

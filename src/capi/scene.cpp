@@ -115,6 +115,7 @@ sim::Settings toSettings(const SinewSettings* settings) {
             .grabs = given.grabs,
             .hostColliders = given.hostColliders,
             .fields = given.fields,
+            .motions = given.motions,
             .keepsPrevious = given.keepsPrevious != 0,
             .isReversed = given.isReversed != 0,
             .framesInFlight = given.framesInFlight};
@@ -134,6 +135,7 @@ SinewSettings fromSettings(const sim::Settings& settings) {
             .grabs = settings.grabs,
             .hostColliders = settings.hostColliders,
             .fields = settings.fields,
+            .motions = settings.motions,
             .framesInFlight = settings.framesInFlight,
             .omega = settings.omega,
             .theta = settings.theta,

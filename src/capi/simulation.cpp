@@ -1,7 +1,7 @@
 // Simulations: making, recording and reading them.
 #include "capi/convert.hpp"
 #include "capi/objects.hpp"
-
+#include "sinew/sinew_motions.h"
 #include "sinew/substeps.hpp"
 #include "sinew/validate.hpp"
 
@@ -85,6 +85,16 @@ sim::ForceField toField(const SinewField& field) {
             .scale = field.scale};
 }
 
+sim::Motion toMotion(const SinewMotion& motion) {
+    return {.kind = static_cast<sim::MotionKind>(motion.kind),
+            .body = motion.body,
+            .center = toVec3(motion.center),
+            .radius = motion.radius,
+            .linear = toVec3(motion.linear),
+            .angular = toVec3(motion.angular),
+            .rotation = toQuaternion(motion.rotation)};
+}
+
 SinewImpulse fromImpulse(const sim::Impulse& impulse) {
     return {.linear = fromVec3(impulse.linear), .angular = fromVec3(impulse.angular)};
 }
@@ -118,7 +128,21 @@ const std::vector<sim::Impulse>& listOf(const sim::Impulses& impulses, std::uint
 
 } // namespace
 
-sim::Step stepOf(const SinewStep& step, StepInput& input) {
+namespace {
+
+std::span<const sim::Motion> motionsOf(const SinewStep& step, SimulationObject& object) {
+    const auto motions =
+        converted<sim::Motion>(object.input.motions, step.motions, step.motionCount, "motions", toMotion);
+    for (std::size_t m = 0; m < std::min<std::size_t>(motions.size(), object.settings.motions); ++m)
+        if (const char* fault = object.simulation->faultOf(motions[m]))
+            invalidArgument("motion " + std::to_string(m) + " " + fault);
+    return motions;
+}
+
+} // namespace
+
+sim::Step stepOf(const SinewStep& step, SimulationObject& object) {
+    StepInput& input = object.input;
     const auto vector = [](const SinewVec3& v) { return toVec3(v); };
     return {
         .dt = step.dt,
@@ -129,6 +153,7 @@ sim::Step stepOf(const SinewStep& step, StepInput& input) {
         .hostColliders = converted<sim::HostCollider>(
             input.hostColliders, step.hostColliders, step.hostColliderCount, "hostColliders", toHostCollider),
         .fields = converted<sim::ForceField>(input.fields, step.fields, step.fieldCount, "fields", toField),
+        .motions = motionsOf(step, object),
         .wakes = step.wakes != 0,
         .repeats = step.repeats != 0,
         .blade = {.from = converted<sim::Vec3>(input.bladeFrom, step.bladeFrom, step.bladeCount, "bladeFrom",
@@ -270,6 +295,13 @@ SinewHostCollider sinewDefaultHostCollider(void) {
     return collider;
 }
 
+SinewMotion sinewDefaultMotion(void) {
+    SinewMotion motion{};
+    motion.body = SINEW_ALL_BODIES;
+    motion.rotation.w = 1;
+    return motion;
+}
+
 SinewField sinewDefaultField(void) {
     SinewField field{};
     field.body = SINEW_ALL_BODIES;
@@ -299,7 +331,7 @@ SinewResult sinewRecordStep(SinewSimulation simulation, VkCommandBuffer commands
         const SinewStep& given = checked(step, "SinewStep");
         requireNotNull(commands, "commands");
         const Use<SimulationObject> object(simulation.id, Access::write);
-        object->simulation->record(commands, stepOf(given, object->input));
+        object->simulation->record(commands, stepOf(given, *object));
     });
 }
 

@@ -42,6 +42,8 @@ public:
     Stepper(SimulationObject& object, Submitting& queue, const sim::Step& step)
         : object_(object), queue_(queue), step_(step), values_(object.settings.framesInFlight) {
         step_.repeats = true;
+        first_ = object.nextFrame;
+        motions_ = step.motions;
         object.stepEvents = {};
     }
     virtual ~Stepper() = default;
@@ -74,6 +76,7 @@ protected:
 private:
     void submit() {
         step_.frame = object_.nextFrame;
+        step_.motions = step_.frame == first_ ? motions_ : std::span<const sim::Motion>{};
         const VkCommandBuffer commands = queue_->begin();
         object_.simulation->record(commands, step_);
         vk::Commands(object_.device.device, commands).hostBarrier();
@@ -113,7 +116,9 @@ private:
     }
 
     sim::Step step_;
-    std::vector<std::uint64_t> values_; // of the timeline, of steps in flight
+    std::uint64_t first_ = 0;              // frame of the first step
+    std::span<const sim::Motion> motions_; // of that step
+    std::vector<std::uint64_t> values_;    // of the timeline, of steps in flight
     sim::StepStatus last_;
 };
 

@@ -286,7 +286,7 @@ SinewResult sinewStepWorld(SinewWorld world, const SinewStep* step, uint32_t cou
             Submitting queue(use->device);
             resetOnce(use.simulation(), queue);
             settle(use, queue);
-            WorldStepper(use, queue, stepOf(given, use.simulation().input)).take(count);
+            WorldStepper(use, queue, stepOf(given, use.simulation())).take(count);
         },
         SINEW_ERROR_INVALID_SCENE);
 }

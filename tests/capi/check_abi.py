@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-HEADERS = ["sinew.h", "sinew_world.h", "sinew_query.h", "sinew_events.h"]
+HEADERS = ["sinew.h", "sinew_world.h", "sinew_query.h", "sinew_events.h", "sinew_motions.h"]
 STRUCT = re.compile(r"^typedef struct (\w+) \{\n(.*?)^\} \1;", re.M | re.S)
 MEMBERS = re.compile(r"^[\w *]+?[\w*]\s+\**(\w+(?:\[\d+\])?(?:, ?\**\w+(?:\[\d+\])?)*)$")
 CONSTANT = re.compile(r"^\s+(SINEW_\w+) = -?\d+", re.M)

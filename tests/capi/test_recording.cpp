@@ -4,9 +4,11 @@
 #include "capi/support.hpp"
 #include "sinew/bodies.hpp"
 #include "sinew/simulation.hpp"
+#include "sinew/sinew_motions.h"
 
 #include <cstring>
 #include <functional>
+#include <limits>
 
 namespace sinew::test {
 namespace {
@@ -75,7 +77,7 @@ Positions positionsOf(HostDevice& host, SinewSimulation simulation) {
 // A cuttable cube that is grabbed, pushed, blown at and cut, described twice.
 struct Example {
     sim::Scene scene;
-    sim::Settings settings{.substeps = 8, .grabs = 1, .hostColliders = 1, .fields = 1};
+    sim::Settings settings{.substeps = 8, .grabs = 1, .hostColliders = 1, .fields = 1, .motions = 1};
     Example() {
         sim::Lattice lattice{.name = "cube", .origin = {0, 0.2f, 0}, .cells = {3, 3, 3}, .isCuttable = true};
         const sim::LatticeCorners corners = sim::addLattice(scene, lattice);
@@ -105,7 +107,7 @@ void makeExample(Scene& scene) {
 SinewSettings exampleSettings() {
     SinewSettings settings = sinewDefaultSettings();
     settings.substeps = 8;
-    settings.grabs = settings.hostColliders = settings.fields = 1;
+    settings.grabs = settings.hostColliders = settings.fields = settings.motions = 1;
     return settings;
 }
 
@@ -124,13 +126,20 @@ Positions runByCpp(HostDevice& host) {
                                                          .pose = {.position = {0.4f, 0.1f, 0.1f}}}};
             const std::array fields{
                 sim::ForceField{.kind = sim::FieldKind::wind, .vector = {2, 0, 0}, .strength = 0.6f}};
+            const std::array motions{sim::Motion{.kind = sim::MotionKind::impulse,
+                                                 .body = 0,
+                                                 .center = {0.3f, 0.5f, 0.3f},
+                                                 .radius = 0.2f,
+                                                 .linear = {1, 0, 0},
+                                                 .angular = {0, 0.1f, 0}}};
             sim::Step step{.dt = 0.01f,
                            .gravity = {0, -5, 0},
                            .frame = frame,
                            .anchors = anchors,
                            .grabs = grabs,
                            .hostColliders = colliders,
-                           .fields = fields};
+                           .fields = fields,
+                           .motions = motions};
             if (frame == cutAt) step.blade = {.from = Example::bladeFrom, .to = Example::bladeTo};
             if (frame == 0) simulation.recordReset(commands);
             simulation.record(commands, step);
@@ -158,6 +167,13 @@ void stepByC(HostDevice& host, SinewSimulation simulation, std::uint64_t first, 
             field.kind = SINEW_FIELD_WIND;
             field.vector = {2, 0, 0};
             field.strength = 0.6f;
+            SinewMotion motion = sinewDefaultMotion();
+            motion.kind = SINEW_MOTION_IMPULSE;
+            motion.body = 0;
+            motion.center = {0.3f, 0.5f, 0.3f};
+            motion.radius = 0.2f;
+            motion.linear.x = 1;
+            motion.angular.y = 0.1f;
             const SinewVec3 from[] = {{0.15f, -1, -1}, {0.15f, -1, 1}},
                             to[] = {{0.15f, 1, -1}, {0.15f, 1, 1}};
             SinewStep step = sinewDefaultStep();
@@ -169,6 +185,8 @@ void stepByC(HostDevice& host, SinewSimulation simulation, std::uint64_t first, 
             step.hostColliders = &collider;
             step.fields = &field;
             step.anchorCount = step.grabCount = step.hostColliderCount = step.fieldCount = 1;
+            step.motions = &motion;
+            step.motionCount = 1;
             step.bladeFrom = from;
             step.bladeTo = to;
             step.bladeCount = frame == cutAt ? 2 : 0;
@@ -178,6 +196,31 @@ void stepByC(HostDevice& host, SinewSimulation simulation, std::uint64_t first, 
 
 void reset(HostDevice& host, SinewSimulation simulation) {
     host.submit([&](VkCommandBuffer commands) { EXPECT_TRUE(isOk(sinewRecordReset(simulation, commands))); });
+}
+
+// A motion without effect is refused with a sentence, and nothing is recorded.
+void expectFaults(HostDevice& host, SinewSimulation simulation) {
+    SinewMotion none = sinewDefaultMotion();
+    none.body = 0;
+    std::array<SinewMotion, 4> motions{none, none, none, none};
+    motions[0].kind = 9;
+    motions[1].body = 1;
+    motions[2].radius = -1;
+    motions[3].linear.y = std::numeric_limits<float>::quiet_NaN();
+    const char* sentences[] = {"motion 0 is of no known kind", "motion 0 is of a body that does not exist",
+                               "motion 0 has a radius", "motion 0 has a number that is not finite"};
+    for (std::size_t m = 0; m < motions.size(); ++m)
+        host.submit([&](VkCommandBuffer commands) {
+            SinewStep step = sinewDefaultStep();
+            step.frame = steps;
+            step.motions = &motions[m];
+            step.motionCount = 1;
+            EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, sentences[m],
+                                  sinewRecordStep(simulation, commands, &step)));
+            step.motions = nullptr;
+            EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "motions",
+                                  sinewRecordStep(simulation, commands, &step)));
+        });
 }
 
 // 256 spheres push 256 particles in a row, each its own.
@@ -253,6 +296,7 @@ TEST(CApiRecording, GivesTheBitsOfTheCppInterface) {
             EXPECT_GT(status.linksCutInAll, 0u);
             EXPECT_EQ(status.pieces, 2u);
             EXPECT_EQ(sinewGetStatus(simulation, 0, &status), SINEW_NOT_READY); // too old
+            expectFaults(host, simulation);
             host.submit(
                 [&](VkCommandBuffer commands) { EXPECT_TRUE(isOk(sinewRecordSkin(simulation, commands))); });
             SinewSkin skin{};

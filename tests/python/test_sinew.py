@@ -105,6 +105,16 @@ class Module(unittest.TestCase):
         simulation.step(1, grabs=[sinew.Grab(26, held)] * 3)
         self.assertIn("grabs", "".join(simulation.complaints()))
 
+    def test_motions_throw_and_place_bodies(self):
+        simulation = sinew.Simulation(self.device, cube(), sinew.Settings(motions=2))
+        start = simulation.positions[:, :3].mean(axis=0)
+        pose = sinew.Motion("pose", 0, linear=(3, 1, 0), rotation=(0, 0, 0.5**0.5, 0.5**0.5))
+        simulation.step(30, gravity=(0, 0, 0), motions=[pose, sinew.Motion("set_velocity", 0, linear=(0, 0, 2))])
+        way = simulation.positions[:, :3].mean(axis=0) - start
+        np.testing.assert_allclose(way, (3, 1, 1), atol=1e-4)  # once, whatever the number of steps
+        with self.assertRaisesRegex(sinew.Error, "motion 0 is of a body that does not exist"):
+            simulation.step(motions=[sinew.Motion("impulse", 7)])
+
     def test_as_many_host_colliders_as_asked_for_push(self):
         scene = sinew.Scene()
         places = np.stack(np.meshgrid(np.arange(16), np.arange(16), [0]), axis=-1).reshape(-1, 3).astype(float)
