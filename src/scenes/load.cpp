@@ -63,6 +63,7 @@ void readSettings(LoadedScene& loaded, const Section& solver, const std::string&
                        .omega = solver.number("omega"),
                        .theta = solver.number("theta"),
                        .levels = solver.countOrAuto("levels").value_or(sim::autoLevels),
+                       .hasSharpClamp = solver.flag("sharp_clamp"),
                        .weight = solver.number("weight"),
                        .overRelaxation = solver.number("over_relaxation"),
                        .warmStart = solver.number("warm_start"),
@@ -85,6 +86,7 @@ void apply(const Overrides& overrides, LoadedScene& loaded) {
     if (overrides.substeps) settings.substeps = *overrides.substeps;
     if (overrides.iterations) settings.iterations = *overrides.iterations;
     if (overrides.levels) settings.levels = *overrides.levels;
+    if (overrides.hasSharpClamp) settings.hasSharpClamp = *overrides.hasSharpClamp;
     if (overrides.dt) loaded.scene.dt = *overrides.dt;
     settings.isReversed = overrides.isReversed;
 }
@@ -285,6 +287,7 @@ void warnOfForeignKeys(LoadedScene& loaded, const Section& solver) {
         {"omega", sim::Solver::split},
         {"theta", sim::Solver::split},
         {"levels", sim::Solver::split},
+        {"sharp_clamp", sim::Solver::split},
         {"weight", sim::Solver::jacobi},
         {"over_relaxation", sim::Solver::jacobi},
         {"warm_start", sim::Solver::gaussSeidel},

@@ -77,6 +77,15 @@ TEST_F(Load, LetsBodiesSleepWhereTheSceneAsksForIt) {
     EXPECT_THROW(load("[solver]\nsleep = 1\n" + smallCloth), scenes::SceneError);
 }
 
+TEST_F(Load, ClampsSharplyWhereTheSceneOrTheUserAsksForIt) {
+    const std::string sharp = "[solver]\nsharp_clamp = true\n" + smallCloth;
+    EXPECT_FALSE(load(smallCloth).settings.hasSharpClamp);
+    EXPECT_TRUE(load(sharp).settings.hasSharpClamp);
+    EXPECT_FALSE(scenes::load(write("sharp.toml", sharp), {.hasSharpClamp = false}).settings.hasSharpClamp);
+    EXPECT_TRUE(
+        scenes::load(write("plain.toml", smallCloth), {.hasSharpClamp = true}).settings.hasSharpClamp);
+}
+
 TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
     const scenes::LoadedScene loaded = load(
         "name = \"n\"\ngravity = [1, 2, 3]\ndt = 0.01\ndamping = 0.5\n"

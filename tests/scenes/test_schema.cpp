@@ -92,6 +92,7 @@ TEST(Schema, HasTheDefaultsOfTheStructs) {
     EXPECT_EQ(static_cast<float>(numberOf("solver", "weight")), settings.weight);
     EXPECT_EQ(static_cast<float>(numberOf("solver", "over_relaxation")), settings.overRelaxation);
     EXPECT_EQ(static_cast<float>(numberOf("solver", "warm_start")), settings.warmStart);
+    EXPECT_EQ(scenes::findKey("solver", "sharp_clamp")->fallback, settings.hasSharpClamp ? "true" : "false");
     EXPECT_EQ(scenes::findKey("solver", "sleep")->fallback, settings.sleeps ? "true" : "false");
 }
 

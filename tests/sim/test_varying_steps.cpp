@@ -66,15 +66,17 @@ TEST(VaryingSteps, FeedNoEnergyIntoClampedBodies) {
     const std::tuple<const char*, Scene, std::uint32_t> bodies[] = {{"beam", beam(), 5},
                                                                     {"cloth", cloth(), 6}};
     for (const auto& [body, scene, substeps] : bodies)
-        for (const std::uint32_t levels : {0u, 2u})
+        for (const auto& [levels, isSharp] : {std::pair(0u, false), {2u, false}, {0u, true}})
             for (const auto& [pattern, lengthOf] : patterns) {
-                SCOPED_TRACE(std::string(body) + ", levels " + std::to_string(levels) + ", " + pattern);
-                const std::vector<double> quarters =
-                    energies(scene, {.substeps = substeps, .levels = levels}, lengthOf);
+                const std::string clamp = isSharp ? ", sharp clamp" : "";
+                SCOPED_TRACE(std::string(body) + ", levels " + std::to_string(levels) + clamp + ", " +
+                             pattern);
+                const std::vector<double> quarters = energies(
+                    scene, {.substeps = substeps, .levels = levels, .hasSharpClamp = isSharp}, lengthOf);
                 for (const double energy : quarters) EXPECT_LE(energy, 1.2 * quarters[0]);
                 EXPECT_LE(quarters[3], quarters[0]);
-                std::printf("%s, levels %u, %s: %.3g %.3g %.3g %.3g J\n", body, levels, pattern, quarters[0],
-                            quarters[1], quarters[2], quarters[3]);
+                std::printf("%s, levels %u%s, %s: %.3g %.3g %.3g %.3g J\n", body, levels, clamp.c_str(),
+                            pattern, quarters[0], quarters[1], quarters[2], quarters[3]);
             }
 }
 

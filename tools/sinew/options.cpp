@@ -96,6 +96,9 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     app::addCountOrAuto(
         command, "--levels", overrides.levels, sim::ranges::levels, sim::autoLevels,
         "coarse levels of split, instead of the scene's; auto: as many as win at equal error");
+    command.add_flag(
+        "--sharp-clamp,!--no-sharp-clamp", overrides.hasSharpClamp,
+        "clamp links of split by the directions in which they meet, instead of the scene's choice");
     command
         .add_option("--voxel", overrides.voxel,
                     "edge of the voxels of mesh bodies [m], instead of the scene's")

@@ -478,6 +478,11 @@ struct LatticeChunk {
 };
 
 // Kinds of link: along an edge, a face diagonal, a body diagonal.
+// `split` with the clamp by directions: substeps from one look at the directions of links to the next, and the time in
+// which a clamp returns to that at rest by a factor e.
+#define CLAMP_INTERVAL 8
+#define CLAMP_MEMORY 2.0 // [s]
+
 struct LatticePush {
     uint count;
     uint isFirst;

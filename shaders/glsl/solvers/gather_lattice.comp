@@ -61,6 +61,7 @@ void main() {
     barrier();
     for (uint s = 0u; s < push.substeps; ++s) {
         const Substep substep = substepOf(s == 0u);
+        findsTimes = followsDirections && s % CLAMP_INTERVAL == 0u;
         for (uint item = lane; item < items; item += GROUP_SIZE) moveItem(body * items + item, substep);
         barrier();
         front = residentSlots - front;

@@ -26,11 +26,14 @@ void moveNode(uint i, Substep substep) {
     vec4 slice[SLICE], other[SLICE]; // the first holds the node alone
     slice[home] = POSITION(i);
     loadSlice(i - push.sliceStride, other);
-    vec3 sum = gather(slice, other, home, fill, alive, -1, substep.hh);
+    SYMMETRIC bearing, others;
+    vec3 sum = gather(slice, other, home, fill, alive, -1, substep.hh, bearing);
     loadSlice(i, other);
-    sum += gather(slice, other, home, fill, alive, 0, substep.hh);
+    sum += gather(slice, other, home, fill, alive, 0, substep.hh, others);
+    if (findsTimes) bearing += others;
     loadSlice(i + push.sliceStride, other);
-    sum += gather(slice, other, home, fill, alive, 1, substep.hh);
+    sum += gather(slice, other, home, fill, alive, 1, substep.hh, others);
+    if (findsTimes) bearing += others;
 #ifdef VOLUME
 #ifdef HAS_WHOLE_CELLS
     const uint pressed = wholeCells[i];
@@ -39,5 +42,13 @@ void moveNode(uint i, Substep substep) {
 #endif
     sum += pressedBy(i, pressed, 0u, substep.hh) + pressedBy(i, pressed, 4u, substep.hh);
 #endif
-    advance(i, slice[home], velocities[i], sum, substep);
+    vec4 y = slice[home];
+    const vec4 velocity = velocities[i];
+    if (findsTimes) {
+#ifdef VOLUME
+        bearing += borneByCells(unpack(pressed));
+#endif
+        y.w = timeFor(bearing, timesAtRest[i], y.w, velocity.w);
+    }
+    advance(i, y, velocity, sum, substep);
 }

@@ -11,12 +11,13 @@ void march(LatticeChunk chunk, Substep substep) {
     Fill fill[NODES];
     uint alive[NODES]; // links of the slice
     vec3 below[NODES]; // contribution of the links to the slice before
+    SYMMETRIC bearingBelow[NODES], bearing, others;
     loadSlice(origin - push.sliceStride, slice);
     loadSlice(origin, above);
     [[unroll]] for (int n = 0; n < NODES; ++n) {
         fill[n] = unpack(CELLS(nodeAt(origin, n)));
         alive[n] = LINKS(nodeAt(origin, n));
-        below[n] = gather(above, slice, homeOf(n), fill[n], alive[n], -1, substep.hh);
+        below[n] = gather(above, slice, homeOf(n), fill[n], alive[n], -1, substep.hh, bearingBelow[n]);
     }
 #ifdef HAS_WHOLE_CELLS
     Fill whole[NODES];
@@ -36,8 +37,17 @@ void march(LatticeChunk chunk, Substep substep) {
         [[unroll]] for (int n = 0; n < NODES; ++n) {
             const uint i = nodeAt(origin, n);
             const int home = homeOf(n);
-            vec3 sum = below[n] + gather(slice, slice, home, fill[n], alive[n], 0, substep.hh)
-                       + gather(slice, above, home, fill[n], alive[n], 1, substep.hh);
+            vec3 sum = below[n] + gather(slice, slice, home, fill[n], alive[n], 0, substep.hh, bearing);
+            sum += gather(slice, above, home, fill[n], alive[n], 1, substep.hh, others);
+            vec4 y = slice[home];
+            const vec4 velocity = velocities[i];
+            if (findsTimes) {
+                bearing = bearingBelow[n] + bearing + others;
+#ifdef VOLUME
+                bearing += borneByCells(whole[n]);
+#endif
+                y.w = timeFor(bearing, timesAtRest[i], y.w, velocity.w);
+            }
 #ifdef VOLUME
             sum += pressed[n] + pressedAbove[n];
 #endif
@@ -46,8 +56,8 @@ void march(LatticeChunk chunk, Substep substep) {
 #endif
             fill[n] = unpack(CELLS(i + push.sliceStride));
             alive[n] = LINKS(i + push.sliceStride);
-            below[n] = gather(above, slice, home, fill[n], alive[n], -1, substep.hh);
-            advance(i, slice[home], velocities[i], sum, substep);
+            below[n] = gather(above, slice, home, fill[n], alive[n], -1, substep.hh, bearingBelow[n]);
+            advance(i, y, velocity, sum, substep);
         }
         origin += push.sliceStride;
     }

@@ -55,20 +55,23 @@ layout(std140, binding = STEP_BINDING) uniform Step { StepParams step; };
 layout(std140, binding = STEP_BINDING + 1) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = STEP_BINDING + 2) readonly buffer ContactOffsets { float contactOffsets[]; };
 #ifdef RESIDENT
-#define LINK_BINDING (STEP_BINDING + 3)
+#define TIMES_BINDING (STEP_BINDING + 3)
 #else
 // Coarse levels: the kick of the particle's block, as gravity is one.
 layout(constant_id = 23) const bool hasLevels = false;
 FETCHED_UVEC2(STEP_BINDING + 3, BlockOf, blockOf)       // by slot: LevelChild, with the share of its block's kick
 FETCHED_VEC4(STEP_BINDING + 4, BlockKicks, blockKickAt) // by block [m/s]
-#define LINK_BINDING (STEP_BINDING + 5)
+#define TIMES_BINDING (STEP_BINDING + 5)
 #endif
+layout(std430, binding = TIMES_BINDING) readonly buffer TimesAtRest { float timesAtRest[]; }; // tau [s^2]; for followsDirections
+#define LINK_BINDING (TIMES_BINDING + 1)
 
 // If true, a static particle stores the impulse of its links [N s] in place of its velocity, where extract_hold_impulses reads
 // it.
 layout(constant_id = 22) const bool keepsPulls = false;
 
 #include "common/link_impulse.glsl"
+#include "solvers/directed_clamp.glsl"
 
 // Writes y of particle i after a displacement `way` [m] in this substep from `y` to x; `before` is the velocity at
 // its start.

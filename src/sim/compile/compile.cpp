@@ -50,9 +50,9 @@ std::vector<layout::vec4> velocitiesOf(const Scene& scene, const std::vector<flo
     return result;
 }
 
-std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const StateLayout& layout,
-                                 std::size_t count) {
-    std::vector<layout::vec4> result(count);
+template <typename Value>
+std::vector<Value> spread(const std::vector<Value>& values, const StateLayout& layout, std::size_t count) {
+    std::vector<Value> result(count);
     for (std::size_t i = 0; i < values.size(); ++i) result[layout.slot[i]] = values[i];
     return result;
 }
@@ -65,6 +65,9 @@ ParticleBuffers addParticles(ProgramBuilder& program, const SceneModel& model,
             .step = program.program().parameters,
             .positions = program.upload("state.positions", spread(positionsOf(start, solver.positionW),
                                                                   layout, positionCount(layout))),
+            .mostW = solver.mostW.empty()
+                         ? unbound
+                         : program.upload("state.most_w", spread(solver.mostW, layout, layout.count)),
             .velocities =
                 program.upload("state.velocities",
                                spread(velocitiesOf(model.scene, model.inverseMass), layout, layout.count)),
@@ -75,18 +78,21 @@ ParticleBuffers addParticles(ProgramBuilder& program, const SceneModel& model,
             .events = nullptr};
 }
 
-// Settling resets the w of positions, which a solver may derive from the material, to the initial values: in
-// the state and in its saved copy.
+// Settling resets the w of positions, which a solver may derive from the material, to the initial values, or
+// to at most `mostW` where the state itself moves it: in the state and in its saved copy.
 void addWeights(ProgramBuilder& program, const ParticleBuffers& particles) {
     const auto count = static_cast<std::uint32_t>(particles.layout.count);
-    const BufferId initial = program.initialOf("state.initial", particles.positions);
+    const bool isMoved = particles.mostW != unbound;
+    const BufferId initial =
+        isMoved ? particles.mostW : program.initialOf("state.initial", particles.positions);
+    const vk::ShaderCode& kernel = isMoved ? kernels::limitWeights : kernels::setWeights;
     std::vector<BufferId> targets{particles.positions};
     for (const StateBuffer& stateBuffer : program.program().stateBuffers)
         if (stateBuffer.to == particles.positions && stateBuffer.from != particles.positions)
             targets.push_back(stateBuffer.from);
     program.into(List::refresh, [&] {
         for (const BufferId target : targets)
-            program.dispatch(kernels::setWeights, count, {target, initial}, layout::CountPush{count});
+            program.dispatch(kernel, count, {target, initial}, layout::CountPush{count});
     });
 }
 

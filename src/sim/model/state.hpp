@@ -65,8 +65,11 @@ ProgramBuilder::Constants remainderConstants(const StateLayout& layout);
 /// Buffers that the solver and all features share while a program is built.
 struct ParticleBuffers {
     std::uint32_t count = 0;
-    BufferId step;       ///< layout::StepParams
-    BufferId positions;  ///< of the solver's state, positionCount elements; w depends on the solver
+    BufferId step;      ///< layout::StepParams
+    BufferId positions; ///< of the solver's state, positionCount elements; w depends on the solver
+    /// The most that w of positions may be, a float a slot, where the state itself moves it: tau of bodies at
+    /// rest with a sharp clamp. Unbound elsewhere.
+    BufferId mostW = unbound;
     BufferId velocities; ///< layout.count elements; w = inverse mass [1/kg], 0 while asleep
     StateLayout layout;
     std::shared_ptr<sleep::Sleep> sleep;          ///< null if nothing sleeps

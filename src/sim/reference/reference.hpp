@@ -19,7 +19,8 @@ struct State {
     std::vector<Eigen::Vector3d> x, v;
     double previousH =
         0; ///< substep of the last step [s]; 0 at the start (there `split` starts with a half kick)
-    double longestH = 0; ///< `split`: substep that links were clamped for in the last step [s]
+    double longestH = 0;            ///< `split`: substep that links were clamped for in the last step [s]
+    std::vector<double> clampTimes; ///< of a sharp clamp: tau of each particle [s^2]; empty = the scene's
     std::vector<Eigen::Vector3d> anchors;    ///< points of attachments [m]
     std::vector<Eigen::Vector3d> targets;    ///< their targets in the next step; missing ones stay
     std::vector<KeptMultiplier> multipliers; ///< by link, kept by `gauss_seidel` with a warm start; empty = 0

@@ -81,7 +81,7 @@ void addPasses(Build& build) {
 } // namespace
 
 SolverPlan plan(const SceneModel& model) {
-    return {model.inverseMass, addPasses};
+    return {model.inverseMass, {}, addPasses};
 }
 
 } // namespace sinew::sim::solvers::jacobi

@@ -17,6 +17,7 @@
 #include "sim/stiffness/shares.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 
 namespace sinew::sim::solvers::split {
@@ -27,7 +28,7 @@ namespace {
 struct Gather {
     std::vector<BufferId> buffers; // those of the links
     ProgramBuilder::Constants constants;
-    std::function<void(std::span<const BufferId> buffers, bool isFirst)> dispatch;
+    std::function<void(std::span<const BufferId> buffers, std::uint32_t substep)> dispatch;
     bool alternatesVelocities = false;
 };
 
@@ -40,11 +41,16 @@ struct Common {
     ProgramBuilder& program = build.program;
     const SceneModel& model = build.model;
 
+    bool isClampSharp() const { return stiffness::isClampSharp(model.settings); }
+
     Gather gather() const {
         ProgramBuilder::Constants constants = remainderConstants(model.layout);
         if (model.settings.keepsForces) constants.merge(forces::pullConstants());
         constants.merge(planes.constants());
         if (levels) constants[hasLevelsId] = true;
+        if (isClampSharp())
+            constants[mostOfLinksId] = std::bit_cast<std::uint32_t>(
+                static_cast<float>(stiffness::mostOfLinks(model.scene, model.settings)));
         return {{}, std::move(constants), {}};
     }
 };
@@ -71,9 +77,11 @@ std::vector<constraints::distance::GatherLink> listedLinks(const Common& common)
 
 template <typename Push>
 void setDispatch(const Common& common, Gather& gather, const vk::ShaderCode& code, Push push) {
-    gather.dispatch = [&program = common.program, &code, constants = gather.constants,
-                       push](std::span<const BufferId> buffers, bool isFirst) mutable {
-        push.isFirst = isFirst;
+    gather.dispatch = [&program = common.program, &code, constants = gather.constants, push,
+                       isSharp = common.isClampSharp()](std::span<const BufferId> buffers,
+                                                        std::uint32_t substep) mutable {
+        push.isFirst = substep == 0;
+        if (isSharp) constants[followsDirectionsId] = substep % CLAMP_INTERVAL == 0;
         program.dispatch(code, push.count, buffers, push, constants);
     };
 }
@@ -231,8 +239,9 @@ void addResident(const Common& common) {
     for (const Batch& batch : batches.batches) {
         Gather gather = gridGather(common, batch, cells);
         gather.constants[residentSlotsId] = batch.push.bodySlots;
-        std::vector<BufferId> buffers{particles.positions, particles.velocities, particles.step,
-                                      common.planes.planes, common.planes.contactOffsets};
+        if (common.isClampSharp()) gather.constants[followsDirectionsId] = true;
+        std::vector<BufferId> buffers{particles.positions,  particles.velocities,         particles.step,
+                                      common.planes.planes, common.planes.contactOffsets, particles.mostW};
         buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
         buffers.push_back(common.program.upload("grid.bodies", batch.bodies));
         const vk::ShaderCode& code = residentKernelFor(batch, common.model.settings.forms);
@@ -245,8 +254,8 @@ void addResident(const Common& common) {
 // Appends the links of a substep: one dispatch a kind of grid and one for listed links. `next` differs from
 // `current` in the buffers that alternate.
 void addLinks(const Common& common, const std::vector<Gather>& gathers, const ParticleBuffers& current,
-              const ParticleBuffers& next, bool isFirst) {
-    if (common.levels) common.levels->addPasses(common.program, current, isFirst);
+              const ParticleBuffers& next, std::uint32_t substep) {
+    if (common.levels) common.levels->addPasses(common.program, current, substep == 0);
     const BufferId blockOf = common.levels ? common.levels->blockOf() : unbound,
                    kicks = common.levels ? common.levels->kicks() : unbound;
     for (const Gather& gather : gathers) {
@@ -258,9 +267,10 @@ void addLinks(const Common& common, const std::vector<Gather>& gathers, const Pa
                                       common.planes.planes,
                                       common.planes.contactOffsets,
                                       blockOf,
-                                      kicks};
+                                      kicks,
+                                      current.mostW};
         buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
-        gather.dispatch(buffers, isFirst);
+        gather.dispatch(buffers, substep);
     }
 }
 
@@ -279,7 +289,7 @@ void addSubsteps(const Common& common) {
         program.beginSubstep();
         const Substep substep{.particles = current, .index = index};
         build.add(&Feature::substepBegin, substep);
-        addLinks(common, gathers, current, next, index == 0);
+        addLinks(common, gathers, current, next, index);
         std::swap(current, next);
         build.add(&Feature::afterLinks, substep);
         build.add(&Feature::afterContacts, substep);
@@ -311,7 +321,7 @@ void addTouchingSubsteps(const Common& common) {
         const Substep substep{.particles = current, .index = index, .predicted = unseen};
         build.add(&Feature::substepBegin, substep);
         contacts.begin(current.velocities);
-        addLinks(common, gathers, current, predicted, index == 0);
+        addLinks(common, gathers, current, predicted, index);
         build.add(&Feature::afterLinks, {.particles = predicted, .index = index});
         std::swap(current.velocities, spare);
         contacts.addPasses(program, predicted, current, index == 0);
@@ -349,8 +359,10 @@ bool contactsFollow(const Scene& scene, const Settings& settings) {
 
 SolverPlan plan(const SceneModel& model) {
     stiffness::Shares shares = stiffness::sharesOf(model.scene, model.settings, model.inverseMass);
-    std::vector<float> times = shares.times;
-    return {std::move(times), [shares = std::move(shares)](Build& build) { addPasses(build, shares); }};
+    std::vector<float> times = shares.startTimes, most;
+    if (stiffness::isClampSharp(model.settings)) most = shares.times;
+    return {std::move(times), std::move(most),
+            [shares = std::move(shares)](Build& build) { addPasses(build, shares); }};
 }
 
 } // namespace sinew::sim::solvers::split

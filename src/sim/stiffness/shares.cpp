@@ -3,6 +3,7 @@
 
 #include "sim/constraints/distance.hpp"
 #include "sim/lattice/cells.hpp"
+#include "sim/stiffness/bearing.hpp"
 #include "sinew/ranges.hpp"
 
 #include <algorithm>
@@ -74,6 +75,12 @@ double linksOfACorner(const Scene& scene, const Grid& grid, std::span<const floa
     return sum;
 }
 
+// The part of what meets in a particle that it bears in every direction: the largest eigenvalue of links is
+// at least a third of their sum.
+double dimensionsOf(const Settings& settings) {
+    return isClampSharp(settings) ? 3 : 1;
+}
+
 std::vector<CellShares> cellShares(const Scene& scene, const Settings& settings,
                                    std::span<const float> inverseMass, std::span<const float> shares) {
     const double softening = softeningOf(scene, settings, inverseMass);
@@ -85,16 +92,16 @@ std::vector<CellShares> cellShares(const Scene& scene, const Settings& settings,
         result[g].volume = static_cast<float>(volume);
         if (grid.recoveryPressure > 0)
             result[g].recovery =
-                static_cast<float>(recoveryBudget(settings) * (linksOfACorner(scene, grid, shares) + volume));
+                static_cast<float>(recoveryBudget(settings) *
+                                   (linksOfACorner(scene, grid, shares) / dimensionsOf(settings) + volume));
     }
     return result;
 }
 
-std::vector<float> clampTimes(const Scene& scene, const Settings& settings,
-                              std::span<const float> inverseMass, std::span<const float> shares,
-                              std::span<const CellShares> cells) {
-    constexpr float never = 1e30f; // [s^2]
-    std::vector<double> sums(inverseMass.size(), 0);
+// What meets in each particle [N/m], whatever the directions of links are.
+std::vector<double> sumsOf(const Scene& scene, std::span<const float> shares,
+                           std::span<const CellShares> cells) {
+    std::vector<double> sums(scene.particles.size(), 0);
     for (std::size_t c = 0; c < scene.distances.size(); ++c) {
         sums[scene.distances[c].a] += double{shares[c]};
         sums[scene.distances[c].b] += double{shares[c]};
@@ -106,12 +113,17 @@ std::vector<float> clampTimes(const Scene& scene, const Settings& settings,
                 sums[corner] += double{cells[g].volume} * cell.fill;
         });
     }
+    return sums;
+}
+
+// tau of every particle, with which 2 w tau times what meets in it is `most`.
+std::vector<float> clampTimes(double most, std::span<const float> inverseMass, std::span<const double> sums) {
+    constexpr float never = 1e30f; // [s^2]
     std::vector<float> times;
     times.reserve(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const double bound = 2 * double{inverseMass[i]} * sums[i];
-        times.push_back(
-            bound > 0 ? static_cast<float>(std::min(double{settings.omega} / bound, double{never})) : never);
+        times.push_back(bound > 0 ? static_cast<float>(std::min(most / bound, double{never})) : never);
     }
     return times;
 }
@@ -142,10 +154,31 @@ double omegaOfBends(const Settings& settings) {
     return std::min(0.9 * left, double{settings.omega} / 2);
 }
 
+bool isClampSharp(const Settings& settings) {
+    return settings.hasSharpClamp && settings.levels == 0 && settings.solver == Solver::split;
+}
+
+double mostOfLinks(const Scene& scene, const Settings& settings) {
+    if (scene.dampingTime > 0)
+        return double{settings.omega}; // dampers have the rest (substeps.hpp: dampingBudget)
+    const double bends = scene.bends.empty() ? 0 : omegaOfBends(settings);
+    return 0.95 * ranges::omegaBound(double{settings.theta}) - bends;
+}
+
 Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const float> inverseMass) {
     Shares shares{.ofLinks = shareStiffness(scene, settings, inverseMass)};
     shares.ofCells = cellShares(scene, settings, inverseMass, shares.ofLinks);
-    shares.times = clampTimes(scene, settings, inverseMass, shares.ofLinks, shares.ofCells);
+    const double omega{settings.omega};
+    if (!isClampSharp(settings)) {
+        shares.times = clampTimes(omega, inverseMass, sumsOf(scene, shares.ofLinks, shares.ofCells));
+        shares.startTimes = shares.times;
+        return shares;
+    }
+    const Bearing bearing = bearingOf(scene, shares.ofLinks, shares.ofCells);
+    shares.times = clampTimes(omega, inverseMass, bearing.atRest);
+    shares.startTimes = clampTimes(mostOfLinks(scene, settings), inverseMass, bearing.atStart);
+    std::ranges::transform(shares.startTimes, shares.times, shares.startTimes.begin(),
+                           [](float start, float rest) { return std::min(start, rest); });
     return shares;
 }
 

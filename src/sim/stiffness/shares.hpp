@@ -25,6 +25,9 @@
 // mirrored. x^T V'' x <= |x|^2 |e| / sqrt 3, so adding |C| |e| / sqrt 3 to sum |g_i|^2 bounds the whole
 // Hessian; kernels use |e| / sqrt 3 <= a (|e|^2 / (6 a^2) + 1/2), which is equal at rest.
 //
+// Settings::hasSharpClamp replaces the sum of k~ in tau_i by the largest eigenvalue of sum k~ n n^T, with the
+// directions n of links (docs/clamp.md).
+//
 // Pressure that unfolds cells acts only in cells without volume and must not slow the others: it takes no
 // part in sum k~, but overdraws a particle by up to the factor 1 + recoveryBudget, for which the bound on
 // omega leaves room.
@@ -57,11 +60,22 @@ struct Shares {
     std::vector<CellShares> ofCells; ///< of every grid
     /// tau = omega / (2 w sum k~) of every particle [s^2], the sum over links and cells: a link is clamped to
     /// k~ min(tau_a, tau_b) / h^2. Large for a particle that never moves or has no constraint.
+    /// With a sharp clamp, of the bodies at rest.
     std::vector<float> times;
+    std::vector<float>
+        startTimes; ///< tau of the scene's own state: lower where a sharp clamp finds it deformed
 };
 
 /// `settings.substeps` must be resolved; `inverseMass` is taken after fixed constraints.
 Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const float> inverseMass);
+
+/// Whether tau follows from the directions of links (docs/clamp.md). Coarse levels need the sum: their bound
+/// holds for links of any direction.
+bool isClampSharp(const Settings& settings);
+
+/// The largest 2 w_i tau_i lambda_max(A_i) that a sharp clamp allows in a deformed state: what bends and
+/// dampers leave of the stability bound.
+double mostOfLinks(const Scene& scene, const Settings& settings);
 
 /// k~ of whole links of one kind of a grid [N/m], from those of the scene's distance constraints: the ratio
 /// of k~ to stiffness is the same for all links of a rest length.
