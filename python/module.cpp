@@ -165,6 +165,7 @@ void addSettings(py::module_& module) {
     addFlag("sleeps", &SinewSettings::sleeps);
     addFlag("keeps_forces", &SinewSettings::keepsForces);
     addFlag("keeps_previous", &SinewSettings::keepsPrevious);
+    addFlag("sharp_clamp", &SinewSettings::hasSharpClamp);
 }
 
 void addStepInput(py::module_& module) {

@@ -102,6 +102,7 @@ sim::Settings toSettings(const SinewSettings* settings) {
             .omega = given.omega,
             .theta = given.theta,
             .levels = given.levels,
+            .hasSharpClamp = given.hasSharpClamp != 0,
             .weight = given.weight,
             .overRelaxation = given.overRelaxation,
             .warmStart = given.warmStart,
@@ -146,7 +147,8 @@ SinewSettings fromSettings(const sim::Settings& settings) {
             .levels = settings.levels,
             .events = settings.events,
             .eventRoom = settings.eventRoom,
-            .keepsPrevious = settings.keepsPrevious ? 1u : 0u};
+            .keepsPrevious = settings.keepsPrevious ? 1u : 0u,
+            .hasSharpClamp = settings.hasSharpClamp ? 1u : 0u};
 }
 
 } // namespace sinew::capi

@@ -261,6 +261,7 @@ std::string toJson(const RunRecord& record) {
     json["solver"] = sim::solverName(settings.solver);
     json["substeps"] = settings.substeps;
     json["levels"] = settings.levels;
+    json["sharp_clamp"] = settings.hasSharpClamp;
     json["substep_choice"] = choiceJson(record);
     json["iterations"] = settings.solver == sim::Solver::split ? 1 : settings.iterations;
     json["reversed"] = settings.isReversed;

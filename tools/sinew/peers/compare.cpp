@@ -47,8 +47,8 @@ Clock::time_point after(double seconds) {
 
 bool isSame(const sim::Settings& a, const sim::Settings& b) {
     return a.substeps == b.substeps && a.iterations == b.iterations && a.theta == b.theta &&
-           a.levels == b.levels && a.weight == b.weight && a.overRelaxation == b.overRelaxation &&
-           a.warmStart == b.warmStart;
+           a.levels == b.levels && a.hasSharpClamp == b.hasSharpClamp && a.weight == b.weight &&
+           a.overRelaxation == b.overRelaxation && a.warmStart == b.warmStart;
 }
 
 Searched searchFor(Contest& contest, const std::string& program, study::Scale scale, Clock::time_point end) {
@@ -133,6 +133,7 @@ Json settingsJson(const std::string& program, const sim::Settings& settings) {
     if (program == "bullet" || program == "verlet") return json;
     json["theta"] = settings.theta;
     json["levels"] = settings.levels;
+    json["sharp_clamp"] = settings.hasSharpClamp;
     json["weight"] = settings.weight;
     json["over_relaxation"] = settings.overRelaxation;
     json["warm_start"] = settings.warmStart;

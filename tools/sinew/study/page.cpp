@@ -93,7 +93,8 @@ std::string percent(double error) {
 std::string tuningText(const sim::Settings& s) {
     if (s.solver == sim::Solver::split)
         return fmt::format("theta {:g}", s.theta) +
-               (s.levels > 0 ? fmt::format(", levels {}", s.levels) : "");
+               (s.levels > 0 ? fmt::format(", levels {}", s.levels) : "") +
+               (s.hasSharpClamp ? ", sharp clamp" : "");
     if (s.solver == sim::Solver::gaussSeidel)
         return s.warmStart > 0 ? fmt::format("warm {:g}", s.warmStart) : "cold";
     return s.weight > 0 ? fmt::format("weight {:g}", s.weight) : fmt::format("omega {:g}", s.overRelaxation);

@@ -53,7 +53,8 @@ const Tuning& tuningOf(const std::string& solver) {
         {"split",
          {1},
          {[](sim::Settings&) {}, [](sim::Settings& s) { s.theta = 0; },
-          [](sim::Settings& s) { s.levels = 1; }, [](sim::Settings& s) { s.levels = 3; }},
+          [](sim::Settings& s) { s.levels = 1; }, [](sim::Settings& s) { s.levels = 3; },
+          [](sim::Settings& s) { s.hasSharpClamp = true; }},
          true},
         {"gauss_seidel",
          {1, 2, 4, wholeFrame},
@@ -86,6 +87,7 @@ std::vector<SweepCount> sweepCounts(std::uint32_t points, std::uint32_t fewest, 
 
 constexpr const char* weighted = "jacobi_weighted";
 constexpr const char* withLevels = "split_levels";
+constexpr const char* sharp = "split_sharp";
 
 std::string withName(const std::string& names, const std::string& name) {
     return names + (names.empty() ? "\"" : ", \"") + name + "\"";
@@ -118,6 +120,7 @@ StudyScene forEverySolver(StudyScene study) {
 std::string curveOf(const sim::Settings& settings) {
     if (settings.solver == sim::Solver::jacobi && settings.weight > 0) return weighted;
     if (settings.solver == sim::Solver::split && settings.levels > 0) return withLevels;
+    if (settings.solver == sim::Solver::split && settings.hasSharpClamp) return sharp;
     return sim::solverName(settings.solver);
 }
 
@@ -125,6 +128,7 @@ std::vector<std::string> curveNames() {
     std::vector<std::string> names = sim::solverNames();
     names.emplace_back(weighted);
     names.emplace_back(withLevels);
+    names.emplace_back(sharp);
     return names;
 }
 

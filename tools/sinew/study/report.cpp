@@ -97,6 +97,7 @@ Json pointJson(const Curve& curve, std::size_t index) {
             {"omega", settings.omega},
             {"theta", settings.theta},
             {"levels", settings.levels},
+            {"sharp_clamp", settings.hasSharpClamp},
             {"weight", settings.weight},
             {"over_relaxation", settings.overRelaxation},
             {"warm_start", settings.warmStart},
@@ -169,7 +170,7 @@ std::string toJson(const StudyRecord& record) {
 
 std::string toCsv(const StudyRecord& record) {
     std::string text =
-        "scene,solver,substeps,iterations,omega,theta,levels,weight,over_relaxation,warm_start,"
+        "scene,solver,substeps,iterations,omega,theta,levels,sharp_clamp,weight,over_relaxation,warm_start,"
         "sweeps,barriers,clamped,"
         "ms_per_frame,error_rms,error_max,error_of_motion,frames_compared,frames_timed\n";
     for (const SceneResult& scene : record.scenes)
@@ -178,11 +179,11 @@ std::string toCsv(const StudyRecord& record) {
                 const Trial& trial = *point.trial;
                 const sim::Settings& s = trial.settings;
                 text += fmt::format(
-                    "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, curve.solver,
-                    s.substeps, s.iterations, s.omega, s.theta, s.levels, s.weight, s.overRelaxation,
-                    s.warmStart, trial.sweeps, trial.barriers, trial.clamped ? csvOf(*trial.clamped) : "",
-                    csvOf(trial.medianMs()), point.error ? csvOf(point.error->rms) : "",
-                    point.error ? csvOf(point.error->max) : "",
+                    "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, curve.solver,
+                    s.substeps, s.iterations, s.omega, s.theta, s.levels, s.hasSharpClamp ? 1 : 0, s.weight,
+                    s.overRelaxation, s.warmStart, trial.sweeps, trial.barriers,
+                    trial.clamped ? csvOf(*trial.clamped) : "", csvOf(trial.medianMs()),
+                    point.error ? csvOf(point.error->rms) : "", point.error ? csvOf(point.error->max) : "",
                     point.error && point.error->ofMotion ? csvOf(*point.error->ofMotion) : "",
                     point.error ? std::to_string(point.error->frames) : "", trial.frameMs.size());
             }

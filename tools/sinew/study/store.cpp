@@ -100,6 +100,7 @@ Json toJson(const sim::Settings& settings) {
             {"omega", settings.omega},
             {"theta", settings.theta},
             {"levels", settings.levels},
+            {"sharp_clamp", settings.hasSharpClamp},
             {"weight", settings.weight},
             {"over_relaxation", settings.overRelaxation},
             {"warm_start", settings.warmStart}};
