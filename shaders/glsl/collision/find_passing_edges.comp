@@ -44,6 +44,7 @@ float thrownBy(uint i) {
 // to meet, one of them must have been moved off it by as much as it is thick.
 bool isThrown(uint e) {
     const ContactEdge edge = edges[e];
+    if (edge.radius < 0.0) return false; // padding, or disabled by a cut
     return sheets[edge.a] != 0u && uintBitsToFloat(LOOSE(edge.a)) > 0.0 && max(thrownBy(edge.a), thrownBy(edge.b)) > 0.999 * thickness[e];
 }
 
