@@ -457,12 +457,12 @@ struct LatticeChunk {
     uint layers; // number of slices, or of slots in a run; 0 = padding
 };
 
-// Kinds of link: along an edge, a face diagonal, a body diagonal.
-// `split` with the clamp by directions: substeps from one look at the directions of links to the next, and the time in
-// which a clamp returns to that at rest by a factor e.
+// `split` with the clamp by directions: substeps from one look at the directions of links to the next, fewer before the
+// end of a step, and the time in which a clamp returns to that at rest by a factor e.
 #define CLAMP_INTERVAL 8
 #define CLAMP_MEMORY 2.0 // [s]
 
+// Kinds of link: along an edge, a face diagonal, a body diagonal.
 struct LatticePush {
     uint count;
     uint isFirst;

@@ -5,15 +5,18 @@
 layout(constant_id = 24) const bool followsDirections = false; // this dispatch finds the clamp of the next substep
 layout(constant_id = 25) const float mostOfLinks = 0.0;
 #ifdef RESIDENT
-bool findsTimes; // in this substep
+bool isLook = false; // in this substep
+#define findsTimes (followsDirections && isLook)
+uint untilNext = 0u; // substeps until times are found again
 #else
 #define findsTimes followsDirections
+layout(constant_id = 26) const uint untilNext = 0u;
 #endif
 
 // A symmetric matrix: its diagonal, then xy, xz, yz.
 #define SYMMETRIC mat2x3
 
-// What a link of share k~ adds to A of both ends [N/m].
+// The part of a link of share k~ in A of both ends [N/m].
 SYMMETRIC borneBy(vec3 a, vec3 b, float restLength, float share) {
     const vec3 d = b - a;
     const float inverse = inversesqrt(dot3(d, d) + 1e-30);
@@ -40,6 +43,6 @@ float largestEigenvalue(SYMMETRIC a) {
 // tau of a particle [s^2]; one that never moves keeps its own.
 float timeFor(SYMMETRIC a, float atRest, float before, float w) {
     if (w <= 0.0) return before;
-    const float returning = before * (1.0 + step.h * (float(CLAMP_INTERVAL) / CLAMP_MEMORY));
+    const float returning = before * (1.0 + step.h * float(untilNext) / CLAMP_MEMORY);
     return min(min(atRest, returning), mostOfLinks / (2.0 * w * largestEigenvalue(a) + 1e-30));
 }

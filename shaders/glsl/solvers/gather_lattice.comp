@@ -61,7 +61,8 @@ void main() {
     barrier();
     for (uint s = 0u; s < push.substeps; ++s) {
         const Substep substep = substepOf(s == 0u);
-        findsTimes = followsDirections && s % CLAMP_INTERVAL == 0u;
+        isLook = s % CLAMP_INTERVAL == 0u;
+        untilNext = min(uint(CLAMP_INTERVAL), push.substeps - s);
         for (uint item = lane; item < items; item += GROUP_SIZE) moveItem(body * items + item, substep);
         barrier();
         front = residentSlots - front;

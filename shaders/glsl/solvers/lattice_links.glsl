@@ -12,7 +12,7 @@ SYMMETRIC latticeBearing(vec4 a, vec4 b, float stiffness, int dx, int dy, int dz
 }
 
 #ifdef VOLUME
-// What the cells around a node add to A: a share k~ of each, whatever their gradients are.
+// The part of the cells around a node in A: a share k~ of each, for any gradients.
 SYMMETRIC borneByCells(Fill cells) {
     float sum = 0.0;
     [[unroll]] for (int k = 0; k < 8; ++k) sum += cells.cells[k];

@@ -256,10 +256,11 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
         addBendForces(problem, omega, theta, longest, y, force);
         if (isSharp && substep % clampInterval == 0) {
             const std::vector<double> allowed = split.allowedTimes(problem, y, most);
+            const std::uint32_t untilNext = std::min(clampInterval, settings.substeps - substep);
             for (std::size_t i = 0; i < problem.size(); ++i)
                 if (problem.inverseMass[i] > 0)
                     state.clampTimes[i] =
-                        std::min(allowed[i], state.clampTimes[i] * (1 + clampInterval * h / clampMemory));
+                        std::min(allowed[i], state.clampTimes[i] * (1 + untilNext * h / clampMemory));
         }
         for (std::size_t i = 0; i < problem.size(); ++i) {
             const double w = problem.inverseMass[i];

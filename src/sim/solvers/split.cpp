@@ -78,10 +78,14 @@ std::vector<constraints::distance::GatherLink> listedLinks(const Common& common)
 template <typename Push>
 void setDispatch(const Common& common, Gather& gather, const vk::ShaderCode& code, Push push) {
     gather.dispatch = [&program = common.program, &code, constants = gather.constants, push,
-                       isSharp = common.isClampSharp()](std::span<const BufferId> buffers,
-                                                        std::uint32_t substep) mutable {
+                       isSharp = common.isClampSharp(), all = common.build.model.settings.substeps](
+                          std::span<const BufferId> buffers, std::uint32_t substep) mutable {
         push.isFirst = substep == 0;
-        if (isSharp) constants[followsDirectionsId] = substep % CLAMP_INTERVAL == 0;
+        if (isSharp) {
+            const bool isLook = substep % CLAMP_INTERVAL == 0;
+            constants[followsDirectionsId] = isLook;
+            constants[untilNextId] = isLook ? std::min<std::uint32_t>(CLAMP_INTERVAL, all - substep) : 0;
+        }
         program.dispatch(code, push.count, buffers, push, constants);
     };
 }

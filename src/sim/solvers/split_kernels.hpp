@@ -12,8 +12,8 @@ inline constexpr std::uint32_t bodyDiagonalsId = 6, residentSlotsId = 7, recover
                                volumesId =
                                    9; // constant_id in gather_lattice.comp, split.glsl, cell_volume.glsl
 inline constexpr std::uint32_t hasLevelsId = 23; // constant_id in split.glsl
-inline constexpr std::uint32_t followsDirectionsId = 24,
-                               mostOfLinksId = 25;                  // constant_id in directed_clamp.glsl
+inline constexpr std::uint32_t followsDirectionsId = 24, mostOfLinksId = 25,
+                               untilNextId = 26;                    // constant_id in directed_clamp.glsl
 inline constexpr std::uint32_t bendDegreeId = 6, hasDampingId = 12; // constant_id in gather_terms.glsl
 
 namespace k = kernels;

@@ -98,7 +98,7 @@ std::vector<CellShares> cellShares(const Scene& scene, const Settings& settings,
     return result;
 }
 
-// What meets in each particle [N/m], whatever the directions of links are.
+// Sums of shares at each particle [N/m], for any directions of links.
 std::vector<double> sumsOf(const Scene& scene, std::span<const float> shares,
                            std::span<const CellShares> cells) {
     std::vector<double> sums(scene.particles.size(), 0);
