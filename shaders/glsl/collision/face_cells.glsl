@@ -1,6 +1,6 @@
 // The block of cells around a box of faces in which their points are searched for. Requires the names bounds, apart, push
 // and START of a kernel.
-const float mostCells = 1000.0; // around a face
+const float mostCells = 1000.0; // around a box
 
 #include "collision/cell_points.glsl"
 
@@ -9,7 +9,7 @@ struct Cells {
     uint points; // number of points in them
 };
 
-// Around the corners of one or two faces; reach as in Searched.
+// The box of one or two faces, or of a patch; reach as in Searched.
 struct Box {
     vec3 low, high;
     float reach;

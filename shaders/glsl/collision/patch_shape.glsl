@@ -3,13 +3,13 @@
 //
 // Seen along an axis, the region is a map of the flat sheet into a plane. If the symmetric part of its derivative M is at
 // least m in every triangle, then so is its mean along any straight line of the flat sheet: two points that are d apart at
-// rest are at least m d apart, because u . (x(p) - x(q)) >= m d for u, the direction from q to p at rest. The sheet may
-// wave as it likes, as long as it does not fold. M is linear in time where nodes go straight, and its least eigenvalue
-// concave: what holds at both ends of a way holds on it.
+// rest are at least m d apart, because u . (x(p) - x(q)) >= m d for u, the direction from q to p at rest. Waves are
+// allowed; folds are not. M is linear in time where nodes go straight, and its least eigenvalue concave: what holds at both
+// ends of a way holds on it.
 
-// Where a node is seen, in units of the spacing: at the start of the substep, and some substeps after it.
+// The plane in which a region is seen: axes near the directions of its rows and columns, over the spacing [1/m].
 struct View {
-    vec3 right, down; // axes of the plane, near the directions of rows and columns [1/m]
+    vec3 right, down;
 };
 
 vec3 unit(vec3 a) { return a / max(length(a), 1e-30); }

@@ -65,11 +65,25 @@ double nearestFrom(double least) {
     return nearest;
 }
 
-// Of all its faces; nothing if they, or its points, differ.
+// Whether a face with a corner in a sheet is half of one of its squares: then it is in one triangle of the
+// grid.
+bool isHalfOfASquare(const Sheet& sheet, const layout::ContactFace& face) {
+    Node low{~0u, ~0u}, high{0, 0};
+    for (const std::uint32_t corner : {face.a, face.b, face.c}) {
+        const std::optional<Node> node = nodeAt(sheet, corner);
+        if (!node) return false;
+        low = {std::min(low.x, node->x), std::min(low.y, node->y)};
+        high = {std::max(high.x, node->x), std::max(high.y, node->y)};
+    }
+    return high.x - low.x == 1 && high.y - low.y == 1;
+}
+
+// The thickness of the faces of a sheet; nothing if they differ, or if one is no half of a square.
 std::optional<float> thicknessOf(const Sheet& sheet, std::span<const layout::ContactFace> faces) {
     std::optional<float> thickness;
     for (const layout::ContactFace& face : faces) {
         if (!nodeAt(sheet, face.a) && !nodeAt(sheet, face.b) && !nodeAt(sheet, face.c)) continue;
+        if (!isHalfOfASquare(sheet, face)) return std::nullopt;
         if (thickness && *thickness != std::abs(face.thickness)) return std::nullopt;
         thickness = std::abs(face.thickness);
     }

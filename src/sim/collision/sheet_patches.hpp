@@ -24,7 +24,8 @@ struct Sheet {
 };
 
 /// The sheets that have patches: at least PATCH_REGION nodes wide, without holes, flat and square in the
-/// scene, with one radius and one thickness. `radii` by slot; `faces` with slots.
+/// scene, with one radius, one thickness and halves of squares as faces, which touch at less than 1.5
+/// spacings. `radii` by slot; `faces` with slots.
 std::vector<Sheet> sheetsOf(const Scene& scene, const StateLayout& layout, std::span<const float> radii,
                             std::span<const layout::ContactFace> faces);
 

@@ -334,17 +334,17 @@ TEST(PatchesOfSheets, AreAllAloneInAFlatSheetAndListNothing) {
 }
 
 // Every node stays within the slack of lists, but a strip of the sheet is squeezed until a corner touches the
-// face across the diagonal.
-class SheetPatches : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Shared, SheetPatches, testing::Bool());
-TEST_P(SheetPatches, AreGivenUpWhenTheirShapeChanges) {
+// face across the diagonal. One invocation and several that share a patch give it up in the same substep.
+TEST(PatchesOfSheets, AreGivenUpWhenTheirShapeChanges) {
     std::mt19937 random(4);
     const Sheet sheet(0.0115f);
-    Device device(sheet, 0.5f * spacing, false, GetParam()); // slack of about a quarter of a spacing
+    const float margin = 0.5f * spacing; // slack of about a quarter of a spacing
+    Device device(sheet, margin), sharing(sheet, margin, false, true);
     const State flat = placed(random, sheet, Form::flat, 0, false);
     State state = flat;
     for (Vector3d& way : state.way) way.setZero();
     device.update(state);
+    sharing.update(state);
     const std::uint32_t builds = device.builds();
     bool wasGivenUp = false;
     for (int step = 1; step <= 24 && !wasGivenUp; ++step) {
@@ -355,10 +355,38 @@ TEST_P(SheetPatches, AreGivenUpWhenTheirShapeChanges) {
             state.way[i] = state.x[i] - before.x[i];
         }
         device.update(state);
+        sharing.update(state);
         Found found;
         ASSERT_NO_FATAL_FAILURE(expectComplete(sheet, state, device, found)) << step;
+        ASSERT_EQ(sharing.builds(), device.builds()) << step;
         wasGivenUp = device.builds() > builds;
         EXPECT_TRUE(wasGivenUp || found.pairs == 0) << step;
     }
     EXPECT_TRUE(wasGivenUp);
+}
+
+// Loose points come towards a sheet at rest, each along its own heading: lists that were made while all were
+// far away are complete until the points touch.
+TEST(PatchesOfSheets, AreNotAloneWhenAPointArrives) {
+    std::mt19937 random(9);
+    const Sheet sheet(0.0115f);
+    const double reach = double{sheet.reach};
+    Device device(sheet, sheet.reach / 4);
+    State state = placed(random, sheet, Form::flat, 0, false);
+    for (Vector3d& way : state.way) way.setZero();
+    const Vector3d above = (state.x[1] - state.x[0]).cross(state.x[nodesX] - state.x[0]).normalized();
+    for (std::uint32_t i = sheetNodes; i < sheetNodes + loose; ++i) {
+        state.x[i] = state.x[random() % sheetNodes] + uniform(random, 4, 12) * reach * above;
+        state.way[i] = -uniform(random, 0.05, 0.4) * reach * above + within(random, 0.05 * reach);
+    }
+    Found found;
+    constexpr int steps = 60;
+    for (int step = 0; step < steps; ++step) {
+        for (std::uint32_t i = sheetNodes; i < sheetNodes + loose; ++i) state.x[i] += state.way[i];
+        device.update(state);
+        ASSERT_NO_FATAL_FAILURE(expectComplete(sheet, state, device, found)) << step;
+    }
+    EXPECT_GT(found.pairs, 100u);
+    EXPECT_LT(device.builds(), steps / 2) << "lists last for several substeps";
+    EXPECT_GT(found.alone, found.all / 10);
 }

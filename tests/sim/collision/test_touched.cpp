@@ -26,8 +26,8 @@ template <typename T> std::vector<T> read(test::Runner& runner, const std::strin
     return {};
 }
 
-// What the last substep listed of a kind of contacts, and what its lists of candidates and its contacts have
-// of it.
+// Lists of what touches in the last substep, of one kind of contacts, and the same by its candidates and
+// contacts.
 struct Visited {
     std::size_t candidates = 0;
     std::vector<std::uint32_t> particles, rows, points;
