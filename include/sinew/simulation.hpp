@@ -328,8 +328,8 @@ public:
     /// finite"; null if it has one. Valid for good.
     const char* faultOf(const Motion& motion) const noexcept;
     /// Sentences about mistakes in the host's recording that were ignored: a step before the first reset,
-    /// more steps in flight than Settings::framesInFlight, more grabs, host colliders or anchors than
-    /// allowed, an invalid blade or one without a cuttable body, and steps undone for lack of
+    /// more steps in flight than Settings::framesInFlight, more grabs, host colliders, motions or anchors
+    /// than allowed, an invalid blade or one without a cuttable body, and steps undone for lack of
     /// Settings::contactRoom. The first call also returns warnings() of validate.hpp. Each kind is returned
     /// once, by the next call after it occurred; show it to the host's developer. Allocates only if there is
     /// something to return.

@@ -79,7 +79,7 @@ struct ForceField {
     float scale = 1; ///< turbulence: distance over which it changes [m], above 0
 };
 
-/// What a Motion does, once, at the start of a step.
+/// The kinds of Motion, each of which acts once, at the start of a step.
 enum class MotionKind {
     addVelocity, ///< adds velocities of a rigid motion
     setVelocity, ///< replaces all velocities by those

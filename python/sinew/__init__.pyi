@@ -103,7 +103,7 @@ class Field:
 class Motion:
     """A change of the motion of a body or region, once, at the start of the first step of step(): linear is a velocity [m/s], an impulse
     [N s] or a displacement [m] of the centre of mass, angular a velocity [rad/s] or moment [N m s] about it, rotation that of a pose (x,
-    y, z, w). As SinewMotion in sinew.h."""
+    y, z, w). SinewMotion of sinew_motions.h has the rules."""
     def __init__(self, kind: Literal["add_velocity", "set_velocity", "impulse", "pose"], body: int = 0xFFFFFFFF, linear: Vector = (0, 0, 0),
                  angular: Vector = (0, 0, 0), rotation: Sequence[float] = (0, 0, 0, 1), center: Vector = (0, 0, 0),
                  radius: float = 0.0) -> None: ...

@@ -107,6 +107,7 @@ class Module(unittest.TestCase):
 
     def test_motions_throw_and_place_bodies(self):
         simulation = sinew.Simulation(self.device, cube(), sinew.Settings(motions=2))
+        simulation.step(1, gravity=(0, 0, 0))
         start = simulation.positions[:, :3].mean(axis=0)
         pose = sinew.Motion("pose", 0, linear=(3, 1, 0), rotation=(0, 0, 0.5**0.5, 0.5**0.5))
         simulation.step(30, gravity=(0, 0, 0), motions=[pose, sinew.Motion("set_velocity", 0, linear=(0, 0, 2))])

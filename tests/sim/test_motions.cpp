@@ -98,7 +98,7 @@ const Quaternion aslant{0.3f, -0.4f, 0.5f, std::sqrt(0.5f)};
 
 constexpr Solver solvers[] = {Solver::split, Solver::jacobi, Solver::gaussSeidel};
 
-// Two boxes and some loose particles.
+// Two boxes.
 Scene twoBoxes() {
     Scene scene;
     addBox(scene, {0, 0.3f, 0});

@@ -292,7 +292,7 @@ struct FieldGroups {
     std::uint32_t areas = 0, applied = 0; ///< once a step, once a substep
 };
 
-/// What the host knows of a body that it moves: between which slots its particles are.
+/// A body that the host moves: the slots between which its particles are.
 struct MotionBody {
     std::uint32_t first = 0, end = 0;
     std::uint32_t origin = 0; ///< slot of its first particle
