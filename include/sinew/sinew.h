@@ -375,7 +375,8 @@ typedef struct SinewSettings {
     uint32_t isReversed;                   // runs kernels in reversed order, with the same results
     uint32_t levels;                       // of `split`: coarse levels of bodies on grids, 0 to 6, or SINEW_AUTO_LEVELS
     uint32_t events, eventRoom;            // kinds listed, and events kept of a step: sinew_events.h
-    uint32_t keepsPrevious, hasSharpClamp; // keeps SINEW_PREVIOUS_POSITIONS, _SKIN_VERTICES; clamp of `split`: docs/clamp.md
+    uint32_t keepsPrevious;                // keeps SINEW_PREVIOUS_POSITIONS and SINEW_PREVIOUS_SKIN_VERTICES
+    uint32_t hasSharpClamp;                // of `split`: links are clamped by the directions in which they meet
 } SinewSettings;
 // As many levels as win at equal error, by the kind of body, its size and the substeps.
 #define SINEW_AUTO_LEVELS 0xffffffffu
