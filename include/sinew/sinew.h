@@ -370,8 +370,7 @@ typedef struct SinewSettings {
     uint32_t grabs, hostColliders, fields, motions; // in a step: up to 8, 1024, 16 and 64
     uint32_t framesInFlight;               // steps recorded and not finished, 1 to 64
     float omega, theta;                    // of `split`
-    float weight, overRelaxation;          // of `jacobi`
-    float warmStart;                       // of `gauss_seidel`
+    float weight, overRelaxation, warmStart; // two of `jacobi`; of `gauss_seidel`
     uint32_t isReversed;                   // runs kernels in reversed order, with the same results
     uint32_t levels;                       // of `split`: coarse levels of bodies on grids, 0 to 6, or SINEW_AUTO_LEVELS
     uint32_t events, eventRoom;            // kinds listed, and events kept of a step: sinew_events.h
