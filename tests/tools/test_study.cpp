@@ -149,12 +149,13 @@ TEST(Plan, SearchesIterationsOfColoredSweepsWarmAndCold) {
 TEST(Plan, SplitsOneNumberOfSweepsWithoutTryingAnythingTwice) {
     for (const sim::Solver solver : {sim::Solver::jacobi, sim::Solver::split, sim::Solver::gaussSeidel})
         for (const std::uint32_t sweeps : {4u, 8u, 16u}) { // some of them take the whole frame
-            using Key = std::tuple<std::uint32_t, float, std::uint32_t, float, float, float>;
+            using Key = std::tuple<std::uint32_t, float, std::uint32_t, bool, float, float, float>;
             std::set<Key> tried;
             const std::vector<sim::Settings> list = settingsAt(solver, sweeps);
             for (const sim::Settings& s : list) {
                 EXPECT_EQ(s.substeps * s.iterations, sweeps);
-                tried.insert(Key{s.iterations, s.theta, s.levels, s.weight, s.overRelaxation, s.warmStart});
+                tried.insert(Key{s.iterations, s.theta, s.levels, s.hasSharpClamp, s.weight, s.overRelaxation,
+                                 s.warmStart});
             }
             EXPECT_EQ(tried.size(), list.size()) << sim::solverName(solver) << ' ' << sweeps;
             EXPECT_GE(list.size(), 2u);
