@@ -118,7 +118,7 @@ TEST_F(Study, GivesEverySolverTheSameMesh) {
                         "resolution = 4\nyoung_modulus = 2e3\nrecovery = 1\n[[plane]]\noffset = -1\n");
     const Outcome asked = study();
     ASSERT_EQ(asked.code, 0) << asked.error;
-    EXPECT_EQ(Json::parse(text("study.json"))["scenes"][0]["curves"].size(), 2u);
+    EXPECT_EQ(Json::parse(text("study.json"))["scenes"][0]["curves"].size(), 3u);
 }
 
 TEST_F(Study, ComparesContactsWithShortStepsAndFollowsThemToRest) {

@@ -131,8 +131,12 @@ std::map<std::uint32_t, double> searched(const State& state, bool isReversed,
             sheets[i] = i < 4 * p + 2 ? 1 : 2;
             initial[ZONE_WORDS + 3 * count + i] = std::bit_cast<std::uint32_t>(1.0f); // loose
         }
-        for (std::uint32_t i = 4 * p; i < 4 * p + 2; ++i)
-            looked[i].x += 10; // both ends have been moved by 10 m
+        for (std::uint32_t i = 4 * p; i < 4 * p + 4; ++i) {
+            const Vector3d end =
+                vectorOf(state.positions[i]) - double{thetaH} * vectorOf(state.velocities[i]);
+            const double x = end.x() + (i < 4 * p + 2 ? 10 : 0); // the first edge has been moved by 10 m
+            looked[i] = {static_cast<float>(x), static_cast<float>(end.y()), static_cast<float>(end.z()), 0};
+        }
     }
     layout::GridBounds bounds{};
     bounds.entries = static_cast<std::uint32_t>(contacts.size());

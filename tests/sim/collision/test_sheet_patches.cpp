@@ -376,11 +376,11 @@ TEST(PatchesOfSheets, AreNotAloneWhenAPointArrives) {
     for (Vector3d& way : state.way) way.setZero();
     const Vector3d above = (state.x[1] - state.x[0]).cross(state.x[nodesX] - state.x[0]).normalized();
     for (std::uint32_t i = sheetNodes; i < sheetNodes + loose; ++i) {
-        state.x[i] = state.x[random() % sheetNodes] + uniform(random, 4, 12) * reach * above;
-        state.way[i] = -uniform(random, 0.05, 0.4) * reach * above + within(random, 0.05 * reach);
+        state.x[i] = state.x[random() % sheetNodes] + uniform(random, 3, 8) * reach * above;
+        state.way[i] = -uniform(random, 0.03, 0.1) * reach * above + within(random, 0.01 * reach);
     }
     Found found;
-    constexpr int steps = 60;
+    constexpr int steps = 120;
     for (int step = 0; step < steps; ++step) {
         for (std::uint32_t i = sheetNodes; i < sheetNodes + loose; ++i) state.x[i] += state.way[i];
         device.update(state);
