@@ -1,5 +1,6 @@
 // Tests of the sharp clamp (docs/clamp.md): its bound on random graphs and in the worst deformations found,
 // its bits, its motion against the true one, and its energy.
+#include "sim/motion_error.hpp"
 #include "sim/reference/reference.hpp"
 #include "sim/reference/trajectory.hpp"
 #include "sim/runner.hpp"
@@ -257,22 +258,6 @@ TEST(SharpClamp, HasTheSameBitsInEveryFormAndOrder) {
     }
 }
 
-// RMS distance from the true motion, relative to that of a body that stays where it is.
-double errorOf(const Scene& scene, const Settings& settings, const reference::Trajectory& truth) {
-    test::Runner runner(scene, settings);
-    const std::vector<Vector3d> start = runner.positions();
-    double error = 0, motion = 0;
-    for (const std::vector<Vector3d>& frame : truth.frames) {
-        runner.run(1);
-        const std::vector<Vector3d> x = runner.positions();
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            error += (x[i] - frame[i]).squaredNorm();
-            motion += (start[i] - frame[i]).squaredNorm();
-        }
-    }
-    return std::sqrt(error / motion);
-}
-
 TEST(SharpClamp, NeedsFewerSubsteps) {
     for (const auto& [scene, ratio] : {std::pair(heldBeam(), 0.78), std::pair(hungSheet(), 0.75)}) {
         const reference::Trajectory truth =
@@ -280,8 +265,8 @@ TEST(SharpClamp, NeedsFewerSubsteps) {
         const std::uint32_t bySum = chooseSubsteps(scene, {}).substeps;
         const std::uint32_t substeps = chooseSubsteps(scene, {.hasSharpClamp = true}).substeps;
         EXPECT_LE(substeps, ratio * bySum);
-        const double without = errorOf(scene, {.substeps = substeps}, truth);
-        const double with = errorOf(scene, sharp(substeps), truth);
+        const double without = test::errorOf(scene, {.substeps = substeps}, truth);
+        const double with = test::errorOf(scene, sharp(substeps), truth);
         std::printf("%u substeps in place of %u: error %.3g %% of the motion, with the sum %.3g %%\n",
                     substeps, bySum, 100 * with, 100 * without);
         EXPECT_LT(with, 0.02);

@@ -1,6 +1,7 @@
 // Tests of coarse levels: their motion against the true one, their bits, their bounds, and cuts.
 #include "sim/cutting/cut_body.hpp"
 #include "sim/levels/blocks.hpp"
+#include "sim/motion_error.hpp"
 #include "sim/reference/reference.hpp"
 #include "sim/reference/trajectory.hpp"
 #include "sim/runner.hpp"
@@ -56,22 +57,6 @@ Scene freeBlock(std::array<std::uint32_t, 3> cells, bool isCuttable = false) {
     return scene;
 }
 
-// RMS distance from the true motion over `frames`, relative to that of a body that stays where it is.
-double errorOf(const Scene& scene, const Settings& settings, const reference::Trajectory& truth) {
-    test::Runner runner(scene, settings);
-    const std::vector<Vector3d> start = runner.positions();
-    double error = 0, motion = 0;
-    for (const std::vector<Vector3d>& frame : truth.frames) {
-        runner.run(1);
-        const std::vector<Vector3d> x = runner.positions();
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            error += (x[i] - frame[i]).squaredNorm();
-            motion += (start[i] - frame[i]).squaredNorm();
-        }
-    }
-    return std::sqrt(error / motion);
-}
-
 double farthest(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
     double most = 0;
     for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
@@ -105,8 +90,8 @@ std::vector<levels::Level> levelsOf(const Scene& scene, const Settings& settings
 TEST(Levels, MoveASheetNearlyAsItsFullStiffness) {
     const Scene scene = hungSheet();
     const reference::Trajectory truth = reference::trueTrajectory(scene, {.frames = 30, .tolerance = 1e-4});
-    const double without = errorOf(scene, {.substeps = 8}, truth);
-    const double with = errorOf(scene, {.substeps = 8, .levels = 3}, truth);
+    const double without = test::errorOf(scene, {.substeps = 8}, truth);
+    const double with = test::errorOf(scene, {.substeps = 8, .levels = 3}, truth);
     EXPECT_GT(without, 0.2);
     EXPECT_LT(with, 0.07);
     EXPECT_LT(with, without / 6);
@@ -115,8 +100,8 @@ TEST(Levels, MoveASheetNearlyAsItsFullStiffness) {
 TEST(Levels, MoveABeamNearlyAsItsFullStiffness) {
     const Scene scene = heldBeam();
     const reference::Trajectory truth = reference::trueTrajectory(scene, {.frames = 30, .tolerance = 1e-4});
-    const double without = errorOf(scene, {.substeps = 10}, truth);
-    const double with = errorOf(scene, {.substeps = 10, .levels = 2}, truth);
+    const double without = test::errorOf(scene, {.substeps = 10}, truth);
+    const double with = test::errorOf(scene, {.substeps = 10, .levels = 2}, truth);
     EXPECT_GT(without, 0.5);
     EXPECT_LT(with, 0.11);
     EXPECT_LT(with, without / 6);
@@ -461,10 +446,10 @@ TEST(Levels, TakeHalfOrAThirdOfTheSubsteps) {
     EXPECT_NEAR(substeps(1), all / 2.0, 1);
     EXPECT_NEAR(substeps(2), all / 3.0, 1);
     EXPECT_EQ(substeps(3), substeps(2));
-    EXPECT_LT(errorOf(scene, {}, truth), 0.001);
-    EXPECT_LT(errorOf(scene, {.levels = 1}, truth), 0.07);
-    EXPECT_LT(errorOf(scene, {.levels = 2}, truth), 0.1);
-    EXPECT_GT(errorOf(scene, {.substeps = substeps(1)}, truth), 0.5);
+    EXPECT_LT(test::errorOf(scene, {}, truth), 0.001);
+    EXPECT_LT(test::errorOf(scene, {.levels = 1}, truth), 0.07);
+    EXPECT_LT(test::errorOf(scene, {.levels = 2}, truth), 0.1);
+    EXPECT_GT(test::errorOf(scene, {.substeps = substeps(1)}, truth), 0.5);
     const Settings settings{.levels = 1};
     EXPECT_EQ(toText(chooseSubsteps(scene, settings), settings),
               std::to_string(substeps(1)) +

@@ -51,7 +51,7 @@ Patches add(ProgramBuilder& program, std::span<const layout::SheetPatch> patches
 void addCheck(ProgramBuilder& program, const Patches& patches, const hash_grid::Grid& grid,
               const hash_grid::Moved& moved);
 
-/// What searches for points (face_lists::Lists).
+/// The buffers and numbers of a search for points (face_lists::Lists).
 struct Searching {
     BufferId radii, points;
     const layout::FaceFindPush& push;

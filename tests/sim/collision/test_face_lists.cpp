@@ -1,6 +1,7 @@
 // Compares lists of particles and faces on the device with brute force, on many kinds of clouds. Each pair is
 // listed once, sorted, for any order of invocations. Also tests lists whose capacity is too small.
 #include "common/layout.h"
+#include "sim/collision/distances.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/device/gpu_executor.hpp"
 #include "sim/model/components.hpp"
@@ -18,6 +19,7 @@
 using namespace sinew;
 using namespace sinew::sim;
 using Eigen::Vector3d;
+using test::toTriangle;
 namespace lists = sinew::sim::collision::face_lists;
 
 namespace {
@@ -168,25 +170,6 @@ private:
 
 Vector3d at(const layout::vec4& v) {
     return {double{v.x}, double{v.y}, double{v.z}};
-}
-
-double toSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-    const Vector3d ab = b - a;
-    const double length = ab.squaredNorm();
-    const double t = length > 0 ? std::clamp((p - a).dot(ab) / length, 0.0, 1.0) : 0;
-    return (p - a - t * ab).norm();
-}
-
-double toTriangle(const Vector3d& p, const std::array<Vector3d, 3>& x) {
-    const Vector3d n = (x[1] - x[0]).cross(x[2] - x[0]);
-    const double nn = n.squaredNorm();
-    if (nn > 0) {
-        bool isInside = true;
-        for (int k = 0; k < 3; ++k)
-            isInside = isInside && (x[(k + 1) % 3] - x[k]).cross(p - x[k]).dot(n) >= 0;
-        if (isInside) return std::abs((p - x[0]).dot(n)) / std::sqrt(nn);
-    }
-    return std::min({toSegment(p, x[0], x[1]), toSegment(p, x[1], x[2]), toSegment(p, x[2], x[0])});
 }
 
 double longestFrom(const Vector3d& way, const std::array<Vector3d, 3>& ways) {

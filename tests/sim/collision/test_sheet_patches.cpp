@@ -2,6 +2,7 @@
 // because a patch is taken to be alone; a sheet that is not folded has patches that are; and a change of
 // shape ends it.
 #include "common/layout.h"
+#include "sim/collision/distances.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/device/gpu_executor.hpp"
 #include "sim/model/components.hpp"
@@ -19,6 +20,7 @@
 using namespace sinew;
 using namespace sinew::sim;
 using Eigen::Vector3d;
+using test::toTriangle;
 namespace lists = sinew::sim::collision::face_lists;
 namespace patches = sinew::sim::collision::sheet_patches;
 
@@ -141,20 +143,6 @@ private:
     StepProgram program_;
     std::optional<GpuExecutor> executor_;
 };
-
-double toSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-    const Vector3d ab = b - a;
-    const double length = ab.squaredNorm();
-    return (p - a - (length > 0 ? std::clamp((p - a).dot(ab) / length, 0.0, 1.0) : 0) * ab).norm();
-}
-
-double toTriangle(const Vector3d& p, const std::array<Vector3d, 3>& x) {
-    const Vector3d n = (x[1] - x[0]).cross(x[2] - x[0]);
-    bool isInside = n.squaredNorm() > 0;
-    for (int k = 0; k < 3; ++k) isInside = isInside && (x[(k + 1) % 3] - x[k]).cross(p - x[k]).dot(n) >= 0;
-    if (isInside) return std::abs((p - x[0]).dot(n)) / n.norm();
-    return std::min({toSegment(p, x[0], x[1]), toSegment(p, x[1], x[2]), toSegment(p, x[2], x[0])});
-}
 
 // By point: the faces that it touches at one of some moments of the substep.
 std::vector<std::vector<std::uint32_t>> touching(const Sheet& sheet, const State& state) {
