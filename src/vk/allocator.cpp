@@ -56,7 +56,8 @@ public:
                    const VkPhysicalDeviceMemoryProperties& properties)
         : device_(device), functions_(functions), properties_(properties) {}
     ~BlockAllocator() override {
-        for (const Block& block : blocks_) functions_.vkFreeMemory(device_, block.memory, nullptr);
+        for (const Block& block : blocks_)
+            functions_.vkFreeMemory(device_, block.memory, functions_.allocation);
     }
 
     BufferAllocation create(const VkBufferCreateInfo& info, MemoryKind kind, const char* name) override;
@@ -86,7 +87,8 @@ BufferAllocation BlockAllocator::create(const VkBufferCreateInfo& info, MemoryKi
     BufferAllocation allocation{.token = nextToken_++};
     Placement& placement = placements_[allocation.token]; // first: what has a place must be found again
     try {
-        check(functions_.vkCreateBuffer(device_, &info, nullptr, &allocation.buffer), "vkCreateBuffer", name);
+        check(functions_.vkCreateBuffer(device_, &info, functions_.allocation, &allocation.buffer),
+              "vkCreateBuffer", name);
         VkMemoryRequirements need;
         functions_.vkGetBufferMemoryRequirements(device_, allocation.buffer, &need);
         placement = place(need, kind, name);
@@ -108,7 +110,7 @@ void BlockAllocator::destroy(const BufferAllocation& allocation) noexcept {
 }
 
 void BlockAllocator::remove(const BufferAllocation& allocation) noexcept {
-    functions_.vkDestroyBuffer(device_, allocation.buffer, nullptr);
+    functions_.vkDestroyBuffer(device_, allocation.buffer, functions_.allocation);
     const auto placement = placements_.find(allocation.token);
     if (placement->second.size > 0)
         giveBack(placement->second); // else create() failed before it found a place
@@ -118,7 +120,7 @@ void BlockAllocator::remove(const BufferAllocation& allocation) noexcept {
 void BlockAllocator::giveBack(const Placement& placement) noexcept {
     placement.block->free.give(placement.offset, placement.size);
     if (!placement.block->free.isAllFree()) return;
-    functions_.vkFreeMemory(device_, placement.block->memory, nullptr);
+    functions_.vkFreeMemory(device_, placement.block->memory, functions_.allocation);
     blocks_.erase(placement.block);
 }
 
@@ -154,7 +156,8 @@ VkResult BlockAllocator::addBlock(std::uint32_t type, VkDeviceSize size) {
     const VkMemoryAllocateInfo info{
         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = size, .memoryTypeIndex = type};
     Block& block = blocks_.emplace_back(Block{.size = size, .type = type, .free = FreeRanges(size)});
-    if (const VkResult result = functions_.vkAllocateMemory(device_, &info, nullptr, &block.memory);
+    if (const VkResult result =
+            functions_.vkAllocateMemory(device_, &info, functions_.allocation, &block.memory);
         result < 0) {
         blocks_.pop_back();
         return result;
@@ -163,7 +166,7 @@ VkResult BlockAllocator::addBlock(std::uint32_t type, VkDeviceSize size) {
         void* mapped = nullptr;
         const VkResult result = functions_.vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped);
         if (result < 0) {
-            functions_.vkFreeMemory(device_, block.memory, nullptr);
+            functions_.vkFreeMemory(device_, block.memory, functions_.allocation);
             blocks_.pop_back();
             return result;
         }

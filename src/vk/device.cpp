@@ -10,12 +10,14 @@
 #include "vk/pipeline_cache.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 namespace sinew::vk {
 
 struct Device::State {
-    std::unique_ptr<Instance> ownInstance; ///< null if borrowed; destroyed last
+    std::optional<VkAllocationCallbacks> callbacks; ///< functions.allocation points at it
+    std::unique_ptr<Instance> ownInstance;          ///< null if borrowed; destroyed last
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -36,10 +38,11 @@ struct Device::State {
     State& operator=(const State&) = delete;
     ~State() {
         allocator.reset();
-        if (pipelineCache != VK_NULL_HANDLE) functions.vkDestroyPipelineCache(device, pipelineCache, nullptr);
+        if (pipelineCache != VK_NULL_HANDLE)
+            functions.vkDestroyPipelineCache(device, pipelineCache, functions.allocation);
         if (ownInstance && device != VK_NULL_HANDLE) // looked up again: the table may be what failed to load
-            reinterpret_cast<PFN_vkDestroyDevice>(
-                instanceFunctions.vkGetDeviceProcAddr(device, "vkDestroyDevice"))(device, nullptr);
+            reinterpret_cast<PFN_vkDestroyDevice>(instanceFunctions.vkGetDeviceProcAddr(
+                device, "vkDestroyDevice"))(device, callbacks ? &*callbacks : nullptr);
     }
 };
 
@@ -110,7 +113,7 @@ VkDevice createDevice(const InstanceFunctions& functions, const Candidate& chose
                                   .ppEnabledExtensionNames = extensions.data(),
                                   .pEnabledFeatures = &drawn};
     VkDevice device = VK_NULL_HANDLE;
-    check(functions.vkCreateDevice(chosen.physical, &info, nullptr, &device), "vkCreateDevice",
+    check(functions.vkCreateDevice(chosen.physical, &info, request.allocation, &device), "vkCreateDevice",
           chosen.description.name);
     return device;
 }
@@ -159,6 +162,7 @@ void Device::complete(bool hasDebugUtils, const BufferHook& hook, std::span<cons
     state.queueFlags = family.queueFlags;
     state.limits = readLimits(state.instanceFunctions, state.physical, family);
     state.functions = loadDeviceFunctions(state.instanceFunctions.vkGetDeviceProcAddr, state.device);
+    if (state.callbacks) state.functions.allocation = &*state.callbacks;
     if (!hasDebugUtils) // some loaders provide the functions all the same
         dropDebugUtils(state.functions);
     VkPhysicalDeviceMemoryProperties memory;
@@ -175,10 +179,10 @@ void Device::usePipelines(std::span<const std::byte> kept) {
                                          .initialDataSize = earlier.size(),
                                          .pInitialData = earlier.data()};
     VkPipelineCache cache = VK_NULL_HANDLE;
-    check(state.functions.vkCreatePipelineCache(state.device, &info, nullptr, &cache),
+    check(state.functions.vkCreatePipelineCache(state.device, &info, state.functions.allocation, &cache),
           "vkCreatePipelineCache", state.description.name);
     if (state.pipelineCache != VK_NULL_HANDLE)
-        state.functions.vkDestroyPipelineCache(state.device, state.pipelineCache, nullptr);
+        state.functions.vkDestroyPipelineCache(state.device, state.pipelineCache, state.functions.allocation);
     state.pipelineCache = cache;
     name(VK_OBJECT_TYPE_PIPELINE_CACHE, handleValue(cache), "sinew.pipelines");
 }
@@ -186,6 +190,7 @@ void Device::usePipelines(std::span<const std::byte> kept) {
 Device Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const DeviceRequest& request) {
     Device device = make();
     State& state = *device.state_;
+    if (request.allocation != nullptr) state.callbacks = *request.allocation;
     state.ownInstance = std::make_unique<Instance>(getInstanceProcAddr, request);
     state.getInstanceProcAddr = getInstanceProcAddr;
     state.instance = state.ownInstance->handle();
@@ -205,6 +210,7 @@ Device Device::borrow(const HostDevice& host) {
     checkHost(host);
     Device device = make();
     State& state = *device.state_;
+    if (host.allocation != nullptr) state.callbacks = *host.allocation;
     state.getInstanceProcAddr = host.getInstanceProcAddr;
     state.instance = host.instance;
     state.physical = host.physicalDevice;

@@ -93,7 +93,7 @@ VkInstanceCreateFlags flagsWith(const std::vector<const char*>& extensions) {
 }
 
 VkInstance createInstance(const GlobalFunctions& functions, const std::vector<const char*>& extensions,
-                          bool hasValidation, Messages& messages) {
+                          bool hasValidation, const VkAllocationCallbacks* allocation, Messages& messages) {
     const VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(messages);
     const VkValidationFeatureEnableEXT synchronization =
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
@@ -114,7 +114,7 @@ VkInstance createInstance(const GlobalFunctions& functions, const std::vector<co
                                     .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                     .ppEnabledExtensionNames = extensions.data()};
     VkInstance instance = VK_NULL_HANDLE;
-    const VkResult result = functions.vkCreateInstance(&info, nullptr, &instance);
+    const VkResult result = functions.vkCreateInstance(&info, allocation, &instance);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
         throw Error(Failure::noDevice, std::string("cannot use Vulkan: no driver found") + howToInstall);
     check(result, "vkCreateInstance", "the program");
@@ -136,6 +136,7 @@ std::vector<std::string> Messages::all() const {
 
 Instance::Instance(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const DeviceRequest& request)
     : messages_(request.onValidationMessage) {
+    if (request.allocation != nullptr) callbacks_ = *request.allocation;
     const GlobalFunctions global = loadGlobalFunctions(getInstanceProcAddr);
     std::vector<const char*> extensions;
     for (const std::string& extension : request.instanceExtensions) {
@@ -153,25 +154,25 @@ Instance::Instance(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const DeviceRe
         throw Error(Failure::noDevice, std::string("cannot validate: ") + validationLayer +
                                            " is missing: install vulkan-validationlayers");
     if (hasValidation) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME); // layer's own
-    instance_ = createInstance(global, extensions, hasValidation, messages_);
+    instance_ = createInstance(global, extensions, hasValidation, allocation(), messages_);
     try {
         functions_ = loadInstanceFunctions(getInstanceProcAddr, instance_);
         const VkDebugUtilsMessengerCreateInfoEXT info = messengerInfo(messages_);
         if (hasValidation)
-            check(functions_.vkCreateDebugUtilsMessengerEXT(instance_, &info, nullptr, &messenger_),
+            check(functions_.vkCreateDebugUtilsMessengerEXT(instance_, &info, allocation(), &messenger_),
                   "vkCreateDebugUtilsMessengerEXT", "the program");
     } catch (...) {
         const auto destroy =
             reinterpret_cast<PFN_vkDestroyInstance>(getInstanceProcAddr(instance_, "vkDestroyInstance"));
-        destroy(instance_, nullptr);
+        destroy(instance_, allocation());
         throw;
     }
 }
 
 Instance::~Instance() {
     if (messenger_ != VK_NULL_HANDLE)
-        functions_.vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
-    functions_.vkDestroyInstance(instance_, nullptr);
+        functions_.vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, allocation());
+    functions_.vkDestroyInstance(instance_, allocation());
 }
 
 } // namespace sinew::vk

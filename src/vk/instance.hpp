@@ -5,6 +5,7 @@
 #include "sinew/vk/device.hpp"
 
 #include <mutex>
+#include <optional>
 
 namespace sinew::vk {
 
@@ -35,7 +36,10 @@ public:
     std::vector<std::string> messages() const { return messages_.all(); }
 
 private:
+    const VkAllocationCallbacks* allocation() const noexcept { return callbacks_ ? &*callbacks_ : nullptr; }
+
     Messages messages_; ///< first: the messenger writes to it until the instance is destroyed
+    std::optional<VkAllocationCallbacks> callbacks_;
     InstanceFunctions functions_;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;

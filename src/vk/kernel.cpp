@@ -77,7 +77,7 @@ VkDescriptorSetLayout createSetLayout(VkDevice device, const DeviceFunctions& fu
                                                .bindingCount = static_cast<std::uint32_t>(bindings.size()),
                                                .pBindings = bindings.data()};
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    check(functions.vkCreateDescriptorSetLayout(device, &info, nullptr, &layout),
+    check(functions.vkCreateDescriptorSetLayout(device, &info, functions.allocation, &layout),
           "vkCreateDescriptorSetLayout", name);
     return layout;
 }
@@ -92,7 +92,8 @@ VkPipelineLayout createLayout(VkDevice device, const DeviceFunctions& functions,
                                           .pushConstantRangeCount = pushConstantSize > 0 ? 1u : 0u,
                                           .pPushConstantRanges = &range};
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(functions.vkCreatePipelineLayout(device, &info, nullptr, &layout), "vkCreatePipelineLayout", name);
+    check(functions.vkCreatePipelineLayout(device, &info, functions.allocation, &layout),
+          "vkCreatePipelineLayout", name);
     return layout;
 }
 
@@ -113,7 +114,8 @@ VkPipeline createPipeline(const Device& device, const ShaderCode& code, VkPipeli
                                               .codeSize = exact.size() * sizeof(std::uint32_t),
                                               .pCode = exact.data()};
     VkShaderModule module = VK_NULL_HANDLE;
-    check(device.functions().vkCreateShaderModule(device.handle(), &moduleInfo, nullptr, &module),
+    check(device.functions().vkCreateShaderModule(device.handle(), &moduleInfo, device.functions().allocation,
+                                                  &module),
           "vkCreateShaderModule", code.name);
     const VkComputePipelineCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
@@ -125,8 +127,8 @@ VkPipeline createPipeline(const Device& device, const ShaderCode& code, VkPipeli
         .layout = layout};
     VkPipeline pipeline = VK_NULL_HANDLE;
     const VkResult result = device.functions().vkCreateComputePipelines(
-        device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline);
-    device.functions().vkDestroyShaderModule(device.handle(), module, nullptr);
+        device.handle(), device.pipelineCache(), 1, &info, device.functions().allocation, &pipeline);
+    device.functions().vkDestroyShaderModule(device.handle(), module, device.functions().allocation);
     check(result, "vkCreateComputePipelines", code.name);
     return pipeline;
 }
@@ -180,9 +182,9 @@ Kernel::~Kernel() {
 }
 
 void Kernel::release() noexcept {
-    functions_->vkDestroyPipeline(device_, pipeline_, nullptr);
-    functions_->vkDestroyPipelineLayout(device_, layout_, nullptr);
-    functions_->vkDestroyDescriptorSetLayout(device_, setLayout_, nullptr);
+    functions_->vkDestroyPipeline(device_, pipeline_, functions_->allocation);
+    functions_->vkDestroyPipelineLayout(device_, layout_, functions_->allocation);
+    functions_->vkDestroyDescriptorSetLayout(device_, setLayout_, functions_->allocation);
 }
 
 namespace {
@@ -241,7 +243,8 @@ VkDescriptorPool createPool(const Device& device, std::span<const BindingRequest
                                           .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
                                           .pPoolSizes = sizes.data()};
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(device.functions().vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool),
+    check(device.functions().vkCreateDescriptorPool(device.handle(), &info, device.functions().allocation,
+                                                    &pool),
           "vkCreateDescriptorPool", "the binding sets");
     return pool;
 }
@@ -256,8 +259,8 @@ VkBufferView BindingSets::createTexels(const BufferView& view, const KernelBindi
                                       .offset = view.offset,
                                       .range = view.size};
     VkBufferView texels = VK_NULL_HANDLE;
-    check(functions_->vkCreateBufferView(device_, &info, nullptr, &texels), "vkCreateBufferView",
-          binding.name);
+    check(functions_->vkCreateBufferView(device_, &info, functions_->allocation, &texels),
+          "vkCreateBufferView", binding.name);
     texels_.push_back(texels);
     device.name(VK_OBJECT_TYPE_BUFFER_VIEW, handleValue(texels), binding.name);
     return texels;
@@ -329,8 +332,9 @@ BindingSets::~BindingSets() {
 }
 
 void BindingSets::release() noexcept {
-    for (const VkBufferView texels : texels_) functions_->vkDestroyBufferView(device_, texels, nullptr);
-    functions_->vkDestroyDescriptorPool(device_, pool_, nullptr);
+    for (const VkBufferView texels : texels_)
+        functions_->vkDestroyBufferView(device_, texels, functions_->allocation);
+    functions_->vkDestroyDescriptorPool(device_, pool_, functions_->allocation);
 }
 
 } // namespace sinew::vk

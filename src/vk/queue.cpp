@@ -44,10 +44,11 @@ Queue::Queue(const Device& device) : device_(device.anchored()) {
                                          .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
     const VkSemaphoreCreateInfo semaphoreInfo{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO,
                                               .pNext = &type};
-    check(functions.vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool_), "vkCreateCommandPool",
-          "the queue");
+    check(functions.vkCreateCommandPool(device.handle(), &poolInfo, functions.allocation, &pool_),
+          "vkCreateCommandPool", "the queue");
     device.name(VK_OBJECT_TYPE_COMMAND_POOL, handleValue(pool_), "sinew.commands");
-    const VkResult result = functions.vkCreateSemaphore(device.handle(), &semaphoreInfo, nullptr, &timeline_);
+    const VkResult result =
+        functions.vkCreateSemaphore(device.handle(), &semaphoreInfo, functions.allocation, &timeline_);
     if (result < 0) release();
     check(result, "vkCreateSemaphore", "the queue");
     device.name(VK_OBJECT_TYPE_SEMAPHORE, handleValue(timeline_), "sinew.timeline");
@@ -59,8 +60,8 @@ Queue::~Queue() {
 }
 
 void Queue::release() noexcept {
-    device_.functions().vkDestroySemaphore(device_.handle(), timeline_, nullptr);
-    device_.functions().vkDestroyCommandPool(device_.handle(), pool_, nullptr);
+    device_.functions().vkDestroySemaphore(device_.handle(), timeline_, device_.functions().allocation);
+    device_.functions().vkDestroyCommandPool(device_.handle(), pool_, device_.functions().allocation);
 }
 
 VkCommandBuffer Queue::begin() {

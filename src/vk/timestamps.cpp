@@ -15,7 +15,8 @@ Timestamps::Timestamps(const Device& device, std::uint32_t spans)
     const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                      .queryCount = 2 * spans};
-    check(functions_->vkCreateQueryPool(device_, &info, nullptr, &pool_), "vkCreateQueryPool", "timestamps");
+    check(functions_->vkCreateQueryPool(device_, &info, functions_->allocation, &pool_), "vkCreateQueryPool",
+          "timestamps");
     device.name(VK_OBJECT_TYPE_QUERY_POOL, handleValue(pool_), "sinew.timestamps");
 }
 
@@ -39,7 +40,7 @@ Timestamps::~Timestamps() {
 }
 
 void Timestamps::release() noexcept {
-    functions_->vkDestroyQueryPool(device_, pool_, nullptr);
+    functions_->vkDestroyQueryPool(device_, pool_, functions_->allocation);
 }
 
 void Timestamps::reset(Commands& commands) noexcept {

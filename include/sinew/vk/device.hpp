@@ -58,6 +58,10 @@ struct SINEW_API HostDevice {
     /// Pipelines of an earlier run (Device::pipelineCacheData()); empty = none. Read during borrow() only.
     /// Bytes of another device or driver, or damaged ones, are ignored.
     std::span<const std::byte> pipelineCache{};
+    /// Host memory of the driver for every Vulkan object that Sinew makes: each vkCreate, vkAllocate,
+    /// vkDestroy and vkFree gets a copy of it. Null = the driver's own. The functions are called within
+    /// Sinew's calls, in their thread, and must not call Sinew. Sinew's own objects come from operator new.
+    const VkAllocationCallbacks* allocation = nullptr;
 };
 
 /// Device request of a program without an engine.
@@ -73,6 +77,8 @@ struct SINEW_API DeviceRequest {
     /// from within Vulkan calls, in their thread; must not throw or call Vulkan.
     std::function<void(const std::string&)> onValidationMessage{};
     std::span<const std::byte> pipelineCache{}; ///< as HostDevice::pipelineCache, read during create() only
+    const VkAllocationCallbacks* allocation =
+        nullptr; ///< as HostDevice::allocation; of instance and device too
 };
 
 /// Largest number of storage buffers that a kernel binds. Vulkan guarantees only 4: a device with fewer than

@@ -21,6 +21,8 @@ struct SINEW_API DeviceFunctions {
 #define SINEW_VK_DEVICE(name) PFN_##name name = nullptr;
 #define SINEW_VK_DRAWING(name) PFN_##name name = nullptr;
 #include "sinew/vk/functions.inc"
+    /// For every object that is made with these functions (HostDevice::allocation); null = the driver's own.
+    const VkAllocationCallbacks* allocation = nullptr;
 };
 
 /// Fills the table through the host's or the loader's `vkGetInstanceProcAddr`. A missing function of an
