@@ -1,10 +1,14 @@
 // Tests that loading a saved state restores every bit, whatever happened since.
 #include "sim/collision/contact_scenes.hpp"
+#include "sim/collision/face_scenes.hpp"
+#include "sim/program/program_values.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 #include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
+
+#include <set>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -52,6 +56,29 @@ TEST(SavedState, HasContactsWithTheirMemoryAndWhoSleeps) {
     scene.planes = {{.friction = 0.5f}};
     expectTheSameBits(scene, {.substeps = 8, .sleeps = true}, 30, 10);
     expectTheSameBits(scene, {.substeps = 8, .sleeps = true}, 130, 5);
+}
+
+TEST(SavedState, LeavesOutWhatAStepMakesAnew) {
+    Scene scene = test::fallingFold();
+    for (int c = 0; c < 12; ++c) // more than eight: groups look for those near them
+        scene.colliders.push_back(
+            {.radius = 0.05f, .pose = {.position = {0.1f * static_cast<float>(c) - 0.5f, 0.02f, 0}}});
+    const Settings settings{.substeps = 8, .keepsForces = true};
+    test::Runner runner(scene, settings);
+    const StepProgram& program = runner.simulation().program();
+    std::set<std::string> all, saved;
+    std::uint64_t size = 0;
+    for (const BufferSpec& buffer : program.buffers) all.insert(buffer.label);
+    for (const BufferId buffer : writtenByStep(program)) {
+        saved.insert(program.buffers[buffer.index].label);
+        size += runner.simulation().view(buffer).size;
+    }
+    for (const char* label : {"forces.terms", "forces.colliders", "colliders.near", "faces.touched"}) {
+        EXPECT_TRUE(all.contains(label)) << label;
+        EXPECT_FALSE(saved.contains(label)) << label;
+    }
+    EXPECT_EQ(runner.simulation().stateSize(), size);
+    expectTheSameBits(scene, settings, 30, 10);
 }
 
 TEST(SavedState, KnowsWhereAnchorsAndCollidersAre) {

@@ -88,7 +88,7 @@ hash_grid::Touched addTouched(ProgramBuilder& program, const std::string& name, 
     const std::uint64_t words = TOUCHED_MARKS + std::uint64_t{slots} * 3 + room;
     return {.points = program.scratch<layout::DispatchArguments>(name + ".touched.points", 1),
             .arguments = program.scratch<layout::DispatchArguments>(name + ".touched.arguments", 2),
-            .lists = program.scratch<std::uint32_t>(name + ".touched", words),
+            .lists = program.scratchOfStep<std::uint32_t>(name + ".touched", words),
             .slots = slots};
 }
 

@@ -122,7 +122,7 @@ void addRows(ProgramBuilder& program, const SceneModel& model, const Forces& for
     ForceBuffers& built = program.program().forces;
     const auto chunks = static_cast<std::uint32_t>(sums.chunks.size());
     const auto count = static_cast<std::uint32_t>(sums.ranges.size());
-    built.rowParts = program.scratch<layout::ForceSum>("forces.row_parts", std::max(chunks, 1u));
+    built.rowParts = program.scratchOfStep<layout::ForceSum>("forces.row_parts", std::max(chunks, 1u));
     layout::ForcePush pushed = push;
     pushed.count = chunks;
     if (chunks > 0)
@@ -151,7 +151,7 @@ void addBodies(ProgramBuilder& program, const Scene& scene, const Forces& forces
     ForceBuffers& built = program.program().forces;
     const BufferId positions = program.program().positions;
     const auto chunks = static_cast<std::uint32_t>(sums.chunks.size());
-    built.parts = program.scratch<layout::BodyForcePart>("forces.parts", chunks);
+    built.parts = program.scratchOfStep<layout::BodyForcePart>("forces.parts", chunks);
     layout::ForcePush pushed = push;
     pushed.count = chunks;
     program.dispatch(k::sumBodyForces, chunks,
@@ -276,10 +276,11 @@ void add(Build& build) {
     if (!build.model.settings.keepsForces) return;
     ProgramBuilder& program = build.program;
     auto forces = std::make_shared<Forces>(placesOf(build.model));
-    forces->terms = program.scratch<layout::vec4>("forces.terms", forces->elements());
+    forces->terms = program.scratchOfStep<layout::vec4>("forces.terms", forces->elements());
     program.fill(forces->terms, 0);
     if (forces->summed > 0) {
-        forces->colliderForces = program.scratch<layout::ColliderForce>("forces.colliders", forces->summed);
+        forces->colliderForces =
+            program.scratchOfStep<layout::ColliderForce>("forces.colliders", forces->summed);
         forces->colliderForceScale = forceScaleOf(build.model);
         program.fill(forces->colliderForces, 0);
     }
@@ -317,7 +318,7 @@ void addSums(Build& build) {
     built.holds = static_cast<std::uint32_t>(scene.holds.size());
     const std::uint32_t firstRow = FORCE_KINDS * built.bodies;
     const std::uint32_t count = firstRow + forces.sums() + built.attachments + built.holds;
-    built.sums = program.scratch<layout::ForceSum>("forces.sums", std::max(count, 1u));
+    built.sums = program.scratchOfStep<layout::ForceSum>("forces.sums", std::max(count, 1u));
     const layout::ForcePush push{0, forces.grabs, forces.planes, forces.colliders, firstRow};
     addRows(program, model, forces, push);
     addBodies(program, scene, forces, model.layout.slot, push);

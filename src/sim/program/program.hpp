@@ -362,6 +362,7 @@ struct StepProgram {
     std::uint64_t order = 0; ///< hash of the order of particles: programs with equal order exchange states
     std::vector<std::string> skipped;      ///< features that this scene does not need, for reports
     std::vector<StateBuffer> stateBuffers; ///< buffers copied when a simulation takes over another's state
+    std::vector<BufferId> ofStep; ///< made anew by each step before it reads them: no part of a saved state
     std::vector<ContactMemory> contactMemory;
     std::vector<SkinSpan> skinSpans;
     std::vector<std::array<std::uint32_t, 2>> interlocks; ///< the smallest particles of pairs of bodies
@@ -448,6 +449,12 @@ public:
     /// A buffer that is initially zero.
     template <typename T> BufferId scratch(std::string label, std::uint64_t count) {
         return add({std::move(label), count, sizeof(T), {}});
+    }
+    /// The same of one that each step makes anew before it reads it (StepProgram::ofStep).
+    template <typename T> BufferId scratchOfStep(std::string label, std::uint64_t count) {
+        const BufferId buffer = scratch<T>(std::move(label), count);
+        program_.ofStep.push_back(buffer);
+        return buffer;
     }
 
     /// The initial contents of an uploaded buffer, as a buffer that passes can read.

@@ -93,9 +93,7 @@ std::vector<BufferId> writtenByStep(const StepProgram& program) {
     std::vector<bool> isWritten(program.buffers.size());
     for (const Pass& pass : program[List::step]) markWritten(pass, isWritten);
     std::vector<BufferId> buffers;
-    const ForceBuffers& forces = program.forces; // of one step: not part of the state between steps
-    for (const BufferId buffer : {forces.terms, forces.parts, forces.rowParts, forces.sums})
-        if (buffer != BufferId{}) isWritten[buffer.index] = false;
+    for (const BufferId buffer : program.ofStep) isWritten[buffer.index] = false;
     for (std::uint32_t b = 0; b < isWritten.size(); ++b)
         if (isWritten[b]) buffers.push_back({b});
     return buffers;

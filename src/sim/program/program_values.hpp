@@ -36,7 +36,8 @@ void take(StepProgram& program, ProgramValues values) noexcept;
 /// the state.
 void requireSameParticles(const StepProgram& from, const StepProgram& to);
 
-/// All buffers that passes of a step write; these contain the state between steps.
+/// All buffers that passes of a step write, without StepProgram::ofStep; these contain the state between
+/// steps.
 std::vector<BufferId> writtenByStep(const StepProgram& program);
 
 /// By buffer: whether passes of any list write it.

@@ -137,8 +137,8 @@ void addNear(Build& build, Colliders& colliders) {
     if (colliders.count <= FEW_COLLIDERS) return;
     const Settings& settings = build.model.settings;
     const std::uint32_t groups = groupsOf(colliders.particles);
-    colliders.near =
-        build.program.scratch<std::uint32_t>("colliders.near", std::uint64_t{groups} * nearWords(colliders));
+    colliders.near = build.program.scratchOfStep<std::uint32_t>("colliders.near",
+                                                                std::uint64_t{groups} * nearWords(colliders));
     const ParticleBuffers& particles = build.particles;
     dispatchTouching(build.program, colliders, kernels::findNearColliders,
                      std::array{colliders.shapes, colliders.poses, colliders.contactOffsets,
