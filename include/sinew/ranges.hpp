@@ -101,6 +101,7 @@ inline constexpr Range contactRoom{1, mostContactRoom};
 /// Limit of particles of other bodies within a space of a particle's size when a scene is loaded.
 inline constexpr std::uint32_t mostInOneSpot = 256;
 inline constexpr Range framesInFlight{1, 64};
+inline constexpr Range outputFrames{0, 8};
 inline constexpr Range eventRoom{1, 65536};
 /// Limit of the pairs of a body and what it may touch whose contacts are events.
 inline constexpr std::uint64_t mostEventPairs = 1u << 24;

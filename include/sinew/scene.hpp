@@ -399,6 +399,9 @@ struct SINEW_API Settings {
     /// Keeps the positions before the newest step, and the vertices of skins before the newest recordSkin(),
     /// for motion vectors (Simulation::previousPositions, previousSkinVertices). Costs a copy of each.
     bool keepsPrevious = false;
+    /// Keeps the outputs of as many of the newest steps, each in buffers of its own, 0..8; 0 = none. With 2 a
+    /// host draws step N while step N + 1 is computed (Simulation::outputs). Costs a copy of each output.
+    std::uint32_t outputFrames = 0;
     /// Makes each kind of pass a phase of its own in the `timestamps` of a step (Simulation::phases).
     bool timesPasses = false;
     bool isReversed = false; ///< runs every kernel in reversed invocation order; the state must not change

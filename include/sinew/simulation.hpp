@@ -143,6 +143,15 @@ struct SINEW_API CutSurface {
     vk::BufferView particles{}; ///< 32 bits: the particle in each slot (CutVertex::corners)
 };
 
+/// Outputs of one step, in buffers that other steps do not write (Simulation::outputs).
+struct SINEW_API Outputs {
+    bool isKept = false;                      ///< if false all views are empty
+    vk::BufferView positions{}, velocities{}; ///< as Simulation::positions(), velocities()
+    /// After a recordSkin() that follows the step; empty before, and without skins.
+    vk::BufferView skinVertices{}, skinIndices{}, pieceDraws{};
+    CutSurface cutSurface{};
+};
+
 /// New material values for a simulation, ready to be copied (Simulation::prepareChange). Owns device buffers;
 /// the device must outlive it.
 class SINEW_API SceneChange {
@@ -286,6 +295,14 @@ public:
     /// such place. Empty without Settings::keepsPrevious.
     vk::BufferView previousSkinVertices() const noexcept;
     vk::BufferView skinIndices() const noexcept;
+    /// Outputs of a recorded step that is one of the last Settings::outputFrames; empty views for any other,
+    /// or if a reset, a loaded state or a take-over came after it. Step `frame` lies in the copies of number
+    /// frame % outputFrames: only steps that are a multiple of it apart share them. record() writes the first
+    /// two, a recordSkin() that follows the rest, visible as positions() are: what reads them needs no
+    /// barrier against the next outputFrames - 1 steps, on this queue or, after a semaphore, another one of
+    /// the family. It must have finished before step frame + outputFrames runs. Indices, rest places and
+    /// counts that no pass writes are the one buffer that all share.
+    Outputs outputs(std::uint64_t frame) const noexcept;
     const std::vector<SkinRange>& skins() const noexcept;
     /// Triangles to draw of the skins after recordSkin(): 32-bit indices into skinVertices(), and the range
     /// of each skin in them. Valid for what was recorded until then; another step, reset or state may change

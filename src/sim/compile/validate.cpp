@@ -49,12 +49,11 @@ constexpr SettingRow settingRows[] = {
      ranges::contactRoom},
     {"settings.cutSurfaceRoom", [](const Settings& s) { return static_cast<double>(s.cutSurfaceRoom); },
      ranges::cutSurfaceRoom},
-    {"settings.framesInFlight", [](const Settings& s) { return static_cast<double>(s.framesInFlight); },
+    {"settings.framesInFlight", [](const Settings& s) { return 1.0 * s.framesInFlight; },
      ranges::framesInFlight},
-    {"settings.forms.columns", [](const Settings& s) { return static_cast<double>(s.forms.columns); },
-     ranges::columns},
-    {"settings.forms.chunk", [](const Settings& s) { return static_cast<double>(s.forms.chunk); },
-     ranges::chunk},
+    {"settings.outputFrames", [](const Settings& s) { return 1.0 * s.outputFrames; }, ranges::outputFrames},
+    {"settings.forms.columns", [](const Settings& s) { return 1.0 * s.forms.columns; }, ranges::columns},
+    {"settings.forms.chunk", [](const Settings& s) { return 1.0 * s.forms.chunk; }, ranges::chunk},
 };
 
 void checkSolver(Solver solver, Complaints& complaints) {

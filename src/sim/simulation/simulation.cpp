@@ -182,6 +182,7 @@ void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step
                           timestamps, {.hasBlade = hasBlade, .isCalm = isCalm});
     commands.barrier();
     state_->recordStatus(commands, step.frame);
+    state_->outputs.recordStep(commands, step.frame);
     commands.endStepForHost();
     state_->recordEnd(commands, step.frame);
     commands.hostBarrier();
@@ -199,6 +200,10 @@ void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail) noexcept 
         state_->executor.record(commands, List::wholeSkin);
     else
         state_->executor.record(commands, List::skin);
+    if (state_->outputs.areKept()) {
+        commands.barrier();
+        state_->outputs.recordSkin(commands);
+    }
     commands.endStep();
 }
 
@@ -225,6 +230,9 @@ vk::BufferView Simulation::skinVertices() const noexcept {
 }
 vk::BufferView Simulation::skinIndices() const noexcept {
     return state_->executor.view(state_->program.skinIndices);
+}
+Outputs Simulation::outputs(std::uint64_t frame) const noexcept {
+    return state_->outputs.outputs(frame);
 }
 const std::vector<SkinRange>& Simulation::skins() const noexcept {
     return state_->skins;

@@ -18,6 +18,7 @@
 #include "sim/simulation/calm_steps.hpp"
 #include "sim/simulation/carrying.hpp"
 #include "sim/simulation/misuse.hpp"
+#include "sim/simulation/output_ring.hpp"
 #include "sim/simulation/pace.hpp"
 #include "sim/simulation/simulation_ring.hpp"
 #include "sim/simulation/skin_ranges.hpp"
@@ -56,6 +57,7 @@ struct Simulation::State {
     std::vector<BufferId> written;
     SceneKey sceneKey;
     StepRing ring;
+    OutputRing outputs;
     MisuseLog misuse;
     bool hasState = false; // after a reset or take-over
     std::vector<SkinRange> skins, wholeSkins;
@@ -124,8 +126,9 @@ struct Simulation::State {
         : device(d.anchored()), chosen(settings), program(compileFor(d, scene, settings)),
           executor(d, program), written(writtenByStep(program)), sceneKey(sim::sceneKey(scene)),
           ring(d, settings.framesInFlight, resultSizes(program)),
-          skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
-          anchors(scene.attachments), grabs(settings.grabs, scene.particles.size()),
+          outputs(d, program, executor, settings.outputFrames), skins(rangesOf(scene.skins, Triangles::all)),
+          wholeSkins(rangesOf(scene.skins, Triangles::whole)), anchors(scene.attachments),
+          grabs(settings.grabs, scene.particles.size()),
           fields(settings.fields, scene.bodies.size(), program.fields),
           motions(settings.motions, program.motions),
           colliders(scene.colliders, scene.driven, settings.hostColliders),
@@ -373,6 +376,7 @@ struct Simulation::State {
         for (Unsettled& one : unsettled) one.isRecorded = false;
         calmSteps = {};
         isNewState = true;
+        outputs.forget();
         beginGeneration();
     }
 
