@@ -7,18 +7,16 @@
 // Handles are numbers. A handle that is null, destroyed or of another kind is detected and gives
 // SINEW_ERROR_INVALID_HANDLE. A device lives until everything made with it is destroyed: destroying it
 // earlier gives SINEW_ERROR_IN_USE.
-//
 // Descriptions begin with `size`, which sinewDefault...() fills in; results of sinewGet...() begin with it
 // too, and the caller sets it. A size that the library does not know gives SINEW_ERROR_INVALID_ARGUMENT.
 // Elements of arrays have no size: they do not change before the version of the library file does. Pointers
 // are read during the call only, except those of the log and of a buffer hook. Flags are 0 or 1.
 //
-// Threads: any thread may use any object, one at a time. A second thread that uses a scene, simulation or
-// state meanwhile gets SINEW_ERROR_IN_USE; a device may be used by several threads. Scenes may be read by
-// several threads.
+// Threads: any thread may use any object, one at a time. A second thread that uses a scene, simulation or state
+// meanwhile gets SINEW_ERROR_IN_USE; a device may be used by several threads. Scenes may be read by several ones.
 //
-// Units are SI: metres, seconds, kilograms, newtons, radians. y points up. Memory of the library's own
-// objects comes from malloc; a host can replace the memory of buffers (SinewHostDevice::createBuffer) alone.
+// Units are SI: metres, seconds, kilograms, newtons, radians. y points up. A host can replace the memory of
+// buffers (SinewHostDevice::createBuffer) and what Vulkan allocates (allocation); Sinew's own objects use malloc.
 #ifndef SINEW_SINEW_H
 #define SINEW_SINEW_H
 
@@ -127,6 +125,7 @@ typedef struct SinewHostDevice {
     void* bufferUser;
     const void* pipelineCache; // as in SinewDeviceRequest
     size_t pipelineCacheSize;
+    const VkAllocationCallbacks* allocation; // for each Vulkan object that Sinew makes; null = the driver's own
 } SinewHostDevice;
 
 SINEW_C_API SinewHostDevice sinewDefaultHostDevice(void);
@@ -376,6 +375,7 @@ typedef struct SinewSettings {
     uint32_t events, eventRoom;            // kinds listed, and events kept of a step: sinew_events.h
     uint32_t keepsPrevious;                // keeps SINEW_PREVIOUS_POSITIONS and SINEW_PREVIOUS_SKIN_VERTICES
     uint32_t hasSharpClamp;                // of `split`: links are clamped by the directions in which they meet
+    uint32_t outputFrames;                 // steps of which sinewGetFrameView() of sinew_query.h has the outputs, 0 to 8
 } SinewSettings;
 // As many levels as win at equal error, by the kind of body, its size and the substeps.
 #define SINEW_AUTO_LEVELS 0xffffffffu

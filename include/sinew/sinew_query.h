@@ -85,6 +85,11 @@ SINEW_C_API SinewResult sinewCastRay(SinewQuery query, const SinewRay* ray, Sine
 SINEW_C_API SinewResult sinewFindParticles(SinewQuery query, const SinewRegion* region, uint32_t* count,
                                            uint32_t* particles);
 
+// The same of one of the last SinewSettings::outputFrames steps, in buffers that other steps do not write, for the
+// outputs 0 to 3 and 6 to 10; those of skins after a sinewRecordSkin(). SINEW_NOT_READY if it is not kept.
+SINEW_C_API SinewResult sinewGetFrameView(SinewSimulation simulation, uint64_t frame, uint32_t output,
+                                          SinewBufferView* view);
+
 #ifdef __cplusplus
 }
 #endif

@@ -126,7 +126,8 @@ SinewResult sinewBorrowDevice(const SinewHostDevice* host, SinewDevice* device) 
                   .queueFamily = given.queueFamily,
                   .enabledInstanceExtensions = {given.instanceExtensions, given.instanceExtensionCount},
                   .buffers = hookOf(given),
-                  .pipelineCache = bytesOf(given.pipelineCache, given.pipelineCacheSize)}),
+                  .pipelineCache = bytesOf(given.pipelineCache, given.pipelineCacheSize),
+                  .allocation = given.allocation}),
              device);
     });
 }

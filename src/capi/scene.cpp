@@ -118,6 +118,7 @@ sim::Settings toSettings(const SinewSettings* settings) {
             .fields = given.fields,
             .motions = given.motions,
             .keepsPrevious = given.keepsPrevious != 0,
+            .outputFrames = given.outputFrames,
             .isReversed = given.isReversed != 0,
             .framesInFlight = given.framesInFlight};
 }
@@ -148,7 +149,8 @@ SinewSettings fromSettings(const sim::Settings& settings) {
             .events = settings.events,
             .eventRoom = settings.eventRoom,
             .keepsPrevious = settings.keepsPrevious ? 1u : 0u,
-            .hasSharpClamp = settings.hasSharpClamp ? 1u : 0u};
+            .hasSharpClamp = settings.hasSharpClamp ? 1u : 0u,
+            .outputFrames = settings.outputFrames};
 }
 
 } // namespace sinew::capi

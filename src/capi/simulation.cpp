@@ -2,6 +2,7 @@
 #include "capi/convert.hpp"
 #include "capi/objects.hpp"
 #include "sinew/sinew_motions.h"
+#include "sinew/sinew_query.h"
 #include "sinew/substeps.hpp"
 #include "sinew/validate.hpp"
 
@@ -228,6 +229,35 @@ vk::BufferView viewOf(const SimulationObject& object, std::uint32_t output) {
     }
 }
 
+namespace {
+
+vk::BufferView viewIn(const sim::Outputs& outputs, std::uint32_t output) {
+    switch (output) {
+    case SINEW_POSITIONS:
+        return outputs.positions;
+    case SINEW_VELOCITIES:
+        return outputs.velocities;
+    case SINEW_SKIN_VERTICES:
+        return outputs.skinVertices;
+    case SINEW_SKIN_INDICES:
+        return outputs.skinIndices;
+    case SINEW_PIECE_DRAWS:
+        return outputs.pieceDraws;
+    case SINEW_CUT_VERTICES:
+        return outputs.cutSurface.vertices;
+    case SINEW_CUT_REST:
+        return outputs.cutSurface.rest;
+    case SINEW_CUT_INDICES:
+        return outputs.cutSurface.indices;
+    case SINEW_CUT_DRAWS:
+        return outputs.cutSurface.draws;
+    default:
+        invalidArgument("no frame keeps an output " + std::to_string(output));
+    }
+}
+
+} // namespace
+
 } // namespace sinew::capi
 
 using namespace sinew;
@@ -364,6 +394,18 @@ SinewResult sinewGetView(SinewSimulation simulation, uint32_t output, SinewBuffe
         const Use<SimulationObject> object(simulation.id, Access::write);
         const vk::BufferView found = viewOf(*object, output);
         *view = {.buffer = found.buffer, .offset = found.offset, .size = found.size, .stride = found.stride};
+    });
+}
+
+SinewResult sinewGetFrameView(SinewSimulation simulation, uint64_t frame, uint32_t output,
+                              SinewBufferView* view) {
+    return call(__func__, [&] {
+        requireNotNull(view, "view");
+        const Use<SimulationObject> object(simulation.id, Access::write);
+        const sim::Outputs outputs = object->simulation->outputs(frame);
+        const vk::BufferView found = viewIn(outputs, output);
+        *view = {.buffer = found.buffer, .offset = found.offset, .size = found.size, .stride = found.stride};
+        return outputs.isKept ? SINEW_OK : SINEW_NOT_READY;
     });
 }
 

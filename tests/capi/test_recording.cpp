@@ -5,6 +5,7 @@
 #include "sinew/bodies.hpp"
 #include "sinew/simulation.hpp"
 #include "sinew/sinew_motions.h"
+#include "sinew/sinew_query.h"
 
 #include <cstring>
 #include <functional>
@@ -382,6 +383,48 @@ TEST(CApiRecording, SavedStatesAndTakeOverContinueWithTheSameBits) {
                                   sinewRecordLoadState(foreign, commands, &view, state)));
             EXPECT_TRUE(failsWith(SINEW_ERROR_MISMATCH, "", sinewRecordTakeOver(foreign, commands, first)));
         });
+    }
+    EXPECT_EQ(host.finish(), std::vector<std::string>{});
+}
+
+TEST(CApiRecording, FramesHaveOutputsOfTheirOwn) {
+    HostDevice host;
+    {
+        const SinewHostDevice handles = handlesOf(host);
+        Device device;
+        Scene scene;
+        Simulation simulation;
+        ASSERT_TRUE(isOk(sinewBorrowDevice(&handles, &device)));
+        makeExample(scene);
+        SinewSettings settings = exampleSettings();
+        settings.outputFrames = 9;
+        EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_SCENE, "outputFrames",
+                              sinewCreateSimulation(device, scene, &settings, &simulation)));
+        settings.outputFrames = 2;
+        ASSERT_TRUE(isOk(sinewCreateSimulation(device, scene, &settings, &simulation)));
+        SinewBufferView view{};
+        EXPECT_EQ(sinewGetFrameView(simulation, 0, SINEW_POSITIONS, &view), SINEW_NOT_READY);
+        EXPECT_EQ(view.size, 0u);
+        EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "output",
+                              sinewGetFrameView(simulation, 0, SINEW_FORCE_SUMS, &view)));
+        std::vector<Positions> frames;
+        for (std::uint64_t frame = 0; frame < 3; ++frame) {
+            host.submit([&](VkCommandBuffer commands) {
+                if (frame == 0) sinewRecordReset(simulation, commands);
+                SinewStep step = sinewDefaultStep();
+                step.frame = frame;
+                EXPECT_TRUE(isOk(sinewRecordStep(simulation, commands, &step)));
+                EXPECT_TRUE(isOk(sinewRecordSkin(simulation, commands)));
+            });
+            frames.push_back(positionsOf(host, simulation));
+            for (std::uint64_t kept = frame > 0 ? frame - 1 : 0; kept <= frame; ++kept) {
+                ASSERT_TRUE(isOk(sinewGetFrameView(simulation, kept, SINEW_POSITIONS, &view)));
+                EXPECT_EQ(read(host, view), frames[kept]) << "of " << kept << " after " << frame;
+                ASSERT_TRUE(isOk(sinewGetFrameView(simulation, kept, SINEW_SKIN_VERTICES, &view)));
+                EXPECT_GT(view.size, 0u);
+            }
+        }
+        EXPECT_EQ(sinewGetFrameView(simulation, 0, SINEW_POSITIONS, &view), SINEW_NOT_READY);
     }
     EXPECT_EQ(host.finish(), std::vector<std::string>{});
 }
