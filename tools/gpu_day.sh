@@ -15,7 +15,7 @@ tree=$(cd "$(dirname "$0")/.." && pwd)
 [[ ${1:-} == pack || ${1:-} == run ]] && file=$(realpath -m "${2:?no FILE}") && folder=$(realpath -m "${3:-.}")
 cd "$tree"
 
-scenes=(cloth cloth_study cube organ organ_held clutter pile_8000 pile_100k clutter_bodies cloth_fold stirrer stack organ_incision cube_quarters tube_slice beam)
+scenes=(cloth_links cloth_study cube organ organ_held clutter pile_8000 pile_100k clutter_bodies cloth_fold stirrer stack organ_incision cube_quarters tube_slice beam)
 # Programs that start first, because their longest tests take a minute or more.
 longest=(test_contact_lists test_face_lists test_edge_lists test_hard_cases test_cases test_same_state test_forces test_rest_contact test_run)
 # Tests that read files of the build folder.

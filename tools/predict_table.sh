@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 sinew=build/release/bin/sinew
 scenes=("$@")
-((${#scenes[@]})) || scenes=(cloth cube organ stack clutter pile_8000 pile_100k clutter_bodies cloth_fold stirrer tube_slice)
+((${#scenes[@]})) || scenes=(cloth_links cube organ stack clutter pile_8000 pile_100k clutter_bodies cloth_fold stirrer tube_slice)
 mapfile -t cards < <(grep -v '^#' tools/sinew/predict/cards.csv | tail -n +2 | cut -d, -f1)
 
 # row_of SCENE CARD: "ms of a calm step; ms with lists (longest pass: what most of it is)"

@@ -21,7 +21,7 @@ class Load : public test::LoadFixture {};
 
 TEST_F(Load, ReadsEveryShippedScene) {
     for (const auto& [name, particles] : std::map<std::string, std::size_t>{
-             {"cloth", 4096}, {"cube", 4096}, {"organ", 2013}, {"cloth_on_sphere", 4096}}) {
+             {"cloth_links", 4096}, {"cube", 4096}, {"organ", 2013}, {"cloth_links_on_sphere", 4096}}) {
         const scenes::LoadedScene loaded =
             scenes::load(fs::path(SINEW_SOURCE_FOLDER "/scenes") / (name + ".toml"));
         EXPECT_EQ(loaded.scene.name, name);

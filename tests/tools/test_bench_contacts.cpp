@@ -70,8 +70,8 @@ TEST(BenchContacts, NamesItsRowsApart) {
     const std::vector<std::string> rows = tools::contactRows();
     EXPECT_EQ(std::set(rows.begin(), rows.end()).size(), rows.size());
     for (const char* name : {"organ in free fall", "box 14^3", "on a plane", "cloth 60^2 swinging",
-                             "cloth_on_sphere", "cloth_fold", "clutter_bodies", "stack", "pile_8000, falling",
-                             "pile_8000, at rest", "1,000 balls", "8,000 balls"})
+                             "cloth_links_on_sphere", "cloth_fold", "clutter_bodies", "stack",
+                             "pile_8000, falling", "pile_8000, at rest", "1,000 balls", "8,000 balls"})
         EXPECT_TRUE(std::ranges::any_of(rows, [&](const std::string& row) {
             return row.find(name) != std::string::npos;
         })) << name;

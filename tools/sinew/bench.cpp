@@ -45,8 +45,9 @@ struct BenchOptions {
 struct BenchScene {
     const char* name;
     const char* size;
+    const char* file; // its name in scenes/
 };
-constexpr BenchScene benchScenes[] = {{"cloth", "64x64"}, {"cube", "16x16x16"}};
+constexpr BenchScene benchScenes[] = {{"cloth", "64x64", "cloth_links"}, {"cube", "16x16x16", "cube"}};
 
 constexpr std::uint64_t stepsPerTurn = 8;
 
@@ -169,7 +170,7 @@ Json rowOf(const BenchScene& scene, const Contestant& contestant, const Sequenti
 }
 
 Json measureScene(const BenchScene& scene, Session& session, double seconds) {
-    const auto racing = contestants(scene.name, session);
+    const auto racing = contestants(scene.file, session);
     const Clock::time_point end =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     do {

@@ -100,7 +100,7 @@ const ContactRow rowsOfContacts[] = {
      [] { return ownScene(clothText("-9.81", "pinned = [\"first_row_start\", \"first_row_end\"]\n")); }, 8,
      32, true},
     {"cloth 60^2 at rest, no gravity", [] { return ownScene(clothText("0", "")); }, 8, 32, true},
-    {"cloth_on_sphere", [] { return scenes::loadBuiltIn("cloth_on_sphere"); }, 40, 40},
+    {"cloth_links_on_sphere", [] { return scenes::loadBuiltIn("cloth_links_on_sphere"); }, 40, 40},
     {"cloth_fold", [] { return scenes::loadBuiltIn("cloth_fold"); }, 40, 40},
     {"clutter_bodies, falling", [] { return scenes::loadBuiltIn("clutter_bodies"); }, 8, 40},
     {"stack", [] { return scenes::loadBuiltIn("stack"); }, 8, 40},

@@ -22,8 +22,8 @@ struct Shipped {
     std::uint32_t points = mostPoints;
 };
 // For scenes of contacts, enough frames to include the first contacts; their trials end well beyond an error
-// of 1 %. Excludes cloth_on_sphere: it creases at the first touch, after which a disturbance of 1e-7 grows to
-// 1e-3 within a frame.
+// of 1 %. Excludes cloth_links_on_sphere: it creases at the first touch, after which a disturbance of 1e-7
+// grows to 1e-3 within a frame.
 constexpr Shipped shipped[] = {{"beam", 18},     {"beam_stiff", 18}, {"cloth_study", 30},
                                {"chain", 30},    {"cube_load", 30},  {"clutter", 30, 6},
                                {"stack", 30, 7}, {"incline", 30, 6}, {"cube", 30, 5}};
