@@ -97,6 +97,37 @@ sim::Scene smallOrgan() {
 
 constexpr std::array<sim::Vec3, 2> from{{{0, 1, -1}, {0, 1, 1}}}, to{{{0, -1, -1}, {0, -1, 1}}};
 
+// A cut of limited depth in a body at rest has no gap: its lip alone shows it. The cut runs over the top of a
+// ball, along x = 0.
+TEST(Cuts, AreSeenWhereTheyDoNotGape) {
+    sim::Scene scene{.name = "ball", .gravity = {0, 0, 0}};
+    mesh::MeshBody body{.name = "ball", .youngModulus = 1e5f, .density = 1050, .isCuttable = true};
+    body.voxels.resolution = 12;
+    mesh::addMesh(scene, mesh::generate("sphere", 32), body);
+    const float radius = 0.5f * sceneBounds(scene).sizes().y();
+    const Vector3 center = sceneBounds(scene).center();
+    for (const Quality& quality : {quick, reducedQuality()}) {
+        LayerShot shot(scene, {}, quality);
+        shot.camera.azimuth = 0;
+        shot.camera.elevation = 0.6f;
+        const float bottom = center.y() + 0.4f * radius;
+        const std::array<sim::Vec3, 2> end{{{center.x(), bottom, -1}, {center.x(), bottom, 1}}},
+            start{{{center.x(), 1, -1}, {center.x(), 1, 1}}};
+        const Picture picture = shot.take(0, {.from = start, .to = end});
+        const auto at = [&](float x, float angle) {
+            const Vector3 out(x, std::cos(angle), std::sin(angle));
+            return brightness(colorAt(picture, shot.camera, center + radius * out.normalized()));
+        };
+        int places = 0, seen = 0;
+        for (float angle = 0; angle < 1; angle += 0.02f, ++places) {
+            int darkest = at(0, angle);
+            for (float x = -0.03f; x <= 0.03f; x += 0.005f) darkest = std::min(darkest, at(x, angle));
+            seen += darkest < 0.35 * (at(-0.15f, angle) + at(0.15f, angle)) ? 1 : 0;
+        }
+        EXPECT_GE(seen, 0.95 * places) << "darker by 30 % than beside it";
+    }
+}
+
 // After a cut all vertices are computed for every picture, with any layers: a picture after all vertices were
 // filled with NaN must equal the one before.
 TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {

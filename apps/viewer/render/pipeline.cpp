@@ -61,9 +61,11 @@ constexpr std::array ballAttributes{VkVertexInputAttributeDescription{0, 0, VK_F
 constexpr std::array cutBindings{
     skinBinding,
     VkVertexInputBindingDescription{1, sizeof(sim::layout::CutVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
-constexpr std::array cutAttributes{skinAttributes[0], skinAttributes[1],
-                                   VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
-                                                                     offsetof(sim::layout::CutVertex, rest)}};
+constexpr std::array cutAttributes{
+    skinAttributes[0], skinAttributes[1],
+    VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                      offsetof(sim::layout::CutVertex, rest)},
+    VkVertexInputAttributeDescription{4, 1, VK_FORMAT_R32_UINT, offsetof(sim::layout::CutVertex, point)}};
 
 // Bindings with a value for each vertex or instance.
 constexpr VkVertexInputBindingDescription valueBinding(std::uint32_t binding, VkVertexInputRate rate) {

@@ -1,5 +1,6 @@
 #version 460
-// The pieces of skins beside a cut; they look like the skins.
+// The pieces of skins beside a cut. They look like the skins but for a dark lip along the cut, which shows a cut that
+// does not gape.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/tissue.glsl"
 #include "viewer/section.glsl"
@@ -9,10 +10,21 @@ layout(location = 1) in vec3 worldNormal;
 layout(location = 2) in vec4 inBody;
 layout(location = 0) out vec4 shown;
 
+const float lipWidth = 1.6; // [pixels]
+const float lipShade = 0.22;
+
+// Share of the lip at this pixel: `rim`, 1 on the cut, is linear in a piece, so that its gradient gives the distance.
+float lip() {
+    const float rim = (inBody.w - roundEven(inBody.w)) / RIM;
+    const float fall = length(vec2(dFdx(rim), dFdy(rim)));
+    const float distance = (1.0 - rim) / max(fall, 1e-6);
+    return 1.0 - smoothstep(lipWidth - 0.7, lipWidth + 0.7, distance);
+}
+
 void main() {
     keepBehindSection(worldPosition);
     const vec4 skin = frame.skins[min(uint(inBody.w + 0.5), SKIN_COLORS - 1u)];
-    shown = shade(worldPosition, worldNormal, tissue(skin.rgb, skin.w));
+    shown = shade(worldPosition, worldNormal, tissue(skin.rgb * mix(1.0, lipShade, lip()), skin.w));
 #ifdef GLASS
     shown.a = glassAlpha(worldPosition, worldNormal);
 #endif
