@@ -75,6 +75,7 @@ void readContacts(LoadedScene& loaded, const Section& contacts) {
     loaded.scene.contacts.restitution = contacts.number("restitution");
     loaded.scene.contacts.staticFriction = staticFrictionOf(contacts);
     loaded.scene.contacts.recoverySpeed = contacts.number("recovery_speed");
+    loaded.scene.contacts.takesRecoils = contacts.flag("take_recoils_back");
     loaded.keepsRest = isRestKept(contacts);
     loaded.settings.contactMargin = contacts.number("margin");
     loaded.settings.contactRoom = contacts.count("room");

@@ -138,6 +138,12 @@ sim::Scene recovering(sim::Scene scene) {
     return scene;
 }
 
+// Loose balls that take recoils back.
+sim::Scene takingRecoils(sim::Scene scene) {
+    scene.contacts.takesRecoils = true;
+    return scene;
+}
+
 std::vector<fs::path> sceneFiles() {
     std::vector<fs::path> files;
     for (const fs::directory_entry& file : fs::directory_iterator(SINEW_SOURCE_FOLDER "/scenes"))
@@ -185,6 +191,8 @@ void makeKernelsOfAllScenes(Maker& maker) {
             const bool hasEveryForm =
                 file.stem() == "beam" || file.stem() == "organ" || file.stem() == "cloth_study";
             if (sharp.hasSharpClamp && hasEveryForm) makeForms(maker, loaded->scene, sharp);
+            if (file.stem() == "clutter" && loaded->settings.solver == sim::Solver::split)
+                makeForms(maker, takingRecoils(loaded->scene), loaded->settings);
             if (loaded->settings.solver == sim::Solver::split && !loaded->scene.grids.empty())
                 for (const sim::Scene& scene : {recovering(loaded->scene), withDebris(loaded->scene, false),
                                                 withDebris(loaded->scene, true)})

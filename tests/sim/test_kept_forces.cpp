@@ -74,7 +74,19 @@ std::vector<test::NamedScene> scenes() {
     loose.planes = {{.friction = 0.2f, .restitution = 0.4f}};
     test::addBalls(loose, 3, 0.11f, 0.01f, {0, 0.5f, 0});
     loose.bodies = {{"balls", 0, static_cast<std::uint32_t>(loose.particles.size())}};
-    return {{"clash", clash(false, 0)},
+    Scene column = test::weightless(); // on a plane and a collider, which take recoils back
+    column.gravity = {0, -9.81f, 0};
+    column.contacts.takesRecoils = true;
+    column.planes = {{.friction = 0.2f}};
+    column.colliders = {{.radius = 0.1f, .pose = {.position = {1, 0.1f, 0}}}};
+    for (std::uint32_t i = 0; i < 10; ++i)
+        column.particles.push_back(
+            {.position = {i < 5 ? 0.0f : 1.0f, (i < 5 ? 0.05f : -0.24f) + 0.1f * static_cast<float>(i), 0},
+             .velocity = {0, -2, 0},
+             .radius = 0.05f});
+    column.bodies = {{"low", 0, 2}, {"high", 2, 3}, {"collider", 5, 5}};
+    return {{"column", column},
+            {"clash", clash(false, 0)},
             {"clash_with_rebound", clash(false, 0.5f)},
             {"clash_of_surfaces", clash(true, 0)},
             {"clash_of_surfaces_with_rebound", clash(true, 0.5f)},

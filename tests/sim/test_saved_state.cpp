@@ -63,7 +63,7 @@ TEST(SavedState, LeavesOutWhatAStepMakesAnew) {
     for (int c = 0; c < 12; ++c) // more than eight: groups look for those near them
         scene.colliders.push_back(
             {.radius = 0.05f, .pose = {.position = {0.1f * static_cast<float>(c) - 0.5f, 0.02f, 0}}});
-    const Settings settings{.substeps = 8, .keepsForces = true};
+    const Settings settings{.substeps = 8, .keepsForces = true, .motions = 2};
     test::Runner runner(scene, settings);
     const StepProgram& program = runner.simulation().program();
     std::set<std::string> all, saved;
@@ -73,7 +73,8 @@ TEST(SavedState, LeavesOutWhatAStepMakesAnew) {
         saved.insert(program.buffers[buffer.index].label);
         size += runner.simulation().view(buffer).size;
     }
-    for (const char* label : {"forces.terms", "forces.colliders", "colliders.near", "faces.touched"}) {
+    for (const char* label :
+         {"forces.terms", "forces.colliders", "colliders.near", "faces.touched", "motions.placed"}) {
         EXPECT_TRUE(all.contains(label)) << label;
         EXPECT_FALSE(saved.contains(label)) << label;
     }

@@ -34,9 +34,9 @@ enum class BlockKind : std::uint8_t { storage, uniform, texels };
 /// Binding n + texelTwins holds texels of the storage block with binding n: one buffer that a kernel reads in
 /// either way (shaders/glsl/common/fetched.glsl).
 constexpr std::uint32_t texelTwins = 32;
-/// Bindings from here to the twins need not follow the one before them: FORCES_BINDING and LAST_BINDING of
-/// shaders/glsl/common/layout.h.
-constexpr std::uint32_t firstLoose = 27;
+/// Bindings from here to the twins need not follow the one before them: RECEIVED_BINDING and those after it
+/// in shaders/glsl/common/bindings.h.
+constexpr std::uint32_t firstLoose = 26;
 
 struct SINEW_API KernelBinding {
     std::uint32_t binding = 0;

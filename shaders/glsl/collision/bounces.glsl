@@ -13,7 +13,8 @@ FETCHED_VEC4(3, Predicted, predictedAt) // velocities used to find contacts
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 7) readonly buffer Firsts { float firsts[]; }; // time of each particle's first contact, where isSwept
+FETCHED_VEC4(7, Touching, touchingAt) // count_contacts; behind all: time of each particle's first impact, where isSwept
+#define FIRST_IMPACT(i) touchingAt(push.count + (i)).x
 layout(std430, binding = 8) readonly buffer Surfaces { uint surfaces[]; }; // one per particle
 layout(std430, binding = 9) readonly buffer Pairs { SurfacePair pairs[]; };
 #define HITS_BINDING 10
@@ -54,7 +55,7 @@ Bounce bounceFrom(uint i, uint slot, Self self) {
     const float reach = uintBitsToFloat(candidate.y) - (keepsRest ? nearerBy(slips[slot].w) : 0.0);
     Contact contact = Contact(true, false, d);
     if (bounds.isSwept != 0u)
-        contact = contactOf(d, way, reach, min(firsts[i], firsts[j]), areFreeOf(self.x.w, xj.w));
+        contact = contactOf(d, way, reach, min(FIRST_IMPACT(i), FIRST_IMPACT(j)), areFreeOf(self.x.w, xj.w));
     const bool hasPassed = keepsRest && !contact.isMet && isKept(slips[slot].w) && reach > 0.0 && passes(d, way);
     Bounce bounce = Bounce(vec3(0.0), 0.0);
     if (!contact.exists && !hasPassed) return bounce;

@@ -66,6 +66,7 @@ vec3 impulseOf(uint i, Pair pair, Contact contact, float split) {
         const vec2 friction = frictionOf(i, pair.other);
         impulse -= held(pair.slot, direction.n, pair.way, wayBefore, friction.x * lambda, friction.y * lambda, share, pair.offset);
     }
+    receive(impulse / step.h);
     return impulse;
 }
 
@@ -81,7 +82,7 @@ void addSwept(uint i, uint slot, vec4 self, vec3 velocity, inout vec3 moving, in
     const vec4 x = predicted[i];
     const Pair pair = pairOf(slot, x.xyz, velocity, true);
     const uint j = pair.other;
-    const Contact contact = contactOf(pair.d, pair.way, pair.reach, min(firsts[i], firsts[j]), areFreeOf(x.w, predicted[j].w));
+    const Contact contact = contactOf(pair.d, pair.way, pair.reach, min(FIRST_IMPACT(i), FIRST_IMPACT(j)), areFreeOf(x.w, predicted[j].w));
     const vec3 impulse = impulseOf(i, pair, contact, self.w + TOUCHING(j).w);
     if (contact.isMet) stopping += impulse;
     else moving += impulse;

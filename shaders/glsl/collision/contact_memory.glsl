@@ -6,12 +6,12 @@ layout(constant_id = 5) const bool keepsRest = false;
 layout(constant_id = 6) const bool hasMemory = false;
 layout(constant_id = 7) const bool hasSurfaces = false; // pairs differ
 layout(constant_id = 13) const bool hasRebound = false; // of planes
-FETCHED_VEC4(11, Before, beforeAt)                           // velocities before the substep
-layout(std430, binding = 12) buffer Slips { vec4 slips[]; }; // slip; w = remaining overlap, below 0 = keeps its rest distance [m]
-layout(std430, binding = 13) readonly buffer Surfaces { uint surfaces[]; }; // by particle
-layout(std430, binding = 14) readonly buffer Pairs { SurfacePair pairs[]; };
+FETCHED_VEC4(10, Before, beforeAt)                           // velocities before the substep
+layout(std430, binding = 11) buffer Slips { vec4 slips[]; }; // slip; w = remaining overlap, below 0 = keeps its rest distance [m]
+layout(std430, binding = 12) readonly buffer Surfaces { uint surfaces[]; }; // by particle
+layout(std430, binding = 13) readonly buffer Pairs { SurfacePair pairs[]; };
 #define BEFORE(i) beforeAt(i).xyz
-#define PLANE_BINDING 15
+#define PLANE_BINDING 14
 #define HAS_REBOUND hasRebound
 
 // Coefficients of friction of a pair: kinetic, static.

@@ -17,25 +17,39 @@ FETCHED_VEC4(3, Velocities, velocityAt) // w = inverse mass [1/kg]
 #define CONTACT(i) contactAt(i)
 #define VELOCITY(i) velocityAt(i)
 layout(std430, binding = 2) readonly buffer Lists { uvec2 lists[]; };
-layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass
+layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass; then firsts.glsl
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // time of each particle's first impact; only if isSwept
-#define HITS_BINDING 8
+#define HITS_BINDING 7
 #define HITS_ACCESS
 #include "common/hit_masks.glsl"
 layout(constant_id = 4) const bool hasRecovery = false;
-layout(std430, binding = 9) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m], below 0 = keeps its rest distance
+layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // w: remaining overlap [m], below 0 = keeps its rest distance
 layout(constant_id = 5) const bool keepsRest = false;
 layout(constant_id = 6) const bool canOpen = false; // a cut can let pairs touch
 // Pairs that hardly miss count, too: in scenes of mostly loose particles. Not where pairs rebound: a rebound needs all
 // of the approach taken back in the substep of the impact, and what is left of it would be given once more.
 layout(constant_id = 7) const bool countsNear = true;
-#define MARKS_BINDING 10
+#define MARKS_BINDING 9
 #include "collision/linked_marks.glsl"
+// Recoils: candidates that touch, count or meet on the way, a bit each in the order of the list; all bits of a list that is
+// longer. Equal at both ends of a pair.
+layout(std430, binding = 10) writeonly buffer NearMasks { uint nearMasks[]; };
+#include "forces/received.glsl"
 layout(push_constant) uniform Push { ContactPush push; };
 
 #include "collision/contact_reach.glsl"
+
+uint nearMask = 0u, firstSlot;
+
+void addNear(uint slot) {
+    if (keepsReceived) nearMask |= 1u << min(slot - firstSlot, 31u);
+}
+
+void addWeight(uint slot, float weight, inout float weights) {
+    weights += weight;
+    if (weight > 0.0) addNear(slot);
+}
 
 // Whether particle i, at x, touches the candidate in a slot at the end of the substep. Adds the weight of a candidate that
 // it does not touch to `weights`: in the order of the list, so that no candidate beyond the band changes the sum.
@@ -44,7 +58,7 @@ bool touchesAtEnd(uint slot, vec3 x, vec3 velocity, inout float weights) {
     const vec3 d = x - PREDICTED(candidate.x).xyz;
     const float reach = reachOf(slot, uintBitsToFloat(candidate.y));
     const bool isTouching = touches(d, reach) || hasPassed(slot, d, velocity);
-    if (countsNear) weights += isTouching ? 0.0 : weightOf(slot, d, reach);
+    if (countsNear) addWeight(slot, isTouching ? 0.0 : weightOf(slot, d, reach), weights);
     return isTouching;
 }
 
@@ -53,7 +67,8 @@ bool touchesOnWay(uint slot, vec4 x, vec3 velocity, float first, inout float wei
     const Pair pair = pairOf(slot, x, velocity);
     const Contact contact = contactOf(pair.d, pair.way, pair.reach, first, pair.areFree);
     const bool isTouching = contact.exists || !contact.isMet && hasPassed(slot, pair.d, velocity);
-    if (countsNear) weights += isTouching || contact.isMet ? 0.0 : weightOf(slot, pair.d, pair.reach);
+    if (countsNear) addWeight(slot, isTouching || contact.isMet ? 0.0 : weightOf(slot, pair.d, pair.reach), weights);
+    if (contact.isMet) addNear(slot); // for both, while `exists` regards what each has met first
     return isTouching;
 }
 
@@ -64,6 +79,7 @@ void main() {
     const uint i = itemIndex(push.count);
     const uvec2 list = lists[i];
     const uint end = list.x + list.y;
+    firstSlot = list.x;
     // Loops of which some are empty: on a software device, code under a condition costs its time even if it does not
     // run.
     const bool isSwept = bounds.isSwept != 0u;
@@ -89,12 +105,15 @@ void main() {
         for (uint slot = from; slot < (isSwept ? to : from); ++slot)
             hit |= uint(touchesOnWay(slot, start, velocity.xyz, first, weights)) << slot - from;
         contactCount += float(bitCount(hit));
+        nearMask |= hit;
         const uint place = hitWord(push.count, i, list, word);
         hits[place] = uvec2(hit, hits[place].x & ~hit);
     }
     if (sweeping > list.x) {
-        firsts[i] = first;
+        touching[push.count + i] = vec4(first);
         if (first < 1.0) x -= (1.0 - first) * step.h * (velocity.xyz - drive); // stays at the point of impact
     }
+    clearReceivedGroups();
+    if (keepsReceived) nearMasks[i] = list.y > 32u ? ~0u : nearMask;
     touching[i] = vec4(x, (contactCount + weights) * velocity.w);
 }

@@ -1,13 +1,13 @@
 // The end of a substep of `split` with contacts: boundary planes, and the stored state. Requires the names predicted,
-// nextPositions, nextVelocities and BEFORE of a kernel, PLANE_BINDING, and forces.glsl before it.
+// nextPositions, nextVelocities and BEFORE of a kernel, PLANE_BINDING, and forces.glsl before it. RECEIVES: received.glsl, too.
 #include "rigid/planes.glsl"
 layout(std140, binding = PLANE_BINDING) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
 
 // Ends the substep of particle i, which contacts have moved from `found` by `correction` and given the velocity v;
 // `velocity` is the one before contacts, w its inverse mass; `last` is the fourth component of its position, stored
-// unchanged.
-void finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3 v) {
+// unchanged. Returns the velocity after the planes.
+vec3 finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3 v) {
     const float w = velocity.w, h = step.h;
     vec3 x = found + correction, way = correction;
     if (w > 0.0 && planeCount > 0u) {
@@ -18,6 +18,11 @@ void finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3
             const vec3 before = motion.v;
             if (projectOntoPlane(planes[p], offset, h, motion)) touched |= 1u << p;
             if ((touched & 1u << p) != 0u) addPlaneForce(planes[p], p, i, (motion.v - before) / w, motion.x);
+#ifdef RECEIVES
+            const vec3 impulse = (motion.v - before) / w;
+            if ((touched & 1u << p) != 0u && planes[p].restitution > 0.0) receive(impulse);
+            else if ((touched & 1u << p) != 0u) receiveFixed(impulse, vec3(0.0), rowElement(p, i), planeArm(planes[p], motion.x));
+#endif
         }
 #ifdef HAS_REBOUND
         for (uint p = 0u; p < (HAS_REBOUND ? planeCount : 0u); ++p) {
@@ -41,4 +46,5 @@ void finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3
     }
     nextPositions[i] = vec4(x, last);
     nextVelocities[i] = vec4(v, w);
+    return v;
 }

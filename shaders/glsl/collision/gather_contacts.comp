@@ -29,13 +29,15 @@ layout(std430, binding = 5) writeonly buffer NextPositions { vec4 nextPositions[
 layout(std430, binding = 6) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 layout(std140, binding = 7) uniform Step { StepParams step; };
 layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // time of each particle's first impact, where isSwept
-#define HITS_BINDING 10
+#define FIRST_IMPACT(i) touchingAt(push.count + (i)).x // time of each particle's first impact, where isSwept
+#define HITS_BINDING 9
 #include "common/hit_masks.glsl"
 layout(push_constant) uniform Push { ContactPush push; };
 #include "collision/contact_memory.glsl"
 
 #include "forces/forces.glsl"
+#include "forces/receive.glsl"
+#define RECEIVES
 #include "collision/finish_substep.glsl"
 #include "collision/contact_impulses.glsl"
 
@@ -58,5 +60,7 @@ void main() {
     }
     addContactForce(i, (sum + stopping) / h);
     const vec3 correction = w * sum;
-    finish(i, self.xyz, predicted[i].w, velocity, correction, velocity.xyz + (correction + w * stopping) / h);
+    const vec3 v = finish(i, self.xyz, predicted[i].w, velocity, correction, velocity.xyz + (correction + w * stopping) / h);
+    storeReceived(i);
+    planRecoils(v, push.count);
 }

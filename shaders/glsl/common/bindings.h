@@ -2,8 +2,10 @@
 #ifndef SINEW_BINDINGS_H
 #define SINEW_BINDINGS_H
 
-// Bindings that need not follow the one before them. FORCES_BINDING: impulses of a step, then buffers that their
-// kernels need beside them (forces.glsl). LAST_BINDING: the work groups or slots that a kernel runs over (kernel.glsl).
+// Bindings that need not follow the one before them. RECEIVED_BINDING: impulses of a substep (received.glsl).
+// FORCES_BINDING: impulses of a step, then buffers that their kernels need beside them (forces.glsl). LAST_BINDING: the
+// work groups or slots that a kernel runs over (kernel.glsl).
+#define RECEIVED_BINDING 26
 #define FORCES_BINDING 27
 #define LAST_BINDING 31
 

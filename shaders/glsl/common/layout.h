@@ -409,6 +409,7 @@ struct FaceFindPush {
 };
 
 #include "common/patch_layout.h"
+#include "common/recoils_layout.h"
 // An edge of faces that takes part in contacts with other edges. The grid holds its midpoint.
 struct ContactEdge {
     uint a, b;

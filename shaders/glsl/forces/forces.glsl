@@ -5,6 +5,7 @@
 const bool keepsForces = false;
 void addContactForce(uint i, vec3 impulse) {}
 void addRowForce(uint row, uint i, vec3 impulse, vec3 arm) {}
+uint rowElement(uint row, uint i) { return 0u; }
 #else
 layout(constant_id = 20) const uint forceSlots = 0; // elements of a section: slots of the state; 0 = no forces
 layout(constant_id = 21) const uint firstForce = 0; // first element of the sections, or entries, of this kernel
@@ -24,11 +25,14 @@ void addListedForce(uint entry, vec3 impulse) {
     if (keepsForces) forces[firstForce + entry].xyz += impulse;
 }
 
+// The element of the impulses of row `row` of this kernel on particle i; its moments are forceSlots behind.
+uint rowElement(uint row, uint i) { return firstForce + 2u * row * forceSlots + i; }
+
 // The impulse of plane, collider, grab or body `row` of this kernel on particle i, which is `arm` away from the row's
 // place [m].
 void addRowForce(uint row, uint i, vec3 impulse, vec3 arm) {
     if (!keepsForces) return;
-    const uint element = firstForce + 2u * row * forceSlots + i;
+    const uint element = rowElement(row, i);
     forces[element].xyz += impulse;
     forces[element + forceSlots].xyz += cross(arm, impulse);
 }
@@ -49,6 +53,7 @@ void addStopForce(uint f, uint i, vec3 impulse, vec3 x) {
 #endif
 
 // The place of a plane is its point nearest to the origin.
+vec3 planeArm(PlaneCollider plane, vec3 x) { return x - plane.normalOffset.w * plane.normalOffset.xyz; }
 void addPlaneForce(PlaneCollider plane, uint p, uint i, vec3 impulse, vec3 x) {
-    addRowForce(p, i, impulse, x - plane.normalOffset.w * plane.normalOffset.xyz);
+    addRowForce(p, i, impulse, planeArm(plane, x));
 }

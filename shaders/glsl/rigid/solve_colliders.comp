@@ -53,6 +53,9 @@ layout(std430, binding = FORCES_BINDING + 2) readonly buffer Near { uint near[];
 #include "rigid/near_colliders.glsl"
 
 #include "rigid/collider_forces.glsl"
+#ifndef OPEN
+#include "forces/receive.glsl"
+#endif
 
 // A particle before colliders act on it.
 struct Start {
@@ -113,7 +116,12 @@ void main() {
         isTouching = true;
         if (hasRebound)
             rebound += reboundFrom(collider, step.restSpeed, n, surfaceVelocity, start.velocityBefore, movement.v + rebound);
-        addColliderForce(c, i, (movement.v + rebound - unforced) / velocity.w, movement.x - to.position.xyz);
+        const vec3 impulse = (movement.v + rebound - unforced) / velocity.w, arm = movement.x - to.position.xyz;
+        addColliderForce(c, i, impulse, arm);
+#ifndef OPEN
+        if (collider.restitution > 0.0) receive(impulse);
+        else receiveFixed(impulse, surfaceVelocity, rowElement(sumsWhole ? 0u : c, i), arm);
+#endif
     }
     if (!isTouching) return;
 #ifdef OPEN
@@ -124,6 +132,7 @@ void main() {
 #else
     const vec3 v = movement.v + rebound;
     velocities[i].xyz = v;
+    addReceived(i);
     if (hasRemainders) {
         const uint r = remainderOf(positions.length(), i);
         const vec3 change = movement.way - wayBefore + step.thetaH * (v - velocity.xyz);

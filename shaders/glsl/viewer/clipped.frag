@@ -18,13 +18,15 @@ float lip() {
     const float rim = (inBody.w - roundEven(inBody.w)) / RIM;
     const float fall = length(vec2(dFdx(rim), dFdy(rim)));
     const float distance = (1.0 - rim) / max(fall, 1e-6);
-    return 1.0 - smoothstep(lipWidth - 0.7, lipWidth + 0.7, distance);
+    const float share = 1.0 - smoothstep(lipWidth - 0.7, lipWidth + 0.7, distance);
+    return fall > 0.0 ? share : 0.0; // a piece with all its corners on cuts shows none
 }
 
 void main() {
+    const float dark = lip(); // before anything is discarded: it needs neighbouring pixels
     keepBehindSection(worldPosition);
     const vec4 skin = frame.skins[min(uint(inBody.w + 0.5), SKIN_COLORS - 1u)];
-    shown = shade(worldPosition, worldNormal, tissue(skin.rgb * mix(1.0, lipShade, lip()), skin.w));
+    shown = shade(worldPosition, worldNormal, tissue(skin.rgb * mix(1.0, lipShade, dark), skin.w));
 #ifdef GLASS
     shown.a = glassAlpha(worldPosition, worldNormal);
 #endif

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 
 namespace sinew::sim::collision::particle_contacts {
 
@@ -46,6 +47,13 @@ float medianRadius(std::vector<float> radii) {
     std::erase_if(radii, [](float radius) { return radius <= 0; });
     std::ranges::nth_element(radii, radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2));
     return radii[radii.size() / 2];
+}
+
+float smallestRadius(const std::vector<float>& radii) {
+    float smallest = std::numeric_limits<float>::max();
+    for (const float radius : radii)
+        if (radius > 0) smallest = std::min(smallest, radius);
+    return smallest;
 }
 
 contact_lists::Exclusions exclusionsOf(const SceneModel& model) {
@@ -172,17 +180,19 @@ void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const Part
 
 void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
     const contact_lists::Lists& lists = contacts.lists;
-    std::vector<BufferId> buffers{predicted.positions,  lists.pooled.contacts, lists.pooled.ranges,
-                                  predicted.velocities, contacts.touching,     predicted.step,
-                                  lists.grid.bounds,    contacts.firsts,       lists.hits};
+    std::vector<BufferId> buffers{
+        predicted.positions, lists.pooled.contacts, lists.pooled.ranges, predicted.velocities,
+        contacts.touching,   predicted.step,        lists.grid.bounds,   lists.hits};
     const bool canOpen = contacts.hasRecovery && contacts.isCuttable();
-    buffers.insert(buffers.end(), {contacts.hasRecovery ? contacts.lists.pooled.memory->memory : unbound,
-                                   boundIf(canOpen, contacts.marks)});
-    addOverContacts(program, contacts, k::countContacts, std::move(buffers),
-                    {{hasRecoveryId, contacts.hasRecovery},
-                     {keepsRestId, contacts.hasRecovery && contacts.hasKept},
-                     {canOpenId, canOpen},
-                     {countsNearId, contacts.countsNear}});
+    buffers.insert(buffers.end(),
+                   {contacts.hasRecovery ? contacts.lists.pooled.memory->memory : unbound,
+                    boundIf(canOpen, contacts.marks), contacts.recoils.near, contacts.recoils.received});
+    ProgramBuilder::Constants constants = receivedConstants(predicted);
+    constants.insert({{hasRecoveryId, contacts.hasRecovery},
+                      {keepsRestId, contacts.hasRecovery && contacts.hasKept},
+                      {canOpenId, canOpen},
+                      {countsNearId, contacts.countsNear}});
+    addOverContacts(program, contacts, k::countContacts, std::move(buffers), constants);
 }
 
 void addEvents(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
@@ -198,16 +208,9 @@ void addEvents(ProgramBuilder& program, const Contacts& contacts, const Particle
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next) {
     const contact_lists::Lists& lists = contacts.lists;
-    std::vector<BufferId> buffers{contacts.touching,
-                                  lists.pooled.contacts,
-                                  predicted.velocities,
-                                  lists.pooled.ranges,
-                                  predicted.positions,
-                                  next.positions,
-                                  next.velocities,
-                                  predicted.step,
-                                  lists.grid.bounds,
-                                  contacts.firsts,
+    std::vector<BufferId> buffers{contacts.touching,   lists.pooled.contacts, predicted.velocities,
+                                  lists.pooled.ranges, predicted.positions,   next.positions,
+                                  next.velocities,     predicted.step,        lists.grid.bounds,
                                   lists.hits};
     const bool hasMemory = contacts.hasMemory(), isTable = hasMemory && hasFrictionTable(contacts);
     const bool rebounds = contacts.hasRebound && contacts.planes.count > 0;
@@ -224,6 +227,8 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
                       {hasMemoryId, hasMemory},
                       {hasSurfacesId, isTable},
                       {hasReboundId, rebounds}});
+    buffers.push_back(contacts.recoils.received);
+    constants.merge(recoils::constants(contacts.recoils, next));
     forces::bindTo(next, &forces::Forces::ofPlanes, buffers, constants);
     addOverContacts(program, contacts, k::gatherContacts, std::move(buffers), constants);
 }
@@ -307,11 +312,13 @@ Contacts add(ProgramBuilder& program, const SceneModel& model) {
         contacts.particles = program.upload("contacts.particles", slots);
         contacts.particleCount = static_cast<std::uint32_t>(slots.size());
     }
-    contacts.touching = program.scratch<layout::vec4>("contacts.touching", layout.count);
-    contacts.firsts = program.scratch<float>("contacts.firsts", layout.count);
+    contacts.touching =
+        program.scratch<layout::vec4>("contacts.touching", 2 * std::uint64_t{contacts.push.count});
     contacts.interlocks =
         interlocks::add(program, interlocks::find(scene, layout, model.linkedBodies(), overlaps),
                         layout.count, scene.contacts.recoverySpeed);
+    if (scene.contacts.takesRecoils && countsNear && !model.facesTouch())
+        contacts.recoils = recoils::add(program, model, 2 * smallestRadius(radii));
     if (contacts.surfaces.hasRestitution) {
         contacts.bouncing = program.scratch<float>("contacts.bouncing", layout.count);
         contacts.rebounding = program.scratch<layout::vec4>("contacts.rebounding", layout.count);
@@ -347,7 +354,7 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     const bool isTable = contacts.surfaces.count > 0;
     std::vector<BufferId> shared{predicted.positions,  lists.pooled.contacts, contacts.before,
                                  predicted.velocities, lists.pooled.ranges,   next.step,
-                                 lists.grid.bounds,    contacts.firsts};
+                                 lists.grid.bounds,    contacts.touching};
     shared.insert(shared.end(),
                   {boundIf(isTable, contacts.surfaces.ofParticles), boundIf(isTable, contacts.surfaces.pairs),
                    lists.hits, contacts.hasKept ? lists.pooled.memory->memory : unbound, next.velocities,
@@ -357,6 +364,14 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     shared.insert(shared.end(), {next.positions, contacts.rebounding});
     forces::bindTo(next, &forces::Forces::ofContacts, shared, constants);
     program.dispatch(k::solveRebounds, contacts.push.count, shared, contacts.push, constants);
+}
+
+void addRecoils(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                const ParticleBuffers& state, std::uint32_t substep) {
+    recoils::addPasses(program, contacts.recoils,
+                       {contacts.lists, contacts.touching, contacts.hasRecovery, predicted.velocities,
+                        contacts.before, predicted.positions},
+                       state, substep);
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {

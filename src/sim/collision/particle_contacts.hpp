@@ -6,6 +6,7 @@
 
 #include "sim/collision/contact_lists.hpp"
 #include "sim/collision/interlocks.hpp"
+#include "sim/collision/recoils.hpp"
 #include "sim/collision/surfaces.hpp"
 #include "sim/model/scene_model.hpp"
 #include "sim/rigid/planes.hpp"
@@ -28,7 +29,8 @@ struct Contacts {
     bool hasRebound = false;         ///< of a plane
     bool hasRecovery = false;        ///< some pair overlaps when the scene is loaded, or may after a cut
     bool hasKept = false;            ///< some pair keeps its distance at load
-    BufferId touching, firsts, bouncing, rebounding;
+    BufferId touching; ///< by slot: where contacts are looked for, and their number; then times of impacts
+    BufferId bouncing, rebounding;
     BufferId before; ///< velocities at the start of the substep, set in each
 
     /// Pairs of the uncut bodies that never touch; invalid if no cuttable body touches.
@@ -36,6 +38,7 @@ struct Contacts {
     BufferId marks; ///< contact_lists::linkedMarks; invalid in the same case
 
     std::optional<interlocks::Interlocks> interlocks; ///< only if hasRecovery
+    recoils::Recoils recoils;                         ///< only if the scene asks for them, without faces
 
     bool isCuttable() const { return allExcluded != BufferId{}; }
     bool hasMemory() const { return lists.pooled.memory.has_value(); }
@@ -57,6 +60,11 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
 /// longer needed.
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                 const ParticleBuffers& next);
+
+/// Appends what takes recoils back, after all else that moves particles in a substep. `predicted` and
+/// contacts.before are no longer needed.
+void addRecoils(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                const ParticleBuffers& state, std::uint32_t substep);
 
 /// Appends the end of a step: saves the memory of friction, or restores it after an undone step.
 void addPublishing(ProgramBuilder& program, const Contacts& contacts);

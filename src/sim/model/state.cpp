@@ -41,4 +41,10 @@ ProgramBuilder::Constants remainderConstants(const StateLayout& layout) {
     return {{hasRemaindersId, 1}};
 }
 
+ProgramBuilder::Constants receivedConstants(const ParticleBuffers& particles) {
+    constexpr std::uint32_t receivedSlotsId = 23; // constant_id in received.glsl
+    const bool keeps = particles.received != unbound;
+    return {{receivedSlotsId, keeps ? static_cast<std::uint32_t>(particles.layout.count) : 0}};
+}
+
 } // namespace sinew::sim

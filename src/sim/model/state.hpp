@@ -76,8 +76,12 @@ struct ParticleBuffers {
     std::shared_ptr<grabs::Grabs> grabs;          ///< null without grabs
     std::shared_ptr<const forces::Forces> forces; ///< null if no forces are kept
     std::shared_ptr<events::Events> events;       ///< null if no events are listed
+    BufferId received = unbound; ///< impulses of the contacts of a substep (collision/recoils.hpp)
     float supportReach = 0; ///< beyond contact offsets, up to which contacts with colliders are events [m]
 };
+
+/// The constant of kernels that keep what particles receive from contacts in a substep.
+ProgramBuilder::Constants receivedConstants(const ParticleBuffers& particles);
 
 /// Share of the gravity kick h g, contained in the velocities, that particles have moved by when links are
 /// solved.

@@ -63,12 +63,12 @@ Motions& addBuffers(Build& build) {
     const bool hasDebris = cutting.debris > 0, maySleep = build.particles.sleep != nullptr;
     Motions motions{
         .push = {slots, count, 0, bodies, model.settings.solver == Solver::split ? 1u : 0u},
-        .requests = program.scratch<layout::MotionRequest>("motions.requests", count),
-        .arguments = program.scratch<layout::DispatchArguments>("motions.arguments", MOTION_ARGUMENTS),
+        .requests = program.scratchOfStep<layout::MotionRequest>("motions.requests", count),
+        .arguments = program.scratchOfStep<layout::DispatchArguments>("motions.arguments", MOTION_ARGUMENTS),
         .bodies = program.upload("motions.bodies", bodiesOfSlots(model.scene, model.layout, MOTION_NO_BODY)),
-        .sums = program.scratch<layout::MotionSums>("motions.sums", std::size_t{count} * MOTION_CHUNKS),
-        .frames = program.scratch<layout::MotionFrame>("motions.frames", count),
-        .placed = program.scratch<std::uint32_t>("motions.placed", std::max(bodies, 1u)),
+        .sums = program.scratchOfStep<layout::MotionSums>("motions.sums", std::size_t{count} * MOTION_CHUNKS),
+        .frames = program.scratchOfStep<layout::MotionFrame>("motions.frames", count),
+        .placed = program.scratchOfStep<std::uint32_t>("motions.placed", std::max(bodies, 1u)),
         .constants = remainderConstants(model.layout),
         .members = {}};
     motions.constants.insert({{maySleepId, maySleep}, {hasDebrisId, hasDebris}});

@@ -1,6 +1,5 @@
-// The step program that a scene compiles to: buffers and a plain list of passes, without Vulkan handles. Pure
-// data: its makers (constraints, solvers) never touch a GPU; its users (executor, profiler, describe) walk
-// the list.
+// The step program that a scene compiles to: buffers and a plain list of passes, without Vulkan handles. Its
+// makers (constraints, solvers) never touch a GPU; its users (executor, profiler, describe) walk the list.
 #pragma once
 
 #include "sinew/vk/spirv.hpp"
@@ -452,9 +451,7 @@ public:
     }
     /// The same of one that each step makes anew before it reads it (StepProgram::ofStep).
     template <typename T> BufferId scratchOfStep(std::string label, std::uint64_t count) {
-        const BufferId buffer = scratch<T>(std::move(label), count);
-        program_.ofStep.push_back(buffer);
-        return buffer;
+        return program_.ofStep.emplace_back(scratch<T>(std::move(label), count));
     }
 
     /// The initial contents of an uploaded buffer, as a buffer that passes can read.

@@ -207,6 +207,8 @@ void addPass(Build& build, const Substep& substep) {
                                        hasContacts ? substep.predicted->velocities : unbound});
         constants.insert({{hasReboundId, colliders.hasRebound}, {hasContactsId, hasContacts}});
         constants.merge(remainderConstants(particles.layout));
+        constants.merge(receivedConstants(particles));
+        buffers.push_back(particles.received);
     }
     forces::bindTo(particles, &forces::Forces::ofColliders, buffers, constants);
     buffers.push_back(particles.forces && particles.forces->summed > 0 ? particles.forces->colliderForces

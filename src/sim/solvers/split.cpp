@@ -333,6 +333,7 @@ void addTouchingSubsteps(const Common& common) {
         build.add(&Feature::afterContacts, substep);
         contacts.addStops(program, predicted, current);
         build.add(&Feature::substepEnd, substep);
+        contacts.addRecoils(program, predicted, current, index);
     }
     program.endSubsteps();
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);

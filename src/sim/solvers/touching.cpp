@@ -105,8 +105,14 @@ void Touching::addStops(ProgramBuilder& program, const ParticleBuffers& predicte
     collision::face_contacts::addStops(program, *faces, state, StopKind::passing);
 }
 
+void Touching::addRecoils(ProgramBuilder& program, const ParticleBuffers& predicted,
+                          const ParticleBuffers& state, std::uint32_t substep) const {
+    if (pairs) collision::particle_contacts::addRecoils(program, *pairs, predicted, state, substep);
+}
+
 Touching& addTouching(Build& build) {
     Touching& touching = build.keep(contactsOf(build));
+    if (touching.pairs) build.particles.received = touching.pairs->recoils.received;
     if (build.particles.sleep) joinIslands(touching, *build.particles.sleep);
     touching.filters = filtersOf(build.program, touching);
     if (touching.pairs) collision::addToTopology(build.program, *touching.pairs);

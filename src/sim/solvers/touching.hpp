@@ -35,6 +35,9 @@ struct Touching {
     /// Appends what keeps particles in front of faces, after projections.
     void addStops(ProgramBuilder& program, const ParticleBuffers& predicted,
                   const ParticleBuffers& state) const;
+    /// Appends what takes recoils back, after all else that moves particles in a substep.
+    void addRecoils(ProgramBuilder& program, const ParticleBuffers& predicted, const ParticleBuffers& state,
+                    std::uint32_t substep) const;
     /// Whether a particle may end a substep at another position than its velocity gives.
     bool moveUnseen() const {
         return pairs || (faces && (faces->hasStops() || faces->zones.exist() || faces->separations.exist()));
