@@ -57,6 +57,13 @@ struct Counting {
     }
 };
 
+void borrow(HostDevice& host, Counting& counting, Device& device) {
+    const VkAllocationCallbacks callbacks = counting.callbacks();
+    SinewHostDevice handles = handlesOf(host);
+    handles.allocation = &callbacks;
+    ASSERT_TRUE(isOk(sinewBorrowDevice(&handles, &device)));
+}
+
 void step(HostDevice& host, SinewSimulation simulation, std::uint64_t frame) {
     host.submit([&](VkCommandBuffer commands) {
         if (frame == 0) {
@@ -76,13 +83,10 @@ void step(HostDevice& host, SinewSimulation simulation, std::uint64_t frame) {
 
 TEST(CApiAllocation, OfABorrowedDeviceComesBack) {
     Counting counting;
-    const VkAllocationCallbacks callbacks = counting.callbacks();
     HostDevice host;
     {
-        SinewHostDevice handles = handlesOf(host);
-        handles.allocation = &callbacks;
         Device device;
-        ASSERT_TRUE(isOk(sinewBorrowDevice(&handles, &device)));
+        borrow(host, counting, device);
         EXPECT_GT(counting.requests, 0u) << "the cache of pipelines";
         Scene scene;
         makeCube(scene);
@@ -100,13 +104,10 @@ TEST(CApiAllocation, OfABorrowedDeviceComesBack) {
 
 TEST(CApiAllocation, ThatFailsLeavesTheOthersUsable) {
     Counting counting;
-    const VkAllocationCallbacks callbacks = counting.callbacks();
     HostDevice host;
     {
-        SinewHostDevice handles = handlesOf(host);
-        handles.allocation = &callbacks;
         Device device;
-        ASSERT_TRUE(isOk(sinewBorrowDevice(&handles, &device)));
+        borrow(host, counting, device);
         Scene scene;
         makeCube(scene);
         SinewSettings settings = sinewDefaultSettings();

@@ -1,28 +1,19 @@
 // Tests of outputs that are kept in buffers of their own, so that step N is read while step N + 1 runs.
 #include "sim/runner.hpp"
 #include "sim/world_play.hpp"
-#include "sinew/bodies.hpp"
 
 #include <cstring>
 #include <limits>
 
 using namespace sinew;
 using namespace sinew::sim;
-using test::Words, test::wordsOf;
+using test::fallingBox, test::Words, test::wordsOf;
 
 namespace {
 
 constexpr Settings keeping{.substeps = 4, .outputFrames = 2};
 
-Scene fallingBox() {
-    Scene scene;
-    const Lattice lattice{.origin = {0, 0.3f, 0}, .cells = {2, 2, 2}, .spacing = 0.1f, .isCuttable = true};
-    addLatticeSkin(scene, lattice, addLattice(scene, lattice), {});
-    scene.planes = {{}};
-    return scene;
-}
-
-// What a renderer reads of a step: each view that passes write.
+// Contents of each view that passes write, as a renderer reads them.
 std::vector<Words> contentsOf(const Outputs& outputs) {
     std::vector<Words> contents;
     for (const vk::BufferView& view :

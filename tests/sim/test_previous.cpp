@@ -1,25 +1,16 @@
 // Tests of the positions and skins of the step before, which hosts make motion vectors from.
 #include "sim/runner.hpp"
 #include "sim/world_play.hpp"
-#include "sinew/bodies.hpp"
 
 #include <limits>
 
 using namespace sinew;
 using namespace sinew::sim;
-using test::Words, test::wordsOf;
+using test::fallingBox, test::Words, test::wordsOf;
 
 namespace {
 
 constexpr Settings keeping{.substeps = 4, .keepsPrevious = true};
-
-Scene fallingBox() {
-    Scene scene;
-    const Lattice lattice{.origin = {0, 0.3f, 0}, .cells = {2, 2, 2}, .spacing = 0.1f, .isCuttable = true};
-    addLatticeSkin(scene, lattice, addLattice(scene, lattice), {});
-    scene.planes = {{}};
-    return scene;
-}
 
 Words positionsOf(const Simulation& simulation) {
     return wordsOf(simulation.positions());

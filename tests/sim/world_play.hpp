@@ -16,6 +16,15 @@ namespace sinew::test {
 
 using namespace sim;
 
+/// A cuttable box of 2^3 cells of 0.1 m with a skin, 0.3 m above a floor.
+inline Scene fallingBox() {
+    Scene scene;
+    const Lattice lattice{.origin = {0, 0.3f, 0}, .cells = {2, 2, 2}, .spacing = 0.1f, .isCuttable = true};
+    addLatticeSkin(scene, lattice, addLattice(scene, lattice), {});
+    scene.planes = {{}};
+    return scene;
+}
+
 using Words = std::vector<std::uint32_t>;
 
 inline Words wordsOf(const vk::BufferView& view, vk::Queue& queue = queue()) {

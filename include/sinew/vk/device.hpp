@@ -59,8 +59,9 @@ struct SINEW_API HostDevice {
     /// Bytes of another device or driver, or damaged ones, are ignored.
     std::span<const std::byte> pipelineCache{};
     /// Host memory of the driver for every Vulkan object that Sinew makes: each vkCreate, vkAllocate,
-    /// vkDestroy and vkFree gets a copy of it. Null = the driver's own. The functions are called within
-    /// Sinew's calls, in their thread, and must not call Sinew. Sinew's own objects come from operator new.
+    /// vkDestroy and vkFree gets a copy of it. Null = the driver's own. The functions are called
+    /// from several threads at once, must not call Sinew, and outlive the device. Sinew's own objects come
+    /// from operator new.
     const VkAllocationCallbacks* allocation = nullptr;
 };
 

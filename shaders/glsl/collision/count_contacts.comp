@@ -17,7 +17,7 @@ FETCHED_VEC4(3, Velocities, velocityAt) // w = inverse mass [1/kg]
 #define CONTACT(i) contactAt(i)
 #define VELOCITY(i) velocityAt(i)
 layout(std430, binding = 2) readonly buffer Lists { uvec2 lists[]; };
-layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass; then firsts.glsl
+layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass; then the time of each one's first impact, where isSwept
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
 #define HITS_BINDING 7

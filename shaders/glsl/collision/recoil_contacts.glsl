@@ -6,7 +6,7 @@
 // 0 of a particle that is not prepared.
 uint degreeOf(uint i) { return degrees[i] & ~RECOIL_LISTED; }
 
-// What a particle received from contacts: the tensor, and the sum of the impulses [N s].
+// Impulses of contacts on a particle [N s]: the tensor (received.glsl), and the sum.
 struct Receipt { vec3 diagonal, mixed, net; };
 Receipt receiptOf(uint i, vec4 velocity) {
     return Receipt(receivedAt(sectionElement(0u, i)).xyz, receivedAt(sectionElement(1u, i)).xyz,
@@ -100,7 +100,7 @@ void reachPartners(uint i) {
     }
 }
 
-// Of the last plane or collider that touched the particle.
+// Adds the impulse of a recoil to the row of the last plane or collider that touched the particle.
 void addFixedForce(uint i, vec3 impulse) {
     if (!keepsForces || impulse == vec3(0.0)) return;
     const uvec4 row = receivedBits(sectionElement(3u, i));

@@ -68,17 +68,16 @@ void iterate(uint i, uint round) {
         recoils[at].taken = uint(after);
         sum += g * RECOIL_UNIT * recoil.most * now.n;
     }
-    const vec3 change = velocity.w * sum;
-    const float least = RECOIL_SPREAD * leastRecoil(0.0);
-    const bool isNew = own.w < 0.0 && dot3(change, change) > least * least;
-    const vec4 motion = vec4(velocity.xyz + change, isNew ? -own.w : own.w);
+    const bool isNew = hasChanged && own.w < 0.0;
+    const vec4 motion = vec4(velocity.xyz + velocity.w * sum, isNew ? -own.w : own.w);
     if (isOdd) even[i] = motion;
     else odd[i] = motion;
     if (hasChanged) changes[round & 1u] = 1u;
     if (isNew) reachPartners(i);
 }
 
-// Of particles that do not give way, which are no members: the first in its list that names one adds for all.
+// Adds recoils to the forces on partners that do not give way, which are no members: of the members that name one, the
+// first in its list adds for all.
 void addStillForces(uint i) {
     for (uint c = 0u; c < (keepsForces ? degreeOf(i) : 0u); ++c) {
         const uint other = recoils[RECOIL_CONTACTS * i + c].other, still = other & ~RECOIL_STILL;

@@ -16,7 +16,6 @@ struct Recoil {
 #define RECOIL_UNIT (1.0f / 8192.0f)
 // A recoil that would lift a particle by less than this part of the reach is left.
 #define RECOIL_LIFT 0.01f
-#define RECOIL_SPREAD 0.3f // of the slowest recoil: change of velocity beyond which partners take part
 
 struct RecoilPush {
     uint count;   // number of particles; whole work groups

@@ -1,4 +1,4 @@
-// What contacts gave each particle in a substep, for recoils (sim/collision/recoils.hpp): bits of floats. The buffer begins
+// Impulses of contacts on each particle in a substep, for recoils (sim/collision/recoils.hpp): bits of floats. The buffer begins
 // with the DispatchArguments of find_recoils, with groups if a particle is fast after its contacts. Sections of one uvec4 a
 // slot follow:
 //

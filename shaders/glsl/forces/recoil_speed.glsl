@@ -1,4 +1,5 @@
-// What takes part in recoils, and when they are taken back. Requires the name `step` of a kernel.
+// Conditions of recoils: the speed from which they are taken back, and the particles that take part. Requires the name
+// `step` of a kernel.
 
 // The slowest recoil of two particles that is taken back [m/s]; `reach` is the distance at which they touch, or less.
 // One that would lift a particle by less than RECOIL_LIFT of it is left.

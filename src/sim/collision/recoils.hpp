@@ -3,7 +3,7 @@
 // a column that falls onto a plane is compressed, and thrown up again by half of its speed.
 //
 // At the end of a substep each contact may take back impulses, up to what both of its particles received
-// along its line, while it parts. These are the impulses of least kinetic energy:
+// along its line, while it parts. Iterations approach the impulses of least kinetic energy:
 //
 //   find_recoils        particles that part fast; runs only while something is as fast
 //   take_recoils_back   one work group: iterations, from these particles on; runs only if there are any
