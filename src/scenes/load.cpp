@@ -81,6 +81,22 @@ void readContacts(LoadedScene& loaded, const Section& contacts) {
     loaded.settings.contactRoom = contacts.count("room");
 }
 
+// So many candidates that no buffer of lists exceeds 128 MiB, which every Vulkan device binds: 16 bytes a
+// candidate of a particle, at any node of its grid, 20 of one of a point or an edge of faces
+// (pooled_lists.cpp).
+void leaveRoom(sim::Settings& settings, const sim::Scene& scene) {
+    constexpr std::uint64_t most = std::uint64_t{128} << 20, padding = 1024;
+    std::uint64_t slots = scene.particles.size() + padding, faces = 0;
+    for (const sim::Grid& grid : scene.grids)
+        slots += std::uint64_t{grid.nodes[0]} * grid.nodes[1] * grid.nodes[2] - grid.node.size();
+    for (const sim::Face& face : scene.faces) faces += face.isSolid ? 0 : 1;
+    const std::uint64_t points = scene.faces.empty() ? 0 : scene.particles.size(),
+                        edges = faces + faces * 5 / 9;
+    const std::uint64_t each = most / std::max({16 * slots, 20 * points, 20 * edges});
+    settings.contactRoom = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(settings.contactRoom, std::max<std::uint64_t>(each, 1)));
+}
+
 void apply(const Overrides& overrides, LoadedScene& loaded) {
     sim::Settings& settings = loaded.settings;
     if (overrides.solver) settings.solver = solverNamed(*overrides.solver, "--solver");
@@ -319,6 +335,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     loaded.origin = originOf(top);
     readBodies(loaded, top, source, overrides.voxel);
     leaveWholeAsAsked(overrides, loaded);
+    if (!top.child("contacts").has("room")) leaveRoom(loaded.settings, loaded.scene);
     if (top.has("camera")) {
         const Section camera = top.child("camera");
         loaded.camera = Camera{localPoint(camera, "eye", loaded.origin),

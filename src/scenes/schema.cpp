@@ -221,7 +221,7 @@ constexpr Key keys[] = {
     {"contacts", "take_recoils_back", Kind::flag, "", {}, "false", "loose balls without restitution stay down: pushes that part overlaps become no speed; not where faces touch"},
     {"contacts", "rest_contact", Kind::text, "", {}, "\"part\"", "contacts and overlaps that exist at load: \"part\" with recovery_speed, \"keep\" their distance as a rest distance; a pair keeps it if either body does"},
     {"contacts", "margin", Kind::number, "median radii", ranges::contactMargin, "0.5", "extra distance up to which pairs are listed as candidates; changes the speed, not the result"},
-    {"contacts", "room", Kind::count, "candidates", ranges::contactRoom, "8", "initial capacity of the lists for a particle, a point or an edge, on average; a single one may have far more; programs enlarge it when needed"},
+    {"contacts", "room", Kind::count, "candidates", ranges::contactRoom, "8", "initial capacity of the lists for a particle, a point or an edge, on average, less by default where it would take more than 128 MiB; a single one may have far more; programs enlarge it when needed, as far as the device can bind"},
 
     {"mesh_collider", "name", Kind::text, "", {}, "", "name of the body in reports and files; that of the mesh file or shape if missing"},
     {"mesh_collider", "file", Kind::text, "", {}, "", "mesh file in the scene's folder or below, or \"argument\": the mesh of the command line"},

@@ -386,6 +386,16 @@ TEST_F(LoadContacts, RefusesSurfacesOfWhatHasNone) {
                 "scene.toml:260: particles[64].friction makes more than 64 different surfaces: let bodies");
 }
 
+// Four words of memory a candidate: a storage buffer holds 128 MiB on every Vulkan device.
+TEST_F(LoadContacts, LeavesRoomForCandidatesThatEveryDeviceHas) {
+    const scenes::LoadedScene many =
+        load("[[particles]]\nradius = 0.01\nspacing = 0.03\ncount = [100, 100, 120]\n");
+    EXPECT_EQ(many.settings.contactRoom, 6u);
+    const scenes::LoadedScene wide =
+        load("[[cloth]]\nsize = [700, 700]\nspacing = 0.01\nthickness = 0.005\n");
+    EXPECT_EQ(wide.settings.contactRoom, 4u) << "edges, three a particle";
+}
+
 TEST_F(LoadContacts, TakesWhatHoldsForAllFromTheirTable) {
     const scenes::LoadedScene plain = load(balls);
     EXPECT_EQ(plain.scene.contacts.friction, 0);

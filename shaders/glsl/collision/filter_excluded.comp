@@ -1,7 +1,7 @@
 #version 460
 // Excluded pairs after a cut. Linked particles never touch each other, particles on both sides of a cut do: of
-// each particle's excluded partners, those still linked with it are kept. Rows stay sorted and as long as before: the
-// last entry is repeated. If links were cut or restored, all contact lists are rebuilt.
+// each particle's excluded partners in later slots, those still linked with it are kept. Rows stay sorted and as long as
+// before: the last entry is repeated. If links were cut or restored, all contact lists are rebuilt.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/cut.glsl"

@@ -20,7 +20,7 @@ layout(std430, binding = 4) coherent volatile buffer Bounds { GridBounds bounds;
 layout(std430, binding = 5) buffer Chains { uint chains[]; };
 #define PAIRS_BINDING 6
 layout(std430, binding = 7) readonly buffer Large { uint large[]; };
-layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; }; // first of each particle, then the lists, sorted
+layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; }; // first of each particle, then partners in later slots, sorted
 #include "common/contacts.glsl"
 layout(std430, binding = 9) readonly buffer Velocities { vec4 velocities[]; }; // that led to these positions
 layout(std430, binding = 10) readonly buffer Fast { uint fast[]; };

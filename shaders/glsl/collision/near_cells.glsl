@@ -7,7 +7,7 @@ float listedUpTo(float touching) { return (1.0 + SHARE_BAND) * touching + push.m
 // onWay: or nearer than touching on its path.
 bool isNear(uint i, uint j, float radius, vec3 d, bool onWay) {
     const float touching = radius + (hasOneRadius ? radius : RADIUS(j)), listed = listedUpTo(touching);
-    return i != j && (dot(d, d) < listed * listed || onWay && wasNear(i, j, touching, d)) && !isExcluded(i, j);
+    return i != j && (dot(d, d) < listed * listed || onWay && wasNear(i, j, touching, d)) && !isExcluded(min(i, j), max(i, j));
 }
 
 void list(uint i, uint j) {

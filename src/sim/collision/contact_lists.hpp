@@ -11,8 +11,8 @@
 
 namespace sinew::sim::collision::contact_lists {
 
-/// Pairs of particles that never touch: for each state slot the first of its partners, one more entry for the
-/// end, then the partners of all slots, sorted. Empty = no such pair.
+/// Pairs of particles that never touch: for each state slot the index of the first of its partners in later
+/// slots, one more entry for the end, then the partners of all slots, sorted. Empty = no such pair.
 using Exclusions = std::vector<std::uint32_t>;
 
 /// Linked pairs, and pairs of one linked body with a rest distance below 1.05 times contact distance. `radii`

@@ -73,11 +73,9 @@ private:
 };
 
 Exclusions listed(std::vector<Pair> pairs, const StateLayout& layout) {
-    const std::size_t half = pairs.size();
-    for (std::size_t p = 0; p < half; ++p) {
-        Pair& pair = pairs[p];
-        pair = {layout.slot[pair[0]], layout.slot[pair[1]]};
-        pairs.push_back({pair[1], pair[0]});
+    for (Pair& pair : pairs) {
+        const auto [first, second] = std::minmax(layout.slot[pair[0]], layout.slot[pair[1]]);
+        pair = {first, second};
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

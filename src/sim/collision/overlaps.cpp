@@ -18,8 +18,10 @@ struct Place {
 };
 
 bool isExcluded(const contact_lists::Exclusions& exclusions, std::uint32_t i, std::uint32_t j) {
-    return !exclusions.empty() &&
-           std::binary_search(exclusions.begin() + exclusions[i], exclusions.begin() + exclusions[i + 1], j);
+    if (exclusions.empty()) return false;
+    const auto [first, second] = std::minmax(i, j);
+    return std::binary_search(exclusions.begin() + exclusions[first],
+                              exclusions.begin() + exclusions[first + 1], second);
 }
 
 class Search {
