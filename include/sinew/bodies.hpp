@@ -32,6 +32,7 @@ struct SINEW_API ClothSheet {
     bool isCuttable = false;             ///< Grid::isCuttable
     float tearStrain = 0;                ///< Grid::tearStrain
     std::uint32_t tearsPerStep = 16;     ///< Grid::tearsPerStep
+    float toughness = 0;                 ///< Grid::toughness [J/m]
     Vec3 color{0.16f, 0.34f, 0.58f};
 };
 
@@ -134,6 +135,7 @@ struct SINEW_API Lattice {
     bool isCuttable = false;         ///< Grid::isCuttable
     float tearStrain = 0;            ///< Grid::tearStrain
     std::uint32_t tearsPerStep = 16; ///< Grid::tearsPerStep
+    float toughness = 0;             ///< Grid::toughness [J/m^2]
     float restVolume = 0;            ///< of the body [m^3], for its mass; 0 = sum of fill x cell volume
 };
 

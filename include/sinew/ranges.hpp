@@ -69,6 +69,7 @@ inline constexpr Range embeddingWeight{-1e-3, 1 + 1e-3}; // rounding of a vertex
 inline constexpr Range color{0, 1};
 inline constexpr Range tearStrain{0, 100};
 inline constexpr Range tearsPerStep{1, 65535};
+inline constexpr Range toughness{0, 1e9};     // [J/m^2]
 inline constexpr std::size_t mostPlanes = 32; // bits of the touched set in planes.glsl
 
 // Settings

@@ -216,6 +216,9 @@ struct SINEW_API Grid {
     /// first, then the most stretched ones. 0.2 = at 1.2 times the rest length; 0 = never.
     float tearStrain = 0;
     std::uint32_t tearsPerStep = 16;
+    /// Work of a blade for each area that it cuts, of the body at rest [J/m^2], in a sheet for each length
+    /// [J/m]. It gives the force on the blade (Impulses::blade) and changes no motion. 0 = no force
+    float toughness = 0;
 };
 
 /// Whether the cells of a grid have volume energies. No list of constraints holds these, only the grid does.

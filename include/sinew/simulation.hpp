@@ -99,6 +99,9 @@ struct SINEW_API Impulses {
     std::vector<Impulse> planes, colliders, hostColliders;
     /// Impulses on the particles. Angular ones are about the held point of a grab, and 0 for the others.
     std::vector<Impulse> grabs, attachments, holds; ///< by Settings::grabs, Scene::attachments, Scene::holds
+    /// The impulse on the blade of the step, against its way through what it cuts; its work is that of
+    /// Grid::toughness. Bodies do not feel it, and a ray has none. Empty if no body has a toughness.
+    std::vector<Impulse> blade;
 };
 
 /// The range of one Skin of the scene in the skin buffers.

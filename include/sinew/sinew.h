@@ -303,6 +303,7 @@ typedef struct SinewCloth {
     float tearStrain; // 0 = never tears
     uint32_t pinnedCount;
     const uint32_t* pinned; // particles of the sheet that are fixed, row by row
+    float toughness;        // as in SinewLattice [J/m]
 } SinewCloth;
 SINEW_C_API SinewCloth sinewDefaultCloth(void);
 SINEW_C_API SinewResult sinewAddCloth(SinewScene scene, const SinewCloth* cloth, uint32_t* body);
@@ -323,7 +324,7 @@ typedef struct SinewLattice {
     float tearStrain;  // 0 = never tears
     uint32_t hasSkin;  // of the outer faces
     uint32_t hasFaces; // for contacts of the surface; needs a radius
-    uint32_t reserved; // 0
+    float toughness;   // work of a blade on what it cuts [J/m^2]: SINEW_IMPULSES_BLADE
     const float* fill; // share of each cell that is material, x fastest; null = all whole
     size_t fillCount;  // 0, or cells[0] x cells[1] x cells[2]
 } SinewLattice;
@@ -343,7 +344,7 @@ typedef struct SinewMesh {
     float youngModulus, poissonRatio, recovery, density; // as in SinewLattice
     uint32_t touches;                                    // particles have a radius of half a voxel
     uint32_t isCuttable;
-    float tearStrain;
+    float tearStrain, toughness;
 } SinewMesh;
 SINEW_C_API SinewMesh sinewDefaultMesh(void);
 SINEW_C_API SinewResult sinewAddMesh(SinewScene scene, const SinewMesh* mesh, uint32_t* body);
@@ -377,8 +378,7 @@ typedef struct SinewSettings {
     uint32_t hasSharpClamp;                // of `split`: links are clamped by the directions in which they meet
     uint32_t outputFrames;                 // steps of which sinewGetFrameView() of sinew_query.h has the outputs, 0 to 8
 } SinewSettings;
-// As many levels as win at equal error, by the kind of body, its size and the substeps.
-#define SINEW_AUTO_LEVELS 0xffffffffu
+#define SINEW_AUTO_LEVELS 0xffffffffu // as many as win at equal error, by the kind and size of bodies and the substeps
 SINEW_C_API SinewSettings sinewDefaultSettings(void);
 // The settings of a scene that sinewLoadScene() read; else the default ones.
 SINEW_C_API SinewResult sinewGetSceneSettings(SinewScene scene, SinewSettings* settings);
@@ -544,7 +544,8 @@ enum {
     SINEW_IMPULSES_HOST_COLLIDERS = 2,
     SINEW_IMPULSES_GRABS = 3,
     SINEW_IMPULSES_ATTACHMENTS = 4,
-    SINEW_IMPULSES_HOLDS = 5
+    SINEW_IMPULSES_HOLDS = 5,
+    SINEW_IMPULSES_BLADE = 6 // one, by `toughness` of bodies, without a moment; none if no body has any
 };
 // Impulses on bodies, or by things of a kind, in a step (SinewSettings::keepsForces): copies at most *count
 // elements and sets *count to the number that there are. SINEW_NOT_READY as sinewGetStatus().
@@ -553,8 +554,7 @@ SINEW_C_API SinewResult sinewGetBodyImpulses(SinewSimulation simulation, uint64_
 SINEW_C_API SinewResult sinewGetImpulses(SinewSimulation simulation, uint64_t frame, uint32_t kind, uint32_t* count,
                                          SinewImpulse* impulses);
 
-// A sentence on a mistake in recording that was ignored, each kind once; SINEW_END if there is no further one.
-// Valid until the next call with this simulation.
+// A sentence on an ignored mistake in recording, each kind once, valid until the next call; SINEW_END after the last.
 SINEW_C_API SinewResult sinewNextComplaint(SinewSimulation simulation, const char** sentence);
 
 // --- Saved states

@@ -78,7 +78,8 @@ std::uint32_t addMeshBody(sim::Scene& scene, const mesh::TriangleMesh& mesh, con
                    .density = given.density,
                    .touchesParticles = given.touches != 0,
                    .isCuttable = given.isCuttable != 0,
-                   .tearStrain = given.tearStrain});
+                   .tearStrain = given.tearStrain,
+                   .toughness = given.toughness});
     return lastBody(scene, nullptr);
 }
 
@@ -133,7 +134,8 @@ SinewResult sinewAddCloth(SinewScene scene, const SinewCloth* cloth, uint32_t* b
                                       .radius = given.radius,
                                       .pinned = {given.pinned, given.pinned + given.pinnedCount},
                                       .isCuttable = given.isCuttable != 0,
-                                      .tearStrain = given.tearStrain});
+                                      .tearStrain = given.tearStrain,
+                                      .toughness = given.toughness});
         addition.keep();
         lastBody(object->scene, body);
     });
@@ -183,7 +185,8 @@ SinewResult sinewAddLattice(SinewScene scene, const SinewLattice* lattice, uint3
                                  .radius = given.radius,
                                  .hasBodyDiagonals = given.hasBodyDiagonals != 0,
                                  .isCuttable = given.isCuttable != 0,
-                                 .tearStrain = given.tearStrain};
+                                 .tearStrain = given.tearStrain,
+                                 .toughness = given.toughness};
         const sim::LatticeCorners corners = sim::addLattice(to, added);
         if (given.hasSkin != 0) sim::addLatticeSkin(to, added, corners, {0.78f, 0.36f, 0.32f});
         if (given.hasFaces != 0) {

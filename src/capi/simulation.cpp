@@ -108,7 +108,7 @@ void giveList(const std::vector<Given>& list, std::uint32_t& count, Element* ele
     count = static_cast<std::uint32_t>(list.size());
 }
 
-const std::vector<sim::Impulse>& listOf(const sim::Impulses& impulses, std::uint32_t kind) {
+std::vector<sim::Impulse> listOf(const sim::Impulses& impulses, std::uint32_t kind) {
     switch (kind) {
     case SINEW_IMPULSES_PLANES:
         return impulses.planes;
@@ -122,6 +122,8 @@ const std::vector<sim::Impulse>& listOf(const sim::Impulses& impulses, std::uint
         return impulses.attachments;
     case SINEW_IMPULSES_HOLDS:
         return impulses.holds;
+    case SINEW_IMPULSES_BLADE:
+        return impulses.blade;
     default:
         invalidArgument("there are no impulses of kind " + std::to_string(kind));
     }

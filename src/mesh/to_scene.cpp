@@ -104,7 +104,8 @@ sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double vol
                          .radius = body.touchesParticles ? grid.spacing / 2 : 0,
                          .isCuttable = body.isCuttable,
                          .tearStrain = body.tearStrain,
-                         .tearsPerStep = body.tearsPerStep};
+                         .tearsPerStep = body.tearsPerStep,
+                         .toughness = body.toughness};
     // A hull cell may contain the surface and none of the 64 samples: it exists all the same, because the
     // skin is bound to it.
     for (std::size_t i = 0; i < grid.voxels.size(); ++i)

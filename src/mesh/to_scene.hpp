@@ -19,6 +19,7 @@ struct MeshBody {
     bool isCuttable = false;
     float tearStrain = 0;            ///< sim::Grid::tearStrain
     std::uint32_t tearsPerStep = 16; ///< sim::Grid::tearsPerStep
+    float toughness = 0;             ///< sim::Grid::toughness [J/m^2]
     Vec3 color{0.78f, 0.36f, 0.32f};
 };
 

@@ -242,6 +242,12 @@ float tearStrainOf(const Section& body) {
     return body.number("tear");
 }
 
+float toughnessOf(const Section& body) {
+    if (body.number("toughness") > 0 && !body.flag("cuttable"))
+        body.fail("toughness", "is given, but the body may not be cut", "add cuttable = true");
+    return body.number("toughness");
+}
+
 void addCloth(LoadedScene& loaded, const Section& cloth) {
     requireUnit(cloth, "right");
     requireUnit(cloth, "down");
@@ -272,6 +278,7 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .isCuttable = cloth.flag("cuttable"),
                           .tearStrain = tearStrainOf(cloth),
                           .tearsPerStep = cloth.count("tears_per_step"),
+                          .toughness = toughnessOf(cloth),
                           .color = cloth.vector("color")};
     checkRoom(loaded, std::uint64_t{sheet.size[0]} * sheet.size[1], cloth, "size");
     addPins(cloth, sheet);
@@ -317,7 +324,8 @@ void addBox(LoadedScene& loaded, const Section& box, FaceChoices& faces) {
                                .radius = radiusOf(loaded, box),
                                .isCuttable = box.flag("cuttable"),
                                .tearStrain = tearStrainOf(box),
-                               .tearsPerStep = box.count("tears_per_step")};
+                               .tearsPerStep = box.count("tears_per_step"),
+                               .toughness = toughnessOf(box)};
     const BoxRows rows = rowsOf(box, lattice, copies, loaded.origin);
     const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
     for (std::uint64_t i = 0; i < count; ++i) {

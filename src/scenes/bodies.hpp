@@ -32,6 +32,7 @@ void noteDefaultContacts(LoadedScene& loaded, const Section& body, std::size_t f
 
 /// As sim::Grid has it; 0 = never tears.
 float tearStrainOf(const Section& body);
+float toughnessOf(const Section& body);
 
 void addCloth(LoadedScene& loaded, const Section& cloth);
 void addChain(LoadedScene& loaded, const Section& chain);

@@ -149,6 +149,7 @@ mesh::MeshBody bodyOf(const LoadedScene& loaded, const Section& section, std::op
                         .isCuttable = section.flag("cuttable"),
                         .tearStrain = tearStrainOf(section),
                         .tearsPerStep = section.count("tears_per_step"),
+                        .toughness = toughnessOf(section),
                         .color = section.vector("color")};
     body.voxels.resolution = section.count("resolution");
     if (section.has("voxel")) body.voxels.spacing = section.number("voxel");

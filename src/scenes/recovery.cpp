@@ -64,7 +64,10 @@ bool leaveWhole(sim::Scene& scene, const sim::Settings& settings) {
     const auto tears = [](const sim::Grid& grid) { return grid.tearStrain > 0; };
     const bool isRefused = settings.solver == sim::Solver::split || std::ranges::any_of(scene.grids, tears);
     if (isRefused || std::ranges::none_of(scene.grids, &sim::Grid::isCuttable)) return false;
-    for (sim::Grid& grid : scene.grids) grid.isCuttable = false;
+    for (sim::Grid& grid : scene.grids) {
+        grid.isCuttable = false;
+        grid.toughness = 0;
+    }
     return true;
 }
 

@@ -40,7 +40,10 @@ TEST_F(LoadBlades, MakesBodiesTear) {
     EXPECT_EQ(grid("cuttable = true\ntear = 0.2\n").tearStrain, 0.2f);
     EXPECT_EQ(grid("cuttable = true\ntear = 0.2\n").tearsPerStep, 16u);
     EXPECT_EQ(grid("cuttable = true\ntear = 0.2\ntears_per_step = 3\n").tearsPerStep, 3u);
+    EXPECT_EQ(grid("cuttable = true\ntoughness = 250\n").toughness, 250.0f);
     const auto error = [&](const std::string& keys) { return errorOfText(test::smallCloth + keys); };
+    EXPECT_NE(error("toughness = 250\n").find("toughness is given, but the body may not be cut"),
+              std::string::npos);
     EXPECT_NE(error("tear = 0.2\n").find("tear is given, but the body may not be cut: add cuttable = true"),
               std::string::npos);
     EXPECT_NE(error("cuttable = true\ntear = -1\n").find("cloth[0].tear is -1: must be from 0 to 100"),

@@ -208,7 +208,8 @@ Json forcesJson(const RunRecord& record) {
     return {{"bodies", bodies},
             {"planes", forcesJson(forces.planes, scene.dt)},
             {"colliders", forcesJson(forces.colliders, scene.dt)},
-            {"holds", holds}};
+            {"holds", holds},
+            {"blade", forces.blade.empty() ? Json() : vectorOver(forces.blade.front().linear, scene.dt)}};
 }
 
 } // namespace

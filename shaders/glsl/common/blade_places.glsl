@@ -10,7 +10,7 @@ void readBlade() {
     if (usesTexels) {
         const uvec4 words = texelFetch(bladeTexels, 4);
         blade = BladeHead(uintBitsToFloat(texelFetch(bladeTexels, 0)), uintBitsToFloat(texelFetch(bladeTexels, 1)), uintBitsToFloat(texelFetch(bladeTexels, 2)),
-                          uintBitsToFloat(texelFetch(bladeTexels, 3)), words.x, words.y, 0u, 0u);
+                          uintBitsToFloat(texelFetch(bladeTexels, 3)), words.x, words.y, uintBitsToFloat(words.z), 0u);
     } else {
         blade = bladeLoads;
     }

@@ -9,7 +9,8 @@ struct BladeHead {
     vec4 rayTo;
     uint quads;      // quads of the strip; its points are start and end position of point 0, of point 1, ...
     uint isCarried;  // the strip starts where that of the step before ended, in the material, wherever that has moved
-    uint unused0, unused1;
+    float dt;        // length of the step [s]
+    uint unused0;
 };
 
 // Shift of a blade to one side, so that no particle lies exactly in its path [cells].
@@ -50,6 +51,8 @@ struct CutPush {
     uint stiffLinks;             // bits of the links that have stiffness
     float spacing;               // [m]
     uint run;                    // index of the run, which selects its lists
+    float linkWork;              // work of cutting a link across an edge of a cell [J]; 0 = none
+    float forceScale;            // 1 / unit of the force on the blade [1 / N s]
 };
 
 // Slots that one invocation of count_pieces handles.

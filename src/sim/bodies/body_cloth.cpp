@@ -103,7 +103,8 @@ void addGrid(Scene& scene, const ClothSheet& sheet, std::uint32_t first, std::si
               .restLength = {sheet.spacing, static_cast<float>(sheet.spacing * std::sqrt(2.0)), 0},
               .isCuttable = sheet.isCuttable,
               .tearStrain = sheet.tearStrain,
-              .tearsPerStep = sheet.tearsPerStep};
+              .tearsPerStep = sheet.tearsPerStep,
+              .toughness = sheet.toughness};
     for (std::uint32_t node = 0; node < columns * rows; ++node) grid.node.push_back(node);
     scene.grids.push_back(std::move(grid));
 }

@@ -274,7 +274,8 @@ void addGrid(Scene& scene, const Lattice& lattice, const Cells& cells, const Lat
               .recoveryPressure = static_cast<float>(double{lattice.recovery} * shearModulus(lattice)),
               .isCuttable = lattice.isCuttable,
               .tearStrain = lattice.tearStrain,
-              .tearsPerStep = lattice.tearsPerStep};
+              .tearsPerStep = lattice.tearsPerStep,
+              .toughness = lattice.toughness};
     for (std::size_t kind = 0; kind < kinds.count; ++kind)
         grid.compliance[kind] = static_cast<float>(1 / kinds.stiffness[kind]);
     for (std::uint32_t node = 0; node < corners.particle.size(); ++node)

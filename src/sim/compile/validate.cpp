@@ -448,8 +448,9 @@ void checkGrids(const Scene& scene, Complaints& complaints) {
             complaints.add(nameOf(scene, g), "is a sheet, whose cells have no volume");
         complaints.check(double{grid.tearStrain}, ranges::tearStrain, name(".tearStrain"));
         complaints.check(static_cast<double>(grid.tearsPerStep), ranges::tearsPerStep, name(".tearsPerStep"));
-        if (grid.tearStrain > 0 && !grid.isCuttable)
-            complaints.add(nameOf(scene, g), "tears (tearStrain), which only a body with isCuttable can");
+        complaints.check(double{grid.toughness}, ranges::toughness, name(".toughness"));
+        if (!grid.isCuttable && (grid.tearStrain > 0 || grid.toughness > 0))
+            complaints.add(nameOf(scene, g), "tears or is tough, which only a body with isCuttable can");
     }
     checkOverlap(scene, complaints);
 }

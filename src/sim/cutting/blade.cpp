@@ -51,9 +51,9 @@ bool BladeWords::readRay(const RayCut& ray) noexcept {
     return true;
 }
 
-bool BladeWords::read(const Step& step) noexcept {
+bool BladeWords::read(const Step& step, float dt) noexcept {
     constexpr float nothing = 3e38f;
-    head_ = {.low = {nothing, nothing, nothing, 0}, .high = {-nothing, -nothing, -nothing, 0}};
+    head_ = {.low = {nothing, nothing, nothing, 0}, .high = {-nothing, -nothing, -nothing, 0}, .dt = dt};
     const bool hasBlade = readBlade(step.blade);
     const bool hasRay = readRay(step.ray);
     return hasBlade || hasRay;

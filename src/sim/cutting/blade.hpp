@@ -12,9 +12,9 @@ namespace sinew::sim::cutting {
 
 class BladeWords {
 public:
-    /// Reads `step`; returns whether it cuts anything. A blade with too many points, poly-lines of unequal
-    /// length or non-finite numbers is ignored.
-    bool read(const Step& step) noexcept;
+    /// Reads `step`, which takes `dt` [s]; returns whether it cuts anything. A blade with too many points,
+    /// poly-lines of unequal length or non-finite numbers is ignored.
+    bool read(const Step& step, float dt) noexcept;
     /// Whether the last step that was read has a blade, not only a ray.
     bool hasQuads() const noexcept { return head_.quads > 0; }
 

@@ -17,7 +17,8 @@ namespace {
 
 namespace k = kernels;
 
-constexpr std::uint32_t hasDebrisId = 1; // constant_id in find_near_links.comp
+constexpr std::uint32_t hasDebrisId = 1;  // constant_id in find_near_links.comp
+constexpr std::uint32_t keepsForceId = 1; // constant_id in cut_links.comp
 
 void addWholeCells(ProgramBuilder& program, const Cut& cut) {
     const CuttingBuffers& buffers = cut.buffers;
@@ -66,11 +67,13 @@ void addBlade(ProgramBuilder& program, const Cut& cut) {
     program.fill(cut.nearCounts, 0);
     addNear(program, cut);
     planLists(program, cut, cut.nearCounts, cut.nearArguments);
+    const bool keepsForce = buffers.bladeForce != BufferId{};
     for (const Run& run : cut.runs)
         program.dispatchIndirect(k::cutLinks, {cut.nearArguments, run.push.run, run.push.count},
                                  {cut.bladePlaces, cut.placesBefore, cut.blade, cut.points, buffers.links,
-                                  buffers.hits, buffers.dirty, cut.work, cut.nearCounts, cut.nears},
-                                 run.push);
+                                  buffers.hits, buffers.dirty, cut.work, cut.nearCounts, cut.nears,
+                                  boundIf(keepsForce, buffers.bladeForce), boundIf(keepsForce, cut.cells)},
+                                 run.push, {{keepsForceId, keepsForce}});
 }
 
 // Lists the nodes with links that died: the passes that follow run only there.

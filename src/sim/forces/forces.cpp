@@ -118,6 +118,10 @@ void addRows(ProgramBuilder& program, const SceneModel& model, const Forces& for
     for (std::uint32_t a = 0; a < forces.attachments; ++a)
         addListed({forces.firstEntry() + forces.tethers + a});
     for (std::uint32_t h = 0; h < model.scene.holds.size(); ++h) addListed(elementsOf(h, model, forces));
+    const CuttingBuffers& cutting = program.program().cutting;
+    const auto bladePart = static_cast<std::uint32_t>(sums.chunks.size());
+    const bool hasBlade = cutting.bladeForce != BufferId{};
+    if (hasBlade) sums.addPart();
     if (sums.ranges.empty()) return;
     ForceBuffers& built = program.program().forces;
     const auto chunks = static_cast<std::uint32_t>(sums.chunks.size());
@@ -134,6 +138,11 @@ void addRows(ProgramBuilder& program, const SceneModel& model, const Forces& for
         program.dispatch(
             k::readColliderForces, forces.summed, {forces.colliderForces, built.rowParts},
             layout::ColliderForcePush{forces.summed, firstSummed, 1 / forces.colliderForceScale});
+    if (hasBlade) {
+        program.dispatch(k::readColliderForces, 1, {cutting.bladeForce, built.rowParts},
+                         layout::ColliderForcePush{1, bladePart, 1 / cutting.bladeForceScale});
+        program.fill(cutting.bladeForce, 0); // a step without a blade records no pass that does so
+    }
     pushed.count = count;
     program.dispatch(
         k::addForceRows, count,
@@ -316,8 +325,9 @@ void addSums(Build& build) {
     built.stops = static_cast<std::uint32_t>(forces.stops.rows.size());
     built.attachments = forces.attachments;
     built.holds = static_cast<std::uint32_t>(scene.holds.size());
+    built.blades = program.program().cutting.bladeForce != BufferId{} ? 1 : 0;
     const std::uint32_t firstRow = FORCE_KINDS * built.bodies;
-    const std::uint32_t count = firstRow + forces.sums() + built.attachments + built.holds;
+    const std::uint32_t count = firstRow + forces.sums() + built.attachments + built.holds + built.blades;
     built.sums = program.scratchOfStep<layout::ForceSum>("forces.sums", std::max(count, 1u));
     const layout::ForcePush push{0, forces.grabs, forces.planes, forces.colliders, firstRow};
     addRows(program, model, forces, push);

@@ -42,7 +42,8 @@ void addOfSplit(Key& key, const Scene& scene) {
     key.each(scene.faces, [&](const Face& face) {
         key.addAll(face.particles[0], face.particles[1], face.particles[2], face.thickness, face.isSolid);
     });
-    key.each(scene.grids, [&](const Grid& grid) { key.addAll(grid.isCuttable, grid.tearStrain); });
+    key.each(scene.grids,
+             [&](const Grid& grid) { key.addAll(grid.isCuttable, grid.tearStrain, grid.toughness); });
     key.add(scene.debris);
 }
 

@@ -218,13 +218,15 @@ struct CuttingBuffers {
     /// Slots with a dirty corner in one of their cells, by run, each run from its first slot on; their
     /// number, and the group counts of the passes over them, by run.
     BufferId listed, listedCounts, listedArguments;
-    bool tears = false;       ///< whether a step without a blade may cut something
-    std::vector<CutRun> runs; ///< ranges of the dispatches over cuttable slots
-    BufferId places;          ///< by slot: position at the start of the step [m]
-    BufferId placesBefore;    ///< by slot: position at the last blade [m]; w = 0: there was none
-    BufferId counts;          ///< one layout::CutCounts
-    BufferId labels;          ///< by slot: the lowest slot of its piece
-    BufferId particles;       ///< by slot: the particle in it, or layout's NO_PARTICLE
+    bool tears = false;        ///< whether a step without a blade may cut something
+    std::vector<CutRun> runs;  ///< ranges of the dispatches over cuttable slots
+    BufferId places;           ///< by slot: position at the start of the step [m]
+    BufferId placesBefore;     ///< by slot: position at the last blade [m]; w = 0: there was none
+    BufferId counts;           ///< one layout::CutCounts
+    BufferId bladeForce;       ///< layout::ColliderForce without moments, 0 between steps; by Grid::toughness
+    float bladeForceScale = 0; ///< 1 / its unit [1 / N s]
+    BufferId labels;           ///< by slot: the lowest slot of its piece
+    BufferId particles;        ///< by slot: the particle in it, or layout's NO_PARTICLE
     /// By particle: the particle that names its piece; layout's NO_PARTICLE in bodies that are not cuttable,
     /// its REMOVED_PIECE in a fragment.
     BufferId pieces;
@@ -317,8 +319,8 @@ struct ForceBuffers {
     BufferId parts, rowParts;
     BufferId sums; ///< layout::ForceSum: FORCE_KINDS for each body, then the rows
     std::uint32_t bodies = 0, grabs = 0, planes = 0, hostColliders = 0, colliders = 0, stops = 0,
-                  attachments = 0,
-                  holds = 0; ///< number of each
+                  attachments = 0, holds = 0,
+                  blades = 0; ///< number of each
 };
 
 /// Events of a step (events.hpp); invalid if none are listed.

@@ -124,7 +124,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
 void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step,
                         vk::Timestamps* timestamps) noexcept {
     const float dt = withinRange(step.dt);
-    const bool isBlade = state_->blade.read(step) && state_->mayBeCut();
+    const bool isBlade = state_->blade.read(step, dt) && state_->mayBeCut();
     const bool hasBlade = isBlade || state_->program.cutting.tears;
     state_->noteMisuse(step);
     state_->readSteps();
@@ -332,6 +332,7 @@ Impulses Simulation::forces(std::uint64_t frame) const {
     next += buffers.stops; // already part of the bodies
     impulses.attachments = take(buffers.attachments);
     impulses.holds = take(buffers.holds);
+    impulses.blade = take(buffers.blades);
     return impulses;
 }
 

@@ -99,7 +99,10 @@ StudyScene forEverySolver(StudyScene study) {
     const scenes::Defaults& defaults = study.loaded.defaults;
     sim::Scene common = scenes::withoutDefaults(study.loaded.scene, defaults, other);
     for (sim::Grid& grid : common.grids)
-        if (grid.tearStrain == 0) grid.isCuttable = false;
+        if (grid.tearStrain == 0) {
+            grid.isCuttable = false;
+            grid.toughness = 0;
+        }
     std::string names, untouched;
     for (const std::uint32_t body : defaults.contacts)
         untouched = withName(untouched, common.bodies[body].name);
