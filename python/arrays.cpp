@@ -48,6 +48,40 @@ py::array outputArray(SinewDevice device, SinewSimulation simulation, std::uint3
     return array;
 }
 
+namespace {
+
+SinewSimulationInfo infoOf(SinewSimulation simulation) {
+    SinewSimulationInfo info{};
+    info.size = sizeof info;
+    check(sinewGetSimulationInfo(simulation, &info));
+    return info;
+}
+
+} // namespace
+
+py::array_t<float> impulsesOf(SinewSimulation simulation) {
+    const SinewSimulationInfo info = infoOf(simulation);
+    std::uint32_t count = info.bodies;
+    std::vector<SinewBodyImpulses> impulses(count);
+    const std::uint64_t next = info.nextFrame;
+    if (next == 0 || sinewGetBodyImpulses(simulation, next - 1, &count, impulses.data()) != SINEW_OK)
+        count = 0;
+    py::array_t<float> array(std::vector<py::ssize_t>{count, 5, 2, 3});
+    static_assert(sizeof(SinewBodyImpulses) == 5 * 2 * 3 * sizeof(float));
+    std::memcpy(array.mutable_data(), impulses.data(), count * sizeof(SinewBodyImpulses));
+    return array;
+}
+
+py::array_t<float> bladeImpulseOf(SinewSimulation simulation) {
+    std::uint32_t count = 1;
+    SinewImpulse impulse{};
+    const std::uint64_t next = infoOf(simulation).nextFrame;
+    if (next > 0) check(sinewGetImpulses(simulation, next - 1, SINEW_IMPULSES_BLADE, &count, &impulse));
+    py::array_t<float> array(3);
+    std::memcpy(array.mutable_data(), &impulse.linear, sizeof impulse.linear);
+    return array;
+}
+
 py::list eventsOf(SinewSimulation simulation) {
     constexpr std::array<const char*, 5> partners{"", "body", "plane", "host_collider", "collider"};
     std::uint32_t count = 0;

@@ -36,6 +36,11 @@ inline constexpr std::array<const char*, 8> eventNames{
 /// Events of the newest steps of a simulation, as a list of dicts.
 py::list eventsOf(SinewSimulation simulation);
 
+/// Impulses on bodies in the newest step, with the axes body, kind, part and coordinate.
+py::array_t<float> impulsesOf(SinewSimulation simulation);
+/// Impulse on the blade in the newest step; 0 if no body has a toughness.
+py::array_t<float> bladeImpulseOf(SinewSimulation simulation);
+
 /// Values of `count` elements, given as one number or as an array with one for each.
 class PerElement {
 public:

@@ -36,8 +36,8 @@ struct Simulation : Owned<SinewSimulation, sinewDestroySimulation> {
     void step(std::uint32_t count, const std::optional<float>& dt, const std::optional<Vector>& gravity,
               const std::optional<Floats>& anchors, const std::vector<SinewGrab>& grabs,
               const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders,
-              const std::vector<SinewMotion>& motions) {
-        const StepInput input(step_, dt, gravity, anchors, grabs, fields, hostColliders, motions);
+              const std::vector<SinewMotion>& motions, const Blade* blade) {
+        const StepInput input(step_, dt, gravity, anchors, grabs, fields, hostColliders, motions, blade);
         runUnlocked([&] { return sinewStep(handle, &input.step, count); });
     }
 
@@ -58,19 +58,6 @@ struct Simulation : Owned<SinewSimulation, sinewDestroySimulation> {
                         "slowed"_a = status.slowed, "sleeping"_a = status.sleeping,
                         "lost_time"_a = status.lostTime, "links_cut"_a = status.linksCutInAll,
                         "pieces"_a = status.pieces);
-    }
-
-    /// Impulses on bodies in the newest step, with the axes body, kind, part and coordinate.
-    py::array_t<float> impulses() const {
-        std::uint32_t count = info().bodies;
-        std::vector<SinewBodyImpulses> impulses(count);
-        const std::uint64_t next = info().nextFrame;
-        if (next == 0 || sinewGetBodyImpulses(handle, next - 1, &count, impulses.data()) != SINEW_OK)
-            count = 0;
-        py::array_t<float> array(std::vector<py::ssize_t>{count, 5, 2, 3});
-        static_assert(sizeof(SinewBodyImpulses) == 5 * 2 * 3 * sizeof(float));
-        std::memcpy(array.mutable_data(), impulses.data(), count * sizeof(SinewBodyImpulses));
-        return array;
     }
 
     std::vector<std::string> complaints() {
@@ -205,6 +192,9 @@ void addStepInput(py::module_& module) {
              py::arg("shape"), py::arg("position"), py::arg("rotation") = std::array<float, 4>{0, 0, 0, 1},
              py::arg("radius") = 0.0f, py::arg("half_length") = 0.0f, py::arg("half_extents") = Vector{},
              py::arg("friction") = 0.3f, py::arg("static_friction") = 0.0f, py::arg("max_speed") = 10.0f);
+    py::class_<Blade>(module, "Blade")
+        .def(py::init<const Floats&, const Floats&, bool>(), py::arg("before"), py::arg("after"),
+             py::arg("carried") = false);
     py::class_<SinewMotion>(module, "Motion")
         .def(py::init([](const std::string& kind, std::uint32_t body, const Vector& linear,
                          const Vector& angular, const std::array<float, 4>& rotation, const Vector& center,
@@ -257,7 +247,8 @@ void addSimulation(py::module_& module) {
              py::arg("gravity") = py::none(), py::arg("anchors") = py::none(),
              py::arg("grabs") = std::vector<SinewGrab>{}, py::arg("fields") = std::vector<SinewField>{},
              py::arg("host_colliders") = std::vector<SinewHostCollider>{},
-             py::arg("motions") = std::vector<SinewMotion>{})
+             py::arg("motions") = std::vector<SinewMotion>{},
+             py::arg("blade") = static_cast<const Blade*>(nullptr))
         .def("reset", [](Simulation& self) { runUnlocked([&] { return sinewReset(self.handle); }); })
         .def("update_skin",
              [](Simulation& self) { runUnlocked([&] { return sinewUpdateSkin(self.handle); }); })
@@ -272,7 +263,8 @@ void addSimulation(py::module_& module) {
                  runUnlocked([&] { return sinewLoadState(self.handle, state.handle); });
              })
         .def("status", &Simulation::status)
-        .def("impulses", &Simulation::impulses)
+        .def("impulses", [](const Simulation& self) { return impulsesOf(self.handle); })
+        .def("blade_impulse", [](const Simulation& self) { return bladeImpulseOf(self.handle); })
         .def("events", [](const Simulation& self) { return eventsOf(self.handle); })
         .def("complaints", &Simulation::complaints)
         .def_property_readonly("positions", output(SINEW_POSITIONS))

@@ -186,6 +186,7 @@ struct Scene : Owned<SinewScene, sinewDestroyScene> {
         keywords.take("pinned", pinned);
         keywords.takeFlag("cuttable", cloth.isCuttable);
         keywords.take("tear_strain", cloth.tearStrain);
+        keywords.take("toughness", cloth.toughness);
         keywords.finish();
         cloth.name = name.c_str();
         cloth.pinned = pinned.data();
@@ -212,6 +213,7 @@ struct Scene : Owned<SinewScene, sinewDestroyScene> {
         keywords.take("radius", lattice.radius);
         keywords.takeFlag("cuttable", lattice.isCuttable);
         keywords.take("tear_strain", lattice.tearStrain);
+        keywords.take("toughness", lattice.toughness);
         keywords.takeFlag("skin", lattice.hasSkin);
         keywords.takeFlag("faces", lattice.hasFaces);
         keywords.take("fill", fill);
@@ -238,6 +240,7 @@ struct Scene : Owned<SinewScene, sinewDestroyScene> {
         keywords.takeFlag("touches", mesh.touches);
         keywords.takeFlag("cuttable", mesh.isCuttable);
         keywords.take("tear_strain", mesh.tearStrain);
+        keywords.take("toughness", mesh.toughness);
         keywords.finish();
         mesh.name = name.c_str();
         return mesh;
@@ -288,12 +291,27 @@ struct Scene : Owned<SinewScene, sinewDestroyScene> {
     }
 };
 
+/// The edge of a blade before and after a step.
+struct Blade {
+    Blade(const Floats& before, const Floats& after, bool continues) : isCarried(continues) {
+        const std::uint32_t count = rowsOf(before, 3, "before");
+        if (rowsOf(after, 3, "after") != count || count < 2 || count > 256)
+            throw py::value_error("before and after must have 2 to 256 points, and as many each");
+        from.resize(count);
+        to.resize(count);
+        std::memcpy(from.data(), before.data(), count * sizeof(SinewVec3));
+        std::memcpy(to.data(), after.data(), count * sizeof(SinewVec3));
+    }
+    std::vector<SinewVec3> from, to;
+    bool isCarried;
+};
+
 /// Input of a step, with its lists. Not movable: the step leads to them.
 struct StepInput {
     StepInput(const SinewStep& before, const std::optional<float>& dt, const std::optional<Vector>& gravity,
               const std::optional<Floats>& anchors, const std::vector<SinewGrab>& grabs,
               const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders,
-              const std::vector<SinewMotion>& motions)
+              const std::vector<SinewMotion>& motions, const Blade* blade)
         : step(before) {
         if (dt) step.dt = *dt;
         if (gravity) step.gravity = toVec3(*gravity);
@@ -311,6 +329,11 @@ struct StepInput {
         step.hostColliderCount = static_cast<std::uint32_t>(hostColliders.size());
         step.motions = motions.data();
         step.motionCount = static_cast<std::uint32_t>(motions.size());
+        if (blade == nullptr) return;
+        step.bladeFrom = blade->from.data();
+        step.bladeTo = blade->to.data();
+        step.bladeCount = static_cast<std::uint32_t>(blade->from.size());
+        step.bladeIsCarried = blade->isCarried ? 1 : 0;
     }
     StepInput(const StepInput&) = delete;
     StepInput& operator=(const StepInput&) = delete;

@@ -60,8 +60,8 @@ struct World : Owned<SinewWorld, sinewDestroyWorld> {
     void step(std::uint32_t count, const std::optional<float>& dt, const std::optional<Vector>& gravity,
               const std::optional<Floats>& anchors, const std::vector<SinewGrab>& grabs,
               const std::vector<SinewField>& fields, const std::vector<SinewHostCollider>& hostColliders,
-              const std::vector<SinewMotion>& motions) {
-        const StepInput input(step_, dt, gravity, anchors, grabs, fields, hostColliders, motions);
+              const std::vector<SinewMotion>& motions, const Blade* blade) {
+        const StepInput input(step_, dt, gravity, anchors, grabs, fields, hostColliders, motions, blade);
         runUnlocked([&] { return sinewStepWorld(handle, &input.step, count); });
     }
 
@@ -191,7 +191,8 @@ void addWorld(py::module_& module) {
              py::arg("gravity") = py::none(), py::arg("anchors") = py::none(),
              py::arg("grabs") = std::vector<SinewGrab>{}, py::arg("fields") = std::vector<SinewField>{},
              py::arg("host_colliders") = std::vector<SinewHostCollider>{},
-             py::arg("motions") = std::vector<SinewMotion>{})
+             py::arg("motions") = std::vector<SinewMotion>{},
+             py::arg("blade") = static_cast<const Blade*>(nullptr))
         .def("positions", output(SINEW_POSITIONS), py::arg("part") = py::none())
         .def("velocities", output(SINEW_VELOCITIES), py::arg("part") = py::none())
         .def("pick", &World::pick, py::arg("origin"), py::arg("direction"), py::arg("length") = 0.0f,
@@ -199,6 +200,8 @@ void addWorld(py::module_& module) {
         .def("overlap", &World::overlap, py::arg("center"), py::arg("half_extents") = Vector{},
              py::arg("radius") = 0.0f, py::arg("skips_fixed") = false)
         .def("events", [](const World& self) { return eventsOf(self.info().simulation); })
+        .def("impulses", [](const World& self) { return impulsesOf(self.info().simulation); })
+        .def("blade_impulse", [](const World& self) { return bladeImpulseOf(self.info().simulation); })
         .def("counts", [](const World& self) { return dictOf(self.counts()); })
         .def_property_readonly("is_changing", [](const World& self) { return self.info().isChanging != 0; })
         .def_property_readonly("take_overs", [](const World& self) { return self.info().takeOvers; })

@@ -72,13 +72,13 @@ class Scene:
     def add_plane(self, normal: Vector = (0, 1, 0), offset: float = 0.0, friction: float = 0.0, restitution: float = 0.0) -> None: ...
     def add_cloth(self, **sheet: Any) -> int:
         """name, columns, rows, spacing, origin, right, down, area_density, membrane_stiffness, bending_stiffness, skip_stiffness,
-        thickness, tethers, pinned, cuttable, tear_strain: as SinewCloth in sinew.h."""
+        thickness, tethers, pinned, cuttable, tear_strain, toughness: as SinewCloth in sinew.h."""
     def add_lattice(self, **lattice: Any) -> int:
-        """name, cells, origin, spacing, young_modulus, poisson_ratio, recovery, density, radius, cuttable, tear_strain, skin, faces,
+        """name, cells, origin, spacing, young_modulus, poisson_ratio, recovery, density, radius, cuttable, tear_strain, toughness, skin, faces,
         fill: as SinewLattice in sinew.h."""
     def add_mesh(self, vertices: ArrayLike, triangles: ArrayLike, **mesh: Any) -> int:
         """A voxel body of a triangle mesh: vertices (n, 3) [m], triangles (m, 3); name, spacing, resolution, young_modulus,
-        poisson_ratio, recovery, density, touches, cuttable, tear_strain: as SinewMesh in sinew.h."""
+        poisson_ratio, recovery, density, touches, cuttable, tear_strain, toughness: as SinewMesh in sinew.h."""
     def add_mesh_file(self, path: str, scale: float = 1.0, **mesh: Any) -> int: ...
     def validate(self, settings: Optional[Settings] = None) -> None:
         """Raises Error with a sentence a line."""
@@ -108,6 +108,11 @@ class Motion:
                  angular: Vector = (0, 0, 0), rotation: Sequence[float] = (0, 0, 0, 1), center: Vector = (0, 0, 0),
                  radius: float = 0.0) -> None: ...
 
+class Blade:
+    """The edge of a blade before and after a step, (n, 3) points each [m], 2 to 256. It cuts what lies between, in bodies that may be
+    cut. `carried` continues the stroke of the step before: the blade starts where it ended, wherever the material has moved."""
+    def __init__(self, before: ArrayLike, after: ArrayLike, carried: bool = False) -> None: ...
+
 class State:
     """A saved state of a simulation."""
 
@@ -118,7 +123,7 @@ class Simulation:
         """Without settings, those of the scene's file."""
     def step(self, count: int = 1, dt: Optional[float] = None, gravity: Optional[Vector] = None, anchors: Optional[ArrayLike] = None,
              grabs: Sequence[Grab] = (), fields: Sequence[Field] = (), host_colliders: Sequence[HostCollider] = (),
-             motions: Sequence[Motion] = ()) -> None:
+             motions: Sequence[Motion] = (), blade: Optional[Blade] = None) -> None:
         """Takes `count` steps with this input and waits for them; dt [s] and gravity [m/s^2] are by default those of the scene."""
     def reset(self) -> None: ...
     def update_skin(self) -> None:
@@ -130,6 +135,8 @@ class Simulation:
     def impulses(self) -> NDArray[np.float32]:
         """Impulses on bodies in the newest step (Settings.keeps_forces): (bodies, 5, 2, 3), by contacts, planes, colliders, holds and
         grabs, linear [N s] and angular [N m s]."""
+    def blade_impulse(self) -> NDArray[np.float32]:
+        """The impulse on the blade of the newest step [N s], by `toughness` of what it cut (Settings.keeps_forces): (3,)."""
     def events(self) -> list[dict[str, Any]]:
         """What happened in the steps of the last step() (Settings.events), oldest first: step, kind, body and count; of contacts also
         partner ("body", "plane", "host_collider", "collider") and other, its index. As SinewEvent in sinew_events.h."""
@@ -181,7 +188,7 @@ class World:
         """Waits until all changes have arrived: find() then gives the indices that the next step has."""
     def step(self, count: int = 1, dt: Optional[float] = None, gravity: Optional[Vector] = None, anchors: Optional[ArrayLike] = None,
              grabs: Sequence[Grab] = (), fields: Sequence[Field] = (), host_colliders: Sequence[HostCollider] = (),
-             motions: Sequence[Motion] = ()) -> None:
+             motions: Sequence[Motion] = (), blade: Optional[Blade] = None) -> None:
         """update(), then `count` steps as Simulation.step()."""
     def positions(self, part: Optional[Part] = None) -> NDArray[np.float32]:
         """A copy for a part, or for all: (n, 4), position [m] and inverse mass [1/kg], 0 while the particle sleeps."""
@@ -195,6 +202,10 @@ class World:
         """The particles inside a box along the axes around `center`, grown by `radius` [m], ascending; a sphere without extents."""
     def events(self) -> list[dict[str, Any]]:
         """As Simulation.events()."""
+    def impulses(self) -> NDArray[np.float32]:
+        """As Simulation.impulses(), by Body of all parts in their order."""
+    def blade_impulse(self) -> NDArray[np.float32]:
+        """As Simulation.blade_impulse()."""
     def counts(self) -> dict[str, int]:
         """Number of elements of each kind."""
     @property

@@ -116,6 +116,24 @@ class Module(unittest.TestCase):
         with self.assertRaisesRegex(sinew.Error, "motion 0 is of a body that does not exist"):
             simulation.step(motions=[sinew.Motion("impulse", 7)])
 
+    def test_a_blade_cuts_and_feels_toughness_times_width(self):
+        scene = sinew.Scene()
+        scene.add_lattice(cells=(8, 8, 8), spacing=0.02, young_modulus=1e4, cuttable=True, toughness=300)
+        scene.gravity = (0, 0, 0)
+        simulation = sinew.Simulation(self.device, scene, sinew.Settings(substeps=2, keeps_forces=True))
+        edge, total = np.array([[-0.1, 0.07, -1], [-0.1, 0.07, 1]]), np.zeros(3)
+        for _ in range(20):
+            after = edge + [0.02, 0, 0]
+            simulation.step(blade=sinew.Blade(edge, after))
+            edge, total = after, total + simulation.blade_impulse()
+        self.assertEqual(simulation.status()["pieces"], 2)
+        speed, area = 0.02 / scene.dt, 0.16**2
+        np.testing.assert_allclose(total * speed / (300 * area), (-1, 0, 0), atol=0.1)
+        simulation.step()
+        np.testing.assert_array_equal(simulation.blade_impulse(), 0)
+        with self.assertRaisesRegex(ValueError, "2 to 256 points"):
+            sinew.Blade([[0, 0, 0]], [[0, 0, 0]])
+
     def test_as_many_host_colliders_as_asked_for_push(self):
         scene = sinew.Scene()
         places = np.stack(np.meshgrid(np.arange(16), np.arange(16), [0]), axis=-1).reshape(-1, 3).astype(float)
