@@ -70,9 +70,10 @@ TEST_F(FileBrowserTest, FollowsAPathThatIsTyped) {
     browser.open(folder, {"/elsewhere/ring.stl"});
     browser.filter("meshes/bun");
     EXPECT_EQ(names(), (Names{"bunny.obj"}));
-    EXPECT_EQ(browser.takeTyped(), (folder / "meshes/bun").string()) << "as typed: it may not exist";
-    browser.move(1);
-    EXPECT_EQ(browser.takeTyped(), (folder / "meshes/bunny.obj").string());
+    EXPECT_EQ(browser.takeTyped(), (folder / "meshes/bunny.obj").string()) << "the only one with that part";
+    browser.filter("meshes/cow");
+    EXPECT_FALSE(browser.chosen());
+    EXPECT_EQ(browser.takeTyped(), (folder / "meshes/cow").string()) << "as typed: the error names it";
     browser.filter((folder / "meshes").string());
     EXPECT_FALSE(browser.takeTyped());
     EXPECT_EQ(browser.folder(), folder / "meshes");
@@ -81,6 +82,22 @@ TEST_F(FileBrowserTest, FollowsAPathThatIsTyped) {
     browser.filter("");
     EXPECT_TRUE(browser.complaint().empty());
     EXPECT_EQ(names(), (Names{"ring.stl", "../", "deep/", "bunny.obj"}));
+}
+
+// A name that is complete is meant, though it is a part of others; so is a file that the list leaves out.
+TEST_F(FileBrowserTest, TakesAWholeNameBeforeOthersThatContainIt) {
+    for (const char* name : {"a_bunny.obj", "other.obj"}) std::ofstream(folder / "meshes" / name) << "-";
+    browser.open(folder / "meshes", {});
+    browser.filter("bunny");
+    EXPECT_EQ(browser.takeTyped(), (folder / "meshes/a_bunny.obj").string()) << "a part: the first";
+    for (const std::string& text : {std::string("bunny.obj"), (folder / "meshes/bunny.obj").string()}) {
+        browser.filter(text);
+        EXPECT_EQ(browser.takeTyped(), (folder / "meshes/bunny.obj").string()) << text;
+    }
+    browser.move(-1);
+    EXPECT_EQ(browser.takeTyped(), (folder / "meshes/a_bunny.obj").string()) << "an arrow chooses another";
+    browser.filter((folder / "notes.txt").string());
+    EXPECT_EQ(browser.takeTyped(), (folder / "notes.txt").string());
 }
 
 TEST_F(PanelsTest, OpenAFileThatIsClickedInTheList) {

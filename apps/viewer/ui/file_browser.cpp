@@ -87,14 +87,19 @@ void FileBrowser::enter(const fs::path& folder) {
 
 void FileBrowser::filter(const std::string& text) {
     text_ = text;
+    isMoved_ = false;
     const std::size_t slash = text.rfind('/');
     const bool isPath = slash != std::string::npos;
     const fs::path wanted = isPath ? home_ / expanded(text.substr(0, slash + 1)) : home_;
     std::error_code error;
     if (folder_.empty() || !fs::equivalent(wanted, folder_, error)) enter(wanted);
-    choose(isPath ? text.substr(slash + 1) : text);
+    const std::string part = isPath ? text.substr(slash + 1) : text;
+    choose(part);
     chosen_.reset();
-    if (!isPath && !text.empty() && !shown_.empty()) chosen_ = 0;
+    if (part.empty() || shown_.empty()) return;
+    const auto same = std::ranges::find_if(
+        shown_, [&](const FileEntry& entry) { return !entry.isRecent && entry.path.filename() == part; });
+    chosen_ = same == shown_.end() ? 0 : static_cast<std::size_t>(same - shown_.begin());
 }
 
 void FileBrowser::choose(const std::string& part) {
@@ -113,6 +118,7 @@ void FileBrowser::move(int by) {
     if (count == 0) return;
     const int from = chosen_ ? static_cast<int>(*chosen_) : by > 0 ? -1 : count;
     chosen_ = static_cast<std::size_t>(((from + by) % count + count) % count);
+    isMoved_ = true;
 }
 
 std::optional<std::string> FileBrowser::take(std::size_t entry) {
@@ -124,10 +130,11 @@ std::optional<std::string> FileBrowser::take(std::size_t entry) {
 }
 
 std::optional<std::string> FileBrowser::takeTyped() {
-    if (chosen_) return take(*chosen_);
-    if (text_.empty()) return std::nullopt;
+    if (text_.empty()) return chosen_ ? take(*chosen_) : std::nullopt;
     const fs::path typed = home_ / expanded(text_);
     std::error_code error;
+    const bool isFile = text_.find('/') != std::string::npos && fs::is_regular_file(typed, error);
+    if (chosen_ && (isMoved_ || !isFile)) return take(*chosen_);
     if (!fs::is_directory(typed, error)) return text_.find('/') == std::string::npos ? text_ : typed.string();
     home_ = typed;
     filter("");

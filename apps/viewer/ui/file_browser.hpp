@@ -24,8 +24,8 @@ public:
     /// Shows `folder` and before its entries the `recent` files, newest first.
     void open(const std::filesystem::path& folder, const std::vector<std::string>& recent);
 
-    /// Leaves the entries whose name contains the text, in either case. Chooses none, or the first if the
-    /// text has no slash.
+    /// Leaves the entries whose name contains the text behind its last slash, in either case. Chooses the one
+    /// of just that name, else the first; none if that text is empty.
     void filter(const std::string& text);
     const std::vector<FileEntry>& shown() const { return shown_; }
     const std::filesystem::path& folder() const { return folder_; }
@@ -39,7 +39,7 @@ public:
 
     /// The file of an entry; none for a folder, which is entered.
     std::optional<std::string> take(std::size_t entry);
-    /// The choice of Enter: the chosen entry, or the path that was typed.
+    /// The choice of Enter: the path that was typed if it is a file, else the chosen entry, else the path.
     std::optional<std::string> takeTyped();
 
 private:
@@ -50,6 +50,7 @@ private:
     std::vector<FileEntry> recent_, all_, shown_;
     std::string text_, complaint_;
     std::optional<std::size_t> chosen_;
+    bool isMoved_ = false; // chosen by move()
 };
 
 /// The kind of a file by the end of its name; empty = the viewer does not open it.

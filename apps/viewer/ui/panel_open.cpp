@@ -2,6 +2,7 @@
 #include "viewer/ui/panel_parts.hpp"
 #include "viewer/ui/panels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -22,6 +23,10 @@ std::string shortened(const std::string& path, float width) {
         text = "..." + text.substr(slash);
     }
     return text;
+}
+
+bool isWayUp(const FileEntry& entry) {
+    return entry.name == "../";
 }
 
 bool isPressed(ImGuiKey key) {
@@ -83,8 +88,10 @@ void open(FileField& files, Wishes& wishes) {
     ImGui::BeginChild("entries");
     const std::optional<std::size_t> clicked = lines(browser, by != 0);
     if (!browser.complaint().empty()) wrapped(browser.complaint(), warning());
-    if (browser.shown().empty() && browser.complaint().empty())
-        wrapped("No file or folder has that name.", quiet());
+    if (browser.complaint().empty() && std::ranges::all_of(browser.shown(), isWayUp))
+        wrapped(browser.shown().empty() ? "No file or folder has that name."
+                                        : "No scene, mesh or saved state in this folder.",
+                quiet());
     ImGui::EndChild();
     if (clicked || isEntered) {
         wishes.file = clicked ? browser.take(*clicked) : browser.takeTyped();
