@@ -1,11 +1,14 @@
 // Tests of materials with Young's moduli: presets, sliders in kPa, numbers that are typed.
 #include "panels_test.hpp"
 
+#include "viewer/ui/number_text.hpp"
+#include "viewer/ui/panel_parts.hpp"
 #include "viewer/ui/presets.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -81,6 +84,26 @@ protected:
                 if (const auto modulus = youngModulusOf(scene, *knobs)) found.emplace(*modulus, y);
         return found;
     }
+    // The number beside the first slider, just clicked.
+    std::optional<Vector2> stiffnessField() {
+        settle();
+        for (float y = 20; y < 700; y += 6) {
+            click({1210, y});
+            picture({.pointer = {1210, y}});
+            if (panels.takesKeys()) return Vector2(1210, y);
+        }
+        return std::nullopt;
+    }
+    void type(const Vector2& at, const std::string& text) {
+        PanelInput input{.pointer = at};
+        for (const char one : text) input.characters.push_back(static_cast<unsigned>(one));
+        picture(input);
+    }
+    // What Enter leads to after a text.
+    std::optional<Knobs> typed(const Vector2& at, const std::string& text) {
+        type(at, text);
+        return picture({.pointer = at, .keys = {{GLFW_KEY_ENTER, true}, {GLFW_KEY_ENTER, false}}}).knobs;
+    }
 };
 
 TEST_F(MaterialTest, HasAButtonForEveryPreset) {
@@ -101,24 +124,64 @@ TEST_F(MaterialTest, HasAButtonForEveryPreset) {
 }
 
 TEST_F(MaterialTest, TakesAModulusThatIsTypedInKiloPascals) {
-    settle();
-    std::optional<Vector2> field;
-    for (float y = 20; y < 700 && !field; y += 6) {
-        click({1210, y});
-        picture({.pointer = {1210, y}});
-        if (!panels.takesKeys()) continue;
-        PanelInput typed{.pointer = {1210, y}};
-        for (const char one : std::string("7.5")) typed.characters.push_back(static_cast<unsigned>(one));
-        picture(typed);
-        const Wishes wishes =
-            picture({.pointer = {1210, y}, .keys = {{GLFW_KEY_ENTER, true}, {GLFW_KEY_ENTER, false}}});
-        ASSERT_TRUE(wishes.knobs) << y;
-        EXPECT_FLOAT_EQ(youngModulusOf(scene, *wishes.knobs).value(), 7.5e3f) << "stiffness is the first";
-        field = Vector2(1210, y);
-    }
-    EXPECT_TRUE(field);
+    const std::optional<Vector2> field = stiffnessField();
+    ASSERT_TRUE(field);
+    const std::optional<Knobs> knobs = typed(*field, "7.5");
+    ASSERT_TRUE(knobs);
+    EXPECT_FLOAT_EQ(youngModulusOf(scene, *knobs).value(), 7.5e3f) << "stiffness is the first";
     settle();
     EXPECT_FALSE(panels.takesKeys());
+}
+
+TEST_F(MaterialTest, TakesAUnitThatIsTypedAndRefusesWhatIsNoModulus) {
+    const std::optional<Vector2> field = stiffnessField();
+    ASSERT_TRUE(field);
+    const std::optional<Knobs> knobs = typed(*field, "0.0075 MPa");
+    ASSERT_TRUE(knobs);
+    EXPECT_FLOAT_EQ(youngModulusOf(scene, *knobs).value(), 7.5e3f);
+    for (const char* text : {"7.5 cm", "soft", ""}) {
+        settle();
+        click(*field);
+        EXPECT_FALSE(typed(*field, text)) << text;
+    }
+}
+
+// A second click would else select a word, such as the unit, and the number would stay beside what is typed.
+TEST_F(MaterialTest, ReplacesTheWholeNumberAfterADoubleClick) {
+    const std::optional<Vector2> field = stiffnessField();
+    ASSERT_TRUE(field);
+    click(*field); // soon after the one that found it
+    const std::optional<Knobs> knobs = typed(*field, "7.5");
+    ASSERT_TRUE(knobs);
+    EXPECT_FLOAT_EQ(youngModulusOf(scene, *knobs).value(), 7.5e3f);
+}
+
+// A number that cannot be read is seen before Enter leaves the value as it is.
+TEST_F(MaterialTest, DrawsANumberInRedThatCannotBeRead) {
+    const std::optional<Vector2> field = stiffnessField();
+    ASSERT_TRUE(field);
+    const auto redAfter = [&](const char* text) {
+        type(*field, text);
+        picture({.pointer = *field});
+        const ImU32 red = ImGui::ColorConvertFloat4ToU32(parts::bad());
+        return std::ranges::count(shownWindow("side")->DrawList->VtxBuffer, red, &ImDrawVert::col);
+    };
+    EXPECT_EQ(redAfter("7.5 "), 0);
+    EXPECT_GT(redAfter("apples"), 0) << "7.5 apples";
+}
+
+TEST(NumberText, ReadsNumbersAndConvertsUnits) {
+    EXPECT_EQ(numberOf("7.5", "kPa"), 7.5f);
+    EXPECT_EQ(numberOf(" 7,5 kPa ", "kPa"), 7.5f);
+    EXPECT_EQ(numberOf("2MPa", "kPa"), 2000.0f);
+    EXPECT_EQ(numberOf("25 mm", "cm"), 2.5f);
+    EXPECT_EQ(numberOf("0.02 m", "cm"), 2.0f);
+    EXPECT_EQ(numberOf("-1e-2", ""), -0.01f);
+    EXPECT_EQ(numberOf("x 0.5", "x"), 0.5f);
+    EXPECT_EQ(numberOf("0.5 x", "x"), 0.5f);
+    EXPECT_EQ(numberOf("9.81 m/s\u00b2", "m/s\u00b2"), 9.81f);
+    for (const char* text : {"", " ", "kPa", "through", "5 cm", "5 5", "nan", "inf", "1.2.3", "x 5"})
+        EXPECT_FALSE(numberOf(text, "kPa")) << text;
 }
 
 TEST_F(MaterialTest, HasNoPresetsForAClothAlone) {

@@ -1,12 +1,17 @@
 // Material and parameters of the scene, and of its solver: sliders with numbers that can be typed.
 #include "viewer/ui/knob_keys.hpp"
+#include "viewer/ui/number_text.hpp"
 #include "viewer/ui/panel_parts.hpp"
 #include "viewer/ui/presets.hpp"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 namespace sinew::viewer::parts {
 
@@ -27,11 +32,47 @@ void knob(const char* name) {
 struct Range {
     float low = 0, high = 1;
     ImGuiSliderFlags flags = ImGuiSliderFlags_None;
+    const char* highest = nullptr; // what the upper end is called
 };
 
-// A slider without a text, and its number in a field beside it, which is typed after a click. True if the
-// value has changed.
-bool slider(const char* name, float& value, const Range& range, const char* format, const std::string& text) {
+// How the number of a slider is written; numbers that are typed are in `unit`.
+struct Format {
+    const char* text;
+    const char* unit;
+};
+
+// The number of a slider, which is typed after a click: red as long as it cannot be read. True if Enter has
+// changed the value.
+bool number(float& value, const Range& range, const Format& format) {
+    const auto read = [&](const char* typed) {
+        return range.highest != nullptr && std::string_view(typed) == range.highest
+                   ? std::optional(range.high)
+                   : numberOf(typed, format.unit);
+    };
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), format.text, double{value});
+    const std::string before = text.data();
+    const ImGuiID id = ImGui::GetID("##number");
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    const bool isRed = kept.GetBool(id);
+    if (isRed) ImGui::PushStyleColor(ImGuiCol_Text, bad());
+    const bool isEntered =
+        ImGui::InputText("##number", text.data(), text.size(),
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    if (isRed) ImGui::PopStyleColor();
+    const bool isTyped = ImGui::IsItemActive();
+    if (isTyped && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) // Dear ImGui selects a word
+        ImGui::GetInputTextState(id)->SelectAll();
+    const std::optional<float> now = read(text.data());
+    kept.SetBool(id, isTyped && !now);
+    if (!isEntered || !now || before == text.data()) return false;
+    value = *now;
+    return true;
+}
+
+// A slider without a text, and its number beside it. True if the value has changed.
+bool slider(const char* name, float& value, const Range& range, const Format& format,
+            const std::string& text) {
     knob(name);
     ImGui::PushID(name);
     ImGui::SetNextItemWidth(sliderShare * contentWidth());
@@ -40,10 +81,8 @@ bool slider(const char* name, float& value, const Range& range, const char* form
     tip(text);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX());
-    constexpr ImGuiInputTextFlags flags =
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll;
-    isTurned |= ImGui::InputFloat("##number", &value, 0, 0, format, flags);
-    tip("click to type a number; Enter sets it");
+    isTurned |= number(value, range, format);
+    tip("click to type a number, with a unit or without; Enter sets it");
     ImGui::PopID();
     return isTurned;
 }
@@ -111,12 +150,12 @@ bool stiffness(const SceneFacts& scene, Knobs& turned) {
     const std::optional<float> modulus = youngModulusOf(scene, turned);
     const float unit = modulus ? *modulus / (1000 * factor) : 1; // of factor 1 [kPa]
     float shown = unit * factor;
-    const bool isTurned = slider("stiffness", shown, {0.01f * unit, 100 * unit, ImGuiSliderFlags_Logarithmic},
-                                 !modulus        ? "x %.3g"
-                                 : shown >= 1000 ? "%.0f kPa"
-                                                 : "%.3g kPa",
-                                 modulus ? "Young's modulus; acts at once"
-                                         : "stiffness relative to the scene file; acts at once");
+    const Format format = !modulus        ? Format{"x %.3g", "x"}
+                          : shown >= 1000 ? Format{"%.0f kPa", "kPa"}
+                                          : Format{"%.3g kPa", "kPa"};
+    const bool isTurned = slider(
+        "stiffness", shown, {0.01f * unit, 100 * unit, ImGuiSliderFlags_Logarithmic}, format,
+        modulus ? "Young's modulus; acts at once" : "stiffness relative to the scene file; acts at once");
     if (isTurned) factor = shown / unit;
     return isTurned;
 }
@@ -130,8 +169,9 @@ bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
         bodyCombo(scene, turned.body);
         isTurned |= turned.body != before;
     }
-    isTurned |= slider("damping", turned.damping, {0, 20}, "%.2f 1/s", "damping of all motion; acts at once");
-    isTurned |= slider("friction", turned.friction, {0, 2}, "%.2f",
+    isTurned |= slider("damping", turned.damping, {0, 20}, {"%.2f 1/s", "1/s"},
+                       "damping of all motion; acts at once");
+    isTurned |= slider("friction", turned.friction, {0, 2}, {"%.2f", ""},
                        "friction of planes, colliders and bodies; acts at once");
     if (isTurned) limitMaterial(turned);
     return isTurned;
@@ -144,8 +184,8 @@ bool bladeKnob(const Facts& facts, Knobs& turned) {
     // In centimeters, so that a number that is typed has the unit on show.
     float shown = 100 * turned.bladeDepth.value_or(through);
     const bool isTurned =
-        slider("blade depth", shown, {100 * least, 100 * through, ImGuiSliderFlags_Logarithmic},
-               turned.bladeDepth ? "%.3g cm" : "through",
+        slider("blade depth", shown, {100 * least, 100 * through, ImGuiSliderFlags_Logarithmic, "through"},
+               {turned.bladeDepth ? "%.3g cm" : "through", "cm"},
                "depth below the surface under the pointer; right end: through; acts at once");
     const float depth = shown / 100;
     if (isTurned) turned.bladeDepth = depth > most ? std::nullopt : std::optional(std::max(depth, least));
@@ -177,8 +217,8 @@ bool softness(const SceneFacts& scene, Knobs& turned) {
 void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     Knobs turned = facts.knobs;
     bool isTurned = materialKnobs(scene, turned);
-    isTurned |= slider("gravity", turned.gravity, {0, 20}, "%.2f m/s\u00b2", "acts at once");
-    isTurned |= slider("speed", turned.pace, {0.05f, 1}, "x %.2f",
+    isTurned |= slider("gravity", turned.gravity, {0, 20}, {"%.2f m/s\u00b2", "m/s\u00b2"}, "acts at once");
+    isTurned |= slider("speed", turned.pace, {0.05f, 1}, {"x %.2f", "x"},
                        "speed of the scene relative to real time; acts at once");
     if (scene.canCut) isTurned |= bladeKnob(facts, turned);
     Knobs shown = facts.knobs;
