@@ -63,7 +63,7 @@ TEST_F(PanelFoldsTest, KeepTheHeadingUnderThePointerInAScrolledPanel) {
     ASSERT_GT(side->Scroll.y, 100);
     const float end = side->Scroll.y;
     int folded = 0;
-    for (float y = 20; y < 480; y += 6) {
+    for (float y = 476; y > 20; y -= 6) { // upwards: what a click opens above would move the end
         const Folds before = panels.folds();
         click({1180, y}, low);
         if (panels.folds() == before) continue;
@@ -74,9 +74,35 @@ TEST_F(PanelFoldsTest, KeepTheHeadingUnderThePointerInAScrolledPanel) {
         EXPECT_EQ(panels.folds(), before) << "the same heading is still under the pointer: " << y;
         for (int i = 0; i < 3; ++i) picture({.pointer = {1180, y}}, low);
         ASSERT_EQ(side->Scroll.y, end) << y;
-        y += 18;
+        y -= 18;
     }
     EXPECT_GE(folded, 1);
+}
+
+// A heading at the foot of the panel opened a section below the window: nothing was seen to happen.
+TEST_F(PanelFoldsTest, ScrollToASectionThatOpensBelowTheWindow) {
+    constexpr VkExtent2D tall{1280, 1400};
+    const Folds folded = Folds().set(indexOf(Fold::compare)).set(indexOf(Fold::material));
+    panels.fold(folded);
+    settle(tall);
+    const auto compare = headingOf(Fold::compare, tall);
+    const auto material = headingOf(Fold::material, tall);
+    ASSERT_TRUE(compare && material);
+    const VkExtent2D low{1280, static_cast<std::uint32_t>(compare->y()) + 30};
+    panels.fold(folded);
+    for (int i = 0; i < 20; ++i) picture({.pointer = {1200, 100}, .notches = 5}, low);
+    const ImGuiWindow* side = shownWindow("side");
+    ASSERT_EQ(side->Scroll.y, 0);
+    click(*material, low);
+    settle(low);
+    EXPECT_EQ(side->Scroll.y, 0) << "what opens is in view";
+    panels.fold(folded);
+    settle(low);
+    click(*compare, low);
+    settle(low);
+    EXPECT_FALSE(panels.folds()[indexOf(Fold::compare)]);
+    EXPECT_GT(side->Scroll.y, 20);
+    EXPECT_LT(side->Scroll.y, compare->y()) << "its heading is still in view";
 }
 
 TEST_F(PanelFoldsTest, ShowTheWarningOfSoftBodiesInTheHeadingOfAFoldedSection) {

@@ -69,9 +69,8 @@ void foldMark(const ImVec2& at, float height, bool isOpen, ImU32 color) {
                                {middle.x - 0.6f * half, middle.y + half}, {middle.x + half, middle.y}, color);
 }
 
-} // namespace
-
-bool section(Fold fold, Folds& folds, const std::string& text, const ImVec4& color) {
+// The heading of a section: a click folds or opens it.
+void headingOf(Fold fold, Folds& folds, const std::string& text, const ImVec4& color) {
     const std::size_t index = indexOf(fold);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float line = ImGui::GetTextLineHeight(), width = contentWidth();
@@ -89,7 +88,26 @@ bool section(Fold fold, Folds& folds, const std::string& text, const ImVec4& col
                  ImGui::ColorConvertFloat4ToU32(color), text.c_str());
     list.AddRectFilled({at.x, at.y + height - 1}, {at.x + width, at.y + height},
                        ImGui::GetColorU32(ImGuiCol_Separator));
-    return !folds[index];
+}
+
+// Scrolls to a section that was opened where nothing of it is in view, but keeps its heading in view.
+void reveal(float top, float begin) {
+    const float pad = ImGui::GetStyle().WindowPadding.y, seen = ImGui::GetWindowHeight() - pad;
+    if (begin + ImGui::GetFrameHeight() <= ImGui::GetScrollY() + seen) return;
+    ImGui::SetScrollY(std::min(ImGui::GetCursorPosY() - seen, top - pad));
+}
+
+} // namespace
+
+void section(Fold fold, Folds& folds, const std::string& text, const std::function<void()>& content,
+             const ImVec4& color) {
+    const bool wasFolded = folds[indexOf(fold)];
+    const float top = ImGui::GetCursorPosY();
+    headingOf(fold, folds, text, color);
+    if (folds[indexOf(fold)]) return;
+    const float begin = ImGui::GetCursorPosY();
+    content();
+    if (wasFolded) reveal(top, begin);
 }
 
 void row(const char* name, const std::string& value, const ImVec4& color) {

@@ -7,6 +7,8 @@
 
 #include <imgui.h>
 
+#include <functional>
+
 namespace sinew::viewer {
 struct HelpSearch;
 struct FileField;
@@ -36,9 +38,10 @@ float contentWidth();
 void rule();
 /// Writes quiet text above a line, with room above.
 void heading(const char* name);
-/// The heading of a section, which folds or opens when it is clicked, with a short text on its right. True if
-/// the section is open.
-bool section(Fold fold, Folds& folds, const std::string& text = "", const ImVec4& color = quiet());
+/// A section with a heading, which folds or opens it when it is clicked and has a short text on its right.
+/// `content` draws an open one. The window scrolls to one that opens below what is in view.
+void section(Fold fold, Folds& folds, const std::string& text, const std::function<void()>& content,
+             const ImVec4& color = quiet());
 /// Writes text with line breaks at the panel's width.
 void wrapped(const std::string& text, const ImVec4& color);
 

@@ -399,34 +399,35 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
 
 // A heading shows what matters of a section that is folded.
 void Panels::buildSections(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes) {
-    if (parts::section(Fold::scene, folds_, facts.isOpening ? "opening ..." : "")) {
+    parts::section(Fold::scene, folds_, facts.isOpening ? "opening ..." : "", [&] {
         parts::scenes(scene, facts, fields_, wishes);
         parts::play(facts, wishes);
-    }
-    if (parts::section(Fold::material, folds_)) parts::parameters(scene, facts, wishes);
-    if (parts::section(Fold::view, folds_)) {
+    });
+    parts::section(Fold::material, folds_, "", [&] { parts::parameters(scene, facts, wishes); });
+    parts::section(Fold::view, folds_, "", [&] {
         parts::camera(wishes);
         parts::look(facts, wishes);
         if (!isLegendApart(extent)) parts::legend(scene, facts);
-    }
-    if (parts::section(Fold::record, folds_)) parts::files(facts, wishes);
-    if (parts::section(Fold::compare, folds_, facts.beside.isOn ? "on" : ""))
-        parts::beside(scene, facts, wishes);
+    });
+    parts::section(Fold::record, folds_, "", [&] { parts::files(facts, wishes); });
+    parts::section(Fold::compare, folds_, facts.beside.isOn ? "on" : "",
+                   [&] { parts::beside(scene, facts, wishes); });
     buildPerformance(scene, facts, wishes);
-    if (parts::section(Fold::window, folds_)) parts::window(facts, wishes);
+    parts::section(Fold::window, folds_, "", [&] { parts::window(facts, wishes); });
 }
 
 // The warning of soft bodies must be seen in any case.
 void Panels::buildPerformance(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     const bool isFolded = folds_[indexOf(Fold::performance)], isSoft = !scene.stiffness.empty();
     const std::string summary = !isFolded ? "" : isSoft ? "softer than asked" : parts::stepText(facts);
-    if (!parts::section(Fold::performance, folds_, summary, isSoft ? parts::warning() : parts::quiet()))
-        return;
-    parts::solver(scene, facts, wishes);
-    if (scene.canCut) parts::cuts(facts);
-    parts::counts(scene, facts);
-    parts::speed(facts);
-    parts::program(scene);
+    const auto content = [&] {
+        parts::solver(scene, facts, wishes);
+        if (scene.canCut) parts::cuts(facts);
+        parts::counts(scene, facts);
+        parts::speed(facts);
+        parts::program(scene);
+    };
+    parts::section(Fold::performance, folds_, summary, content, isSoft ? parts::warning() : parts::quiet());
 }
 
 // Below the pointer the panel does not become shorter: scrolled to its end, all of it would move down, and
