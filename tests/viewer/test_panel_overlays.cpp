@@ -59,6 +59,17 @@ TEST_F(PanelsTest, ShowALengthBesideTheHint) {
     EXPECT_EQ(shownWindow("scale"), nullptr);
 }
 
+// The window of the hint was as wide as the text of the picture before.
+TEST_F(PanelsTest, FitTheHintInThePictureInWhichItChanges) {
+    settle();
+    for (const char* awaited : {"click a body to orbit around that point", "click"}) {
+        facts.hint.awaited = awaited;
+        picture();
+        const float text = ImGui::CalcTextSize(hintText(facts.hint).c_str()).x;
+        EXPECT_NEAR(shownWindow("hint")->Size.x, text + 20, 1) << awaited;
+    }
+}
+
 // Nothing in the panel moves under the pointer when a color map is turned on.
 TEST_F(PanelsTest, ShowLegendsOverTheHintInAWidePicture) {
     const auto height = [&](VkExtent2D extent) {

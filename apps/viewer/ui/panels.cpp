@@ -507,10 +507,13 @@ void Panels::buildHint(const Facts& facts, VkExtent2D extent, float taken) {
     const std::string text = hintText(facts.hint, [&](const std::string& one) {
         return ImGui::CalcTextSize(one.c_str()).x + 2 * pad <= room;
     });
+    const float low = 6 * scale_;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str()); // Dear ImGui fits a window one picture later
     ImGui::SetNextWindowPos({edge, static_cast<float>(extent.height) - edge}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowSize({std::ceil(size.x) + 2 * pad, size.y + 2 * low});
     ImGui::SetNextWindowBgAlpha(0.85f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, 6 * scale_});
-    ImGui::Begin("hint", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, low});
+    ImGui::Begin("hint", nullptr, fixed | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoInputs);
     ImGui::TextUnformatted(text.c_str());
     ImGui::End();
     ImGui::PopStyleVar();
