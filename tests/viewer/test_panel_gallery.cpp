@@ -1,6 +1,8 @@
 // Tests of the gallery: cards of scenes, their pictures, and files opened last.
 #include "panels_test.hpp"
 
+#include "viewer/ui/panel_parts.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,6 +63,23 @@ TEST_F(PanelsTest, ShowCardsOfScenesAndFilesOpenedLast) {
     EXPECT_TRUE(panels.closeTop()) << "Esc";
     settle();
     EXPECT_FALSE(panels.isGalleryShown());
+}
+
+TEST_F(PanelsTest, EndASentenceThatIsTooLongForItsCardInDots) {
+    settle();
+    const std::string text = "A square of cloth, held at two corners, that swings down and comes to rest";
+    EXPECT_EQ(parts::fitted(text, 2000, 1), text);
+    std::size_t shortest = text.size();
+    for (const float lines : {3.0f, 2.0f, 1.0f}) {
+        const std::string part = parts::fitted(text, 140, lines);
+        EXPECT_TRUE(part.ends_with(" ...")) << part;
+        EXPECT_TRUE(text.starts_with(part.substr(0, part.size() - 4))) << part;
+        const float height = ImGui::CalcTextSize(part.c_str(), nullptr, false, 140).y;
+        EXPECT_EQ(height, lines * ImGui::GetTextLineHeight()) << part;
+        EXPECT_LT(part.size(), shortest);
+        shortest = part.size();
+    }
+    EXPECT_EQ(parts::fitted("pneumonoultramicroscopicsilicovolcanoconiosis", 50, 1), " ...");
 }
 
 } // namespace

@@ -53,9 +53,9 @@ void cardText(const Facts& facts, std::size_t scene, const ImVec2& at, float wid
                      ImGui::ColorConvertFloat4ToU32(warning()), mark);
     }
     if (scene >= facts.sentences.size()) return;
-    const ImVec4 clip{at.x, at.y, at.x + width, at.y + (1 + linesOfText) * line};
+    const std::string sentence = fitted(facts.sentences[scene], width, linesOfText);
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x, at.y + line}, ImGui::GetColorU32(quiet()),
-                 facts.sentences[scene].c_str(), nullptr, width, &clip);
+                 sentence.c_str(), nullptr, width);
 }
 
 // A card is one button.

@@ -172,6 +172,20 @@ void button(Action action, Wishes& wishes, float width, bool isOn, const char* n
     tip(std::string(binding->shown) + ": " + std::string(binding->help));
 }
 
+std::string fitted(const std::string& text, float width, float lines) {
+    const float most = (lines + 0.5f) * ImGui::GetTextLineHeight();
+    const auto fits = [&](const std::string& one) {
+        return ImGui::CalcTextSize(one.c_str(), nullptr, false, width).y < most;
+    };
+    if (fits(text)) return text;
+    std::size_t end = text.size();
+    while (end > 0 && !fits(text.substr(0, end) + " ...")) {
+        const std::size_t space = text.rfind(' ', end - 1);
+        end = space == std::string::npos ? 0 : space;
+    }
+    return text.substr(0, end) + " ...";
+}
+
 void wrapped(const std::string& text, const ImVec4& color) {
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushTextWrapPos(0);

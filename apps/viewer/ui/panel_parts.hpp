@@ -42,6 +42,8 @@ void heading(const char* name);
 /// `content` draws an open one. The window scrolls to one that opens below what is in view.
 void section(Fold fold, Folds& folds, const std::string& text, const std::function<void()>& content,
              const ImVec4& color = quiet());
+/// As much of a text as fits in `lines` lines of `width` pixels, with dots in place of the words left out.
+std::string fitted(const std::string& text, float width, float lines);
 /// Writes text with line breaks at the panel's width.
 void wrapped(const std::string& text, const ImVec4& color);
 
