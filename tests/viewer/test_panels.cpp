@@ -382,6 +382,11 @@ TEST_F(PanelsTest, ShowHelpOverTheMiddleUntilItIsClosed) {
     EXPECT_FALSE(panels.covers({640, 360}));
 }
 
+TEST(Help, IsFoundByTheWordsOfNewcomers) {
+    for (const char* word : {"film", "video", "record", "undo", "cut", "inside", "reset", "comma", "picture"})
+        EXPECT_FALSE(helpLines(word).empty()) << word;
+}
+
 TEST_F(PanelsTest, SearchTheHelpForWhatIsTyped) {
     const auto triangles = [&](const PanelInput& input) {
         picture(input);

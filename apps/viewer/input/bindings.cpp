@@ -51,8 +51,8 @@ const std::array beforeTools{
     Binding{{key, GLFW_KEY_HOME}, frame, "Home", "frame everything", "Frame all"},
     Binding{{key, GLFW_KEY_SPACE}, pause, "Space", "pause or continue", "Pause"},
     Binding{{key, GLFW_KEY_P}, pause, "P", "pause or continue"},
-    Binding{{key, GLFW_KEY_PERIOD}, step, ".", "pause and take one step", "Step"},
-    Binding{{key, GLFW_KEY_COMMA}, stepBack, ",", "pause and undo one step", "Back"},
+    Binding{{key, GLFW_KEY_PERIOD}, step, ". (period)", "pause and take one step", "Step"},
+    Binding{{key, GLFW_KEY_COMMA}, stepBack, ", (comma)", "pause and undo one step", "Back"},
     Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
     Binding{{key, GLFW_KEY_S}, slowMotion, "S", "slow motion: 1/2, 1/4, 1/8, full speed", "Slower"},
 };
@@ -113,7 +113,7 @@ constexpr std::array afterLayers{
     Binding{{key, GLFW_KEY_F9},
             record,
             "F9",
-            "record a video (or pictures, without ffmpeg) in the current folder; again: stop",
+            "record a film in the current folder: a video, or pictures without ffmpeg; again: stop",
             "Record"},
     Binding{
         {key, GLFW_KEY_F12}, screenshot, "F12", "save a picture (PNG) in the current folder", "Screenshot"},

@@ -539,7 +539,9 @@ void ScenePlayer::sayWhatIsMade() {
     if (isMakingSaid_ || Clock::now() - *makingSince_ < patience) return;
     isMakingSaid_ = true;
     session_.tell(document_.lacksContactRoom() ? "preparing room for more contacts: steps wait for it"
-                                               : "the requested change is being prepared");
+                  : document_.wantsShape()     ? "preparing the solver: steps wait for it"
+                  : comparison_.isMaking()     ? "preparing the comparison"
+                                               : "preparing the view");
 }
 
 } // namespace sinew::viewer

@@ -77,9 +77,9 @@ void mapLegend(const Facts& facts, std::size_t particles) {
     ImGui::SameLine();
     textAt(end, 1);
     char beyond[32];
-    std::snprintf(beyond, sizeof beyond, "%.2g %%", 100 * double{facts.map.beyond});
-    const std::string limit = std::string(map == ColorMap::strain ? "strain beyond " : "faster than ") +
-                              valueText(map, facts.map.range); // of this state, not the colours' range
+    std::snprintf(beyond, sizeof beyond, "%.2g %% of particles", 100 * double{facts.map.beyond});
+    const std::string limit =
+        "above " + valueText(map, facts.map.range); // of this state, not the colours' range
     row(limit.c_str(), beyond);
     row("largest", valueText(map, facts.map.largest));
 }
