@@ -96,6 +96,15 @@ TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
     }
 }
 
+TEST_F(Usage, WhatIsMisspeltIsNamedWithWhatIsSpelledAlike) {
+    expectOneError(run({"rnu", "a.toml"}), 2, "no command \"rnu\": did you mean run?");
+    expectOneError(run({"run", "a.toml", "--frame", "10"}), 2, "did you mean --frames?");
+    expectOneError(run({"descibe"}), 2, "did you mean describe?");
+    expectOneError(run({"frobnicate"}), 2, "no command \"frobnicate\": see `sinew --help`");
+    expectOneError(run({"--versoin"}), 2, "did you mean --version?");
+    expectOneError(run({}), 2, "name a command: run, describe, mesh, devices, bench, study: see");
+}
+
 TEST_F(Usage, DescribeNeedsNoDevice) {
     const Outcome outcome = run({"describe", shippedScene("cube")}, noDevice);
     EXPECT_EQ(outcome.code, 0) << outcome.error;
