@@ -161,6 +161,25 @@ void Gauges::stepFinished(const sim::Status& status) {
     if (status.linksCutInAll == 0) facts_.pieces = {.pieces = status.pieces};
 }
 
+Gauges::Cuts Gauges::cuts() const {
+    return {facts_.pieces, facts_.linksCut, facts_.debris, facts_.debrisParticles, facts_.debrisMass};
+}
+
+void Gauges::keepCuts(const std::vector<std::uint64_t>& times) {
+    std::erase_if(cutsAt_, [&](const auto& kept) { return std::ranges::count(times, kept.first) == 0; });
+    for (const std::uint64_t time : times) cutsAt_.try_emplace(time, cuts());
+}
+
+void Gauges::returnTo(std::uint64_t played) {
+    const auto kept = cutsAt_.lower_bound(played);
+    if (kept == cutsAt_.end()) return;
+    facts_.pieces = kept->second.pieces;
+    facts_.linksCut = kept->second.linksCut;
+    facts_.debris = kept->second.debris;
+    facts_.debrisParticles = kept->second.debrisParticles;
+    facts_.debrisMass = kept->second.debrisMass;
+}
+
 void Gauges::strainMeasured(const Strain& strain) {
     facts_.strainRms.add(static_cast<float>(strain.rms));
     facts_.strainMax.add(static_cast<float>(strain.largest));
@@ -172,6 +191,7 @@ void Gauges::restart() {
     facts_.slowed = facts_.sleeping = facts_.linksCut = 0;
     facts_.stepsRepeated = 0;
     facts_.pieces = {};
+    cutsAt_.clear();
     facts_.debris = facts_.debrisParticles = 0;
     facts_.debrisMass = 0;
 }
@@ -179,6 +199,7 @@ void Gauges::restart() {
 void Gauges::goOn(const Gauges& before) {
     std::vector<PhaseCurve> phases = std::move(facts_.phases);
     facts_ = before.facts_;
+    cutsAt_ = before.cutsAt_;
     facts_.phases = std::move(phases);
 }
 

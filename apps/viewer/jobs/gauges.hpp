@@ -7,6 +7,8 @@
 #include "viewer/jobs/opened_scene.hpp"
 #include "viewer/ui/facts.hpp"
 
+#include <map>
+
 namespace sinew::viewer {
 
 /// Young's modulus of the material of a voxel body, as Lattice::youngModulus [Pa]; 0 for sheets and rigid
@@ -43,6 +45,12 @@ public:
     /// Sets the number of pieces that is shown until the next call.
     void piecesCounted(const app::PieceCount& count) { facts_.pieces = count; }
     const app::PieceCount& pieces() const { return facts_.pieces; }
+    /// Keeps the counts of cuts of the states to return to (see History::times()), which are the present ones
+    /// where none are kept, and forgets all others.
+    void keepCuts(const std::vector<std::uint64_t>& times);
+    /// Shows the counts of the state at `played`: those kept for the first time from there on, since cuts
+    /// follow such a time at once. Without one the present counts are those.
+    void returnTo(std::uint64_t played);
     /// Call after a reset, or after an earlier state was restored.
     void restart();
     /// Call after the simulation of `before` was taken over; the new one may have other phases.
@@ -52,9 +60,17 @@ public:
     Facts facts(const Document& document) const;
 
 private:
+    struct Cuts {
+        app::PieceCount pieces;
+        std::uint32_t linksCut, debris, debrisParticles;
+        float debrisMass;
+    };
+    Cuts cuts() const;
+
     double dt_;
     Facts facts_;
-    double seconds_ = 0, shown_ = 0; // of the clock and of the scene, for the pace
+    std::map<std::uint64_t, Cuts> cutsAt_; // by the times of states to return to
+    double seconds_ = 0, shown_ = 0;       // of the clock and of the scene, for the pace
     std::uint32_t frames_ = 0;
 };
 

@@ -57,6 +57,11 @@ public:
     /// The same of the number of pieces; `isUndone`: its steps were undone. True if the number was counted.
     bool settleCount(std::uint32_t slot, bool isUndone);
 
+    /// An earlier or later state was loaded: counts on their way are of another one.
+    void stateRestored() noexcept {
+        linksCut_ = 0; // the next step asks anew
+        wantsCount_ = false;
+    }
     /// Forgets all copies: the document has another simulation.
     void restart();
     /// Goes on with the pointer, the inspector and the counts of `before`.

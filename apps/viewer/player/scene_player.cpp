@@ -301,8 +301,23 @@ void ScenePlayer::recordReset(VkCommandBuffer commands) {
     document_.recordReset(commands);
     comparison_.recordReset(commands);
     gauges_.restart();
+    status_.setPieces(gauges_.pieces());
     journal_.reset(adjustments_.gravity());
     isDiverged_ = false;
+}
+
+// A paused scene shows the counts of the state that it returns to: no step brings them.
+bool ScenePlayer::recordHistory(VkCommandBuffer commands) {
+    if (!tools_.wantsHistory()) return false;
+    std::vector<std::uint64_t> times = tools_.history().times();
+    times.push_back(document_.played()); // of the state that is left
+    if (!tools_.recordHistory(commands, document_)) return false;
+    gauges_.keepCuts(times);
+    gauges_.returnTo(document_.played());
+    gauges_.keepCuts(tools_.history().times());
+    observer_.stateRestored();
+    status_.setPieces(gauges_.pieces());
+    return true;
 }
 
 void ScenePlayer::recordSteps(Presenter::Frame& frame, Plan& plan) {
@@ -311,7 +326,7 @@ void ScenePlayer::recordSteps(Presenter::Frame& frame, Plan& plan) {
     const bool isWhole =
         document_.undoneSteps() == 0 || isDiverged_; // otherwise those steps are repeated first
     if (!document_.lacksContactRoom() && !document_.wantsShape() && isWhole &&
-        tools_.recordHistory(frame.commands, document_)) { // otherwise later
+        recordHistory(frame.commands)) { // otherwise later
         forgetFlights();
         isDiverged_ = false;
     }
@@ -333,6 +348,7 @@ void ScenePlayer::recordSteps(Presenter::Frame& frame, Plan& plan) {
         }
         const StepHands hands = tools_.takeStep(frame.commands, document_);
         if (hands.sweep) flight.sweeps.push_back(*hands.sweep);
+        if (hands.sweep && !hands.sweep->isCarried) gauges_.keepCuts(tools_.history().times());
         const auto parts = session_.presenter().divide(frame, parts_.count());
         recordStep(parts, document_, hands, step == 0 ? times_.ofStep(frame.slot) : nullptr);
         session_.presenter().submitParts(frame, parts);

@@ -62,6 +62,7 @@ private:
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
     void recordReset(VkCommandBuffer commands);
+    bool recordHistory(VkCommandBuffer commands);
     void recordSteps(Presenter::Frame& frame, Plan& plan);
     void drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view);
     Facts facts(std::optional<float> reduced) const;
