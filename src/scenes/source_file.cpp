@@ -1,6 +1,8 @@
 // Reads and parses under limits, so that no file can hang the process or overflow its stack.
 #include "scenes/source_file.hpp"
 
+#include "scenes/schema.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -28,6 +30,31 @@ void checkDots(const std::string& text, const std::string& file) {
     }
 }
 
+// What to do about a file that is not there: names the file beside it that is spelled most like it, with its
+// extension or without.
+std::string cureOfMissing(const std::filesystem::path& path) {
+    constexpr std::size_t mostFiles = 10'000; // of a folder: more take too long to read
+    namespace fs = std::filesystem;
+    const std::string name = path.filename().string().substr(0, 64);
+    const fs::path folder = path.parent_path();
+    std::string nearest;
+    std::size_t least = std::max<std::size_t>(name.size() / 4, 1) + 1, read = 0; // edits
+    std::error_code error;
+    fs::directory_iterator files(folder.empty() ? "." : folder, error);
+    for (; !error && files != fs::directory_iterator() && read < mostFiles; files.increment(error), ++read) {
+        const fs::path file = files->path().filename();
+        const std::size_t edits =
+            std::min(editDistance(name, file.string().substr(0, 64)),
+                     std::max<std::size_t>(editDistance(name, file.stem().string().substr(0, 64)), 1));
+        std::error_code unread;
+        if (edits > least || (edits == least && (nearest.empty() || file.string() > nearest))) continue;
+        if (!fs::is_regular_file(files->path(), unread)) continue;
+        least = edits;
+        nearest = file.string();
+    }
+    return nearest.empty() ? "check the path" : "did you mean " + (folder / nearest).string() + "?";
+}
+
 } // namespace
 
 void fail(const std::string& where, const std::string& why, const std::string& whatToDo) {
@@ -45,7 +72,8 @@ void requireRegularFile(const std::filesystem::path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     const std::string name = path.string();
-    if (status.type() == std::filesystem::file_type::not_found) fail(name, "no such file", "check the path");
+    if (status.type() == std::filesystem::file_type::not_found)
+        fail(name, "no such file", cureOfMissing(path));
     if (status.type() == std::filesystem::file_type::none) fail(name, error.message(), "check the path");
     if (status.type() == std::filesystem::file_type::directory)
         fail(name, "is a folder", "name a file in it");

@@ -79,6 +79,23 @@ TEST_F(Load, RefusesWhatIsNoRegularFile) {
     EXPECT_EQ(errorOf(folder_ / "loop.toml").find("loop.toml: "), 0u);
 }
 
+TEST_F(Load, NamesTheFileThatIsSpelledMostLikeOneThatIsMissing) {
+    for (const char* name : {"cube.toml", "cube_load.toml", "organ.toml"}) write(name, smallCloth);
+    fs::create_directory(folder_ / "cubes.toml");
+    const auto meant = [&](const char* name) { return "did you mean " + (folder_ / name).string() + "?"; };
+    for (const auto& [typed, file] : {std::pair{"cub.toml", "cube.toml"},
+                                      {"cube", "cube.toml"},
+                                      {"cubeload.toml", "cube_load.toml"},
+                                      {"orgna.toml", "organ.toml"}}) {
+        const std::string error = errorOf(folder_ / typed);
+        EXPECT_TRUE(error.ends_with(": no such file: " + meant(file))) << error;
+    }
+    for (const fs::path& far : {folder_ / "sphere.toml", folder_ / "none" / "cube.toml"}) {
+        const std::string error = errorOf(far);
+        EXPECT_TRUE(error.ends_with(": no such file: check the path")) << error;
+    }
+}
+
 TEST_F(Load, RefusesHugeSceneFiles) {
     const fs::path file = write("scene.toml", smallCloth);
     fs::resize_file(file, (16u << 20) + 1);
