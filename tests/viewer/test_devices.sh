@@ -104,16 +104,13 @@ awaitEnd 0
 
 echo "devices: a replay in the window goes to other substeps, too: to its end, with a pause on the way, and until it is dropped"
 scene=
-played() {
-    for _ in {1..900}; do grep -q "^$hash, as recorded$" viewer.out && return; sleep 0.1; done
-    fail "the replay in the window did not come to $hash"
-}
+played() { await 90 says "^$hash, as recorded$"; }
 start --replay "$log"
 played
 quit
 awaitEnd 0
 start --replay "$log"
-sleep 2
+awaitMotion
 keys space
 awaitTitle paused
 keys r # from the beginning
@@ -122,10 +119,10 @@ played
 quit
 awaitEnd 0
 start --replay "$log"
-sleep 2
+awaitMotion
 keys Escape
 keys period
-sleep 1
+awaitTitle paused
 quit
 awaitEnd 0
 ! grep -q "as recorded" viewer.out || fail "a replay that was dropped is compared: $(cat viewer.out)"

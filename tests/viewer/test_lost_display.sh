@@ -23,8 +23,7 @@ case $4 in
 film)
     keys F9
     filmed() { (($(find . -name '*.png' | wc -l) >= 3)) || compgen -G '*.part' >/dev/null; } # pictures without ffmpeg, a partial film with it
-    for _ in {1..300}; do filmed && break; sleep 0.1; done
-    filmed || fail "nothing was filmed" ;;
+    await 30 filmed ;;
 load)
     keys Next ;;
 *)
@@ -37,7 +36,7 @@ if [[ $4 == full ]]; then
     kept=$folder/config/sinew
 fi
 kill "${processes[0]}" # the X server
-for _ in {1..600}; do kill -0 "$running" 2>/dev/null || break; sleep 0.1; done
+await 60 hasEnded
 code=0
 wait "$running" || code=$?
 [[ $code == 4 ]] || fail "exit code $code, expected 4"

@@ -35,15 +35,14 @@ for signal in INT TERM; do
     start
     keys v
     keys F9
-    for _ in {1..300}; do [[ -n $(find . -name '*.mp4*.part' -size +600k) ]] && break; sleep 0.1; done
+    await 30 isFilming 600k
     endsSoon $signal
     expectFilm
     expectSettings 'vsync = false'
 
     echo "signals: SIG$signal while the first scene is prepared"
     launch "$viewer" slow.toml --size $extent
-    for _ in {1..1200}; do grep -q ' on ' viewer.out && break; sleep 0.05; done # loaded, and pipelines are made
-    grep -q ' on ' viewer.out || fail "the scene is not loaded"
+    await 60 says ' on ' # the scene is loaded, and pipelines are made
     endsSoon $signal
 
     echo "signals: SIG$signal in a step that takes seconds"
@@ -59,8 +58,7 @@ for call in vkQueuePresentKHR vkAcquireNextImageKHR vkQueueSubmit vkWaitForFence
     VK_LAYER_PATH=$layers VK_INSTANCE_LAYERS=VK_LAYER_SINEW_losing SINEW_BLOCK_CALL=$call SINEW_BLOCK_FROM=block SINEW_BLOCK_REPORT=blocked start
     touch block
     keys v # waits for the device
-    for _ in {1..300}; do [[ -s blocked ]] && break; sleep 0.1; done
-    [[ -s blocked ]] || fail "$call is not called"
+    await 30 test -s blocked # the call
     endsSoon TERM
 done
 echo "passed"

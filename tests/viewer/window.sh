@@ -56,6 +56,8 @@ await() { # SECONDS COMMAND...: waits until the command succeeds
     fail "waited in vain for: $*"
 }
 says() { grep -q "$1" viewer.out; }
+hasEnded() { ! kill -0 "$running" 2>/dev/null; }
+isFilming() { [[ -n $(find . -name '*.mp4*.part' -size "+$1") ]]; } # SIZE: more than that is written
 hasTitle() { [[ $(title) =~ $1 ]]; }
 lacksTitle() { [[ ! $(title) =~ $1 ]]; }
 title() { xdotool getwindowname "$window"; }
@@ -77,6 +79,15 @@ quit() { # quits by the key. xdotool fails if the window closes before it releas
     fail "Ctrl + Q does not end it"
 }
 shoot() { import -silent -window root -crop "$extent+0+0" +repage "$1"; } # as large as the window, which is in the corner
+awaitMotion() { # waits until the picture changes: steps are on their way
+    shoot motion.png
+    for _ in {1..600}; do
+        sleep 0.1
+        shoot next.png
+        compare -metric AE motion.png next.png null: >/dev/null 2>&1 || return 0
+    done
+    fail "nothing moves"
+}
 awaitStill() { # FILE: waits for a picture that stays; a paused software device draws its last one in full quality
     shoot "$1"
     for _ in {1..100}; do
