@@ -543,7 +543,7 @@ void ScenePlayer::endFilm() {
 // True while something is made that hands wait for. Nobody waits for room for a surface.
 bool ScenePlayer::isAwaited() const {
     return layerLoader_.isMaking() || document_.lacksContactRoom() || document_.wantsShape() ||
-           comparison_.isMaking();
+           comparison_.isMaking() || sceneLoader_.isOpening();
 }
 
 void ScenePlayer::sayWhatIsMade() {
@@ -557,7 +557,8 @@ void ScenePlayer::sayWhatIsMade() {
     session_.tell(document_.lacksContactRoom() ? "preparing room for more contacts: steps wait for it"
                   : document_.wantsShape()     ? "preparing the solver: steps wait for it"
                   : comparison_.isMaking()     ? "preparing the comparison"
-                                               : "preparing the view");
+                  : layerLoader_.isMaking()    ? "preparing the view"
+                                               : "opening the scene");
 }
 
 } // namespace sinew::viewer
