@@ -128,6 +128,33 @@ TEST(Cuts, AreSeenWhereTheyDoNotGape) {
     }
 }
 
+// Normals and materials are rounded on their way to the shading: a color may change by a step, and a few
+// pixels in a penumbra by more.
+TEST(Cuts, LookTheSameWhereEachPixelIsShadedOnce) {
+    sim::Scene scene = smallOrgan();
+    scene.planes.push_back({.normal = {0, 1, 0}, .offset = -0.3f});
+    scene.colliders = {{.radius = 0.1f, .pose = {{0.25f, 0, 0}}, .color = {0.5f, 0.45f, 0.42f}}};
+    Quality direct = reducedQuality();
+    direct.shadesOnce = false;
+    LayerShot once(scene, {}, reducedQuality()), often(scene, {}, direct);
+    const auto compare = [&](const char* what, const sim::Blade& blade = {}) {
+        const Picture a = once.take(0, blade), b = often.take(0, blade);
+        std::size_t differing = 0;
+        for (std::size_t i = 0; i < a.pixels.size(); ++i)
+            differing += std::abs(int{a.pixels[i]} - int{b.pixels[i]}) > 2;
+        EXPECT_LE(differing, a.pixels.size() / 10'000) << what;
+    };
+    compare("whole");
+    compare("cut", {.from = from, .to = to});
+    for (LayerShot* shot : {&once, &often}) shot->camera.azimuth += 2;
+    compare("from the other side");
+    for (LayerShot* shot : {&once, &often}) {
+        shot->camera.target = sceneBounds(smallOrgan()).center();
+        shot->camera.distance = 0.02f;
+    }
+    compare("from inside");
+}
+
 // After a cut all vertices are computed for every picture, with any layers: a picture after all vertices were
 // filled with NaN must equal the one before.
 TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {

@@ -42,6 +42,20 @@ void Canvas::addBackdrop(const vk::Device& device, const RenderPass& pass, VkFor
     backdrop_.emplace(device, pass, color, extent_, views(VK_NULL_HANDLE));
 }
 
+void Canvas::addSurfaces(const vk::Device& device, const RenderPass& pass) {
+    std::vector<VkImageView> views;
+    for (const VkFormat format : surfaceFormats) {
+        surfaces_.emplace_back(
+            device, ImageRequest{.name = "canvas.surfaces",
+                                 .extent = extent_,
+                                 .format = format,
+                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+        views.push_back(surfaces_.back().view());
+    }
+    views.push_back(images_[0].view());
+    surfacesFramebuffer_.emplace_back(device, pass.handle(), views, extent_, "canvas.surfaces");
+}
+
 void Canvas::addCounts(const vk::Device& device, const RenderPass& pass, VkSampleCountFlagBits samples) {
     if (hasCounts()) return;
     Image image(device, {.name = "canvas.counts",

@@ -6,6 +6,8 @@
 #include "viewer/render/enlarging.hpp"
 #include "viewer/render/render_pass.hpp"
 
+#include <array>
+
 namespace sinew::viewer {
 
 struct CanvasFormat {
@@ -14,6 +16,9 @@ struct CanvasFormat {
 };
 
 constexpr VkFormat countsFormat = VK_FORMAT_R16G16B16A16_SFLOAT; // every device can blend into it
+
+/// Images of the surfaces that are seen (shown.glsl): normal and distance, and material.
+inline constexpr std::array surfaceFormats{VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT};
 
 /// Movable. Must not outlive its Device; the picture views belong to the caller and must outlive the canvas.
 class Canvas {
@@ -36,6 +41,16 @@ public:
     bool hasBackdrop() const noexcept { return backdrop_.has_value(); }
     Backdrop& backdrop() noexcept { return *backdrop_; }             ///< only if hasBackdrop()
     const Backdrop& backdrop() const noexcept { return *backdrop_; } ///< only if hasBackdrop()
+
+    /// Adds the images of surfaces that are seen, drawn by `pass` (RenderPass::surfaces) with the depth of
+    /// the pictures. One sample. Throws vk::Error.
+    void addSurfaces(const vk::Device& device, const RenderPass& pass);
+    bool hasSurfaces() const noexcept { return !surfaces_.empty(); }
+    VkImageView normals() const noexcept { return surfaces_[0].view(); }   ///< only if hasSurfaces()
+    VkImageView materials() const noexcept { return surfaces_[1].view(); } ///< the same
+    VkFramebuffer surfacesFramebuffer() const noexcept {                   ///< the same
+        return surfacesFramebuffer_[0].handle();
+    }
 
     /// Present if pictures are drawn smaller than they are shown.
     const std::optional<Enlarging>& enlarging() const noexcept { return enlarging_; }
@@ -61,6 +76,8 @@ private:
     std::vector<Framebuffer> framebuffers_;
     std::vector<Image> counts_; ///< none or one element
     std::vector<Framebuffer> countsFramebuffer_;
+    std::vector<Image> surfaces_; ///< none, or in the order of surfaceFormats
+    std::vector<Framebuffer> surfacesFramebuffer_;
     std::optional<Backdrop> backdrop_;
     std::optional<Enlarging> enlarging_;
     bool isCopied_ = false;

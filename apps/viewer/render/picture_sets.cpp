@@ -12,7 +12,9 @@ constexpr std::uint32_t mapCount = 4;                          // light.glsl, fl
 constexpr std::uint32_t countsBinding = 1 + mapCount;          // section_cap.frag; frame.glsl has the first
 constexpr std::uint32_t backdropBinding = countsBinding + 1;   // backdrop.frag
 constexpr std::uint32_t enlargedBinding = backdropBinding + 1; // enlarge.frag
-constexpr std::uint32_t bindingCount = enlargedBinding + 1;
+constexpr std::uint32_t normalsBinding = enlargedBinding + 1;  // surfaces.frag
+constexpr std::uint32_t materialsBinding = normalsBinding + 1; // the same
+constexpr std::uint32_t bindingCount = materialsBinding + 1;
 
 std::vector<vk::Buffer> makeParams(const vk::Device& device, std::uint32_t slots) {
     std::vector<vk::Buffer> params;
@@ -76,6 +78,12 @@ void PictureSets::writeBackdrop(std::uint32_t slot, VkImageView backdrop, VkSamp
 
 void PictureSets::writeEnlarged(std::uint32_t slot, VkImageView drawn, VkSampler sampler) const noexcept {
     writeImage(slot, enlargedBinding, drawn, sampler);
+}
+
+void PictureSets::writeSurfaces(std::uint32_t slot, VkImageView normals, VkImageView materials,
+                                VkSampler sampler) const noexcept {
+    writeImage(slot, normalsBinding, normals, sampler);
+    writeImage(slot, materialsBinding, materials, sampler);
 }
 
 void PictureSets::writeImage(std::uint32_t slot, std::uint32_t binding, VkImageView view,

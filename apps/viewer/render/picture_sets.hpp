@@ -25,6 +25,9 @@ public:
     void writeBackdrop(std::uint32_t slot, VkImageView backdrop, VkSampler sampler) const noexcept;
     /// Binds the small image of an enlarged picture.
     void writeEnlarged(std::uint32_t slot, VkImageView drawn, VkSampler sampler) const noexcept;
+    /// Binds the images of surfaces that are seen.
+    void writeSurfaces(std::uint32_t slot, VkImageView normals, VkImageView materials,
+                       VkSampler sampler) const noexcept;
     void bind(VkCommandBuffer commands, std::uint32_t slot) const noexcept { sets_.bind(commands, slot); }
 
 private:

@@ -125,7 +125,8 @@ VkPipelineDepthStencilStateCreateInfo depthState(PipelineRequest::Depth depth) {
     return {.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
             .depthTestEnable = depth != PipelineRequest::Depth::none,
             .depthWriteEnable = depth == PipelineRequest::Depth::testAndWrite,
-            .depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL};
+            .depthCompareOp = depth == PipelineRequest::Depth::testBehind ? VK_COMPARE_OP_GREATER
+                                                                          : VK_COMPARE_OP_LESS_OR_EQUAL};
 }
 
 constexpr std::array dynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
@@ -188,10 +189,12 @@ VkPipeline create(const vk::Device& device, const PipelineRequest& request,
     const VkPipelineMultisampleStateCreateInfo multisample{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
         .rasterizationSamples = request.samples};
+    std::array<VkPipelineColorBlendAttachmentState, 2> colors;
+    colors.fill(*blends[static_cast<std::size_t>(request.blend)]);
     const VkPipelineColorBlendStateCreateInfo blend{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = request.fragment && !request.isDepthOnly ? 1u : 0u,
-        .pAttachments = blends[static_cast<std::size_t>(request.blend)]};
+        .attachmentCount = request.fragment && !request.isDepthOnly ? request.colors : 0u,
+        .pAttachments = colors.data()};
     const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                             .stageCount = static_cast<std::uint32_t>(stages.size()),
                                             .pStages = stages.data(),

@@ -24,6 +24,7 @@ struct PipelineRequest {
     const vk::ShaderCode* vertex = nullptr;
     const vk::ShaderCode* fragment = nullptr; ///< null: depth only
     bool isDepthOnly = false;                 ///< even if there is a fragment shader
+    std::uint32_t colors = 1;                 ///< colour images that a fragment shader writes, at most 2
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkRenderPass pass = VK_NULL_HANDLE;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
@@ -47,7 +48,8 @@ struct PipelineRequest {
         own
     } input = Input::none;
     VertexForm vertices{}; ///< must outlive the request
-    enum class Depth { none, test, testAndWrite } depth = Depth::none;
+    /// testBehind: passes where the image is nearer.
+    enum class Depth { none, test, testAndWrite, testBehind } depth = Depth::none;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     enum class Faces {
         all,

@@ -108,6 +108,31 @@ RenderPass RenderPass::colorMap(const vk::Device& device, VkFormat color, const 
     return RenderPass(device, passInfo(attachments, subpass, dependencies), name);
 }
 
+RenderPass RenderPass::surfaces(const vk::Device& device, std::span<const VkFormat> formats,
+                                VkFormat depthFormat) {
+    std::vector<VkAttachmentDescription> attachments;
+    std::vector<VkAttachmentReference> references;
+    for (const VkFormat color : formats) {
+        references.push_back(
+            {static_cast<std::uint32_t>(attachments.size()), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
+        attachments.push_back(
+            attachment(color, VK_SAMPLE_COUNT_1_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL));
+        attachments.back().loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    }
+    const VkAttachmentReference depth{static_cast<std::uint32_t>(attachments.size()),
+                                      VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+    attachments.push_back(attachment(depthFormat, VK_SAMPLE_COUNT_1_BIT, depth.layout));
+    const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                       .colorAttachmentCount = static_cast<std::uint32_t>(references.size()),
+                                       .pColorAttachments = references.data(),
+                                       .pDepthStencilAttachment = &depth};
+    const Drawing both{colors.stages | depths.stages, colors.access | depths.access,
+                       colors.writes | depths.writes};
+    const Reader next{sampling.document | depths.stages, sampling.access | depths.access};
+    const auto dependencies = between(next, both);
+    return RenderPass(device, passInfo(attachments, subpass, dependencies), "surfaces");
+}
+
 RenderPass RenderPass::picture(const vk::Device& device, const Picture& picture) {
     const bool isResolved = picture.samples != VK_SAMPLE_COUNT_1_BIT;
     std::vector attachments{
@@ -115,6 +140,10 @@ RenderPass RenderPass::picture(const vk::Device& device, const Picture& picture)
                    isResolved ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : picture.finalLayout),
         attachment(picture.depth, picture.samples, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL)};
     attachments[1].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    if (picture.keepsDepth) {
+        attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+        attachments[1].initialLayout = attachments[1].finalLayout;
+    }
     if (isResolved) {
         attachments[0].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
         attachments.push_back(attachment(picture.color, VK_SAMPLE_COUNT_1_BIT, picture.finalLayout));

@@ -22,10 +22,15 @@ public:
         /// PRESENT_SRC_KHR: drawing waits for an acquire semaphore at the colour output stage.
         /// TRANSFER_SRC_OPTIMAL: the picture is ready to be copied in the same queue.
         VkImageLayout finalLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+        bool keepsDepth = false; ///< draws behind and before what surfaces() has left
     };
     /// Attachments: colour and depth of `samples` samples, then the image that the colour is resolved into.
     /// With one sample there is no third: the first attachment is the picture.
     static RenderPass picture(const vk::Device& device, const Picture& picture);
+
+    /// Draws the surfaces that are seen into colour images that it leaves readable in fragment shaders, where
+    /// nothing is drawn undefined, and a depth image, which it clears. One sample.
+    static RenderPass surfaces(const vk::Device& device, std::span<const VkFormat> formats, VkFormat depth);
 
     /// Draws a whole picture with one sample and without depth, and leaves it in `finalLayout`, like
     /// picture().

@@ -47,7 +47,8 @@ Quality reducedQuality() {
             .keepsBackdrop = true,
             .mayEnlarge = true,
             .leavesBacks = true,
-            .floorEvery = 2};
+            .floorEvery = 2,
+            .shadesOnce = true};
 }
 
 bool isSoftware(const vk::Device& device) {
@@ -86,6 +87,17 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     makeMaps(to);
     makeBodies(to);
     makeCuts(to);
+    if (quality.shadesOnce) {
+        surfacesPass_.emplace(RenderPass::surfaces(device_, surfaceFormats, format_.depth));
+        for (const VkImageLayout layout : {target.finalLayout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL})
+            keepingPasses_.push_back(RenderPass::picture(device_, {.color = format_.color,
+                                                                   .depth = format_.depth,
+                                                                   .samples = format_.samples,
+                                                                   .finalLayout = layout,
+                                                                   .keepsDepth = true}));
+        makeSurfaces(to);
+    }
     if (!light_.sheets.empty()) makeSheets(to);
     if (!balls_.ranges().empty()) makeBalls(to);
     if (!marks_.ranges().empty()) makeHeld(to);
@@ -107,6 +119,7 @@ Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pict
                                  Enlarging(device_, *wholePass_, format_.color, extent, scale, pictures))
                         : Canvas(device_, pass_, format_, extent, pictures);
     if (has(backdropPipeline)) canvas.addBackdrop(device_, *readablePass_, format_.color);
+    addSurfaces(canvas);
     return canvas;
 }
 
@@ -115,12 +128,24 @@ Canvas Renderer::makeCopiedCanvas(VkExtent2D extent, std::span<const VkImageView
     if (finalLayout_ == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL) return makeCanvas(extent, pictures, scale);
     Canvas canvas(device_, copiedPass_, format_, extent, pictures);
     canvas.setCopied();
+    addSurfaces(canvas);
     return canvas;
 }
 
+void Renderer::addSurfaces(Canvas& canvas) const {
+    if (surfacesPass_) canvas.addSurfaces(device_, *surfacesPass_);
+}
+
 // The passes differ only in the picture's final layout, which pipelines do not depend on.
-const RenderPass& Renderer::passOf(const Canvas& canvas) const noexcept {
+const RenderPass& Renderer::passOf(const Canvas& canvas, bool keepsDepth) const noexcept {
+    if (keepsDepth) return keepingPasses_[canvas.enlarging() ? 1 : canvas.isCopied() ? 2 : 0];
     return canvas.enlarging() ? *readablePass_ : canvas.isCopied() ? copiedPass_ : pass_;
+}
+
+// A section discards fragments sample by sample, glass is blended, and maps of values are hardly shaded.
+bool Renderer::shadesOnce(const Canvas& canvas, const Layers& layers) const noexcept {
+    return canvas.hasSurfaces() && !layers.section && layers.map() == ColorMap::none &&
+           layers.skin() == SkinLook::solid;
 }
 
 void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas, std::size_t picture,
@@ -136,6 +161,10 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
     const Backdrop::Use backdrop = prepareBackdrop(sheet, params);
     const std::optional<Enlarging>& enlarging = canvas.enlarging();
     sets_.writeEnlarged(slot, enlarging ? enlarging->view() : maps_.floor.image.view(), maps_.stretching());
+    const VkImageView unused = maps_.floor.image.view();
+    const bool isOnce = shadesOnce(canvas, overlay.layers);
+    sets_.writeSurfaces(slot, isOnce ? canvas.normals() : unused, isOnce ? canvas.materials() : unused,
+                        maps_.nearest());
     sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
     labels.beginLabel("light maps");
@@ -153,6 +182,7 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
         labels.endLabel();
     }
     labels.beginLabel("picture");
+    if (isOnce) recordSurfaces(commands, canvas, simulation, overlay.layers);
     recordPicture(commands, sheet, simulation, overlay, params, backdrop != Backdrop::Use::direct);
     if (enlarging && enlarging->isWhole()) recordEnlarging(commands, *enlarging, picture);
     labels.endLabel();
@@ -222,16 +252,21 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
                              const Overlay& overlay, const layout::FrameParams& params,
                              bool hasBackdrop) const noexcept {
     const Canvas& canvas = sheet.canvas;
-    begin(commands, passOf(canvas), canvas.framebuffer(sheet.picture), canvas.extent(), empty);
     const Layers& layers = overlay.layers;
-    drawThings(commands, simulation, layers, skinPipeline);
-    drawThings(commands, simulation, layers, skinBacksPipeline);
+    const bool isOnce = shadesOnce(canvas, layers);
+    begin(commands, passOf(canvas, isOnce), canvas.framebuffer(sheet.picture), canvas.extent(), empty);
+    if (isOnce) {
+        drawScreen(commands, surfacesPipeline);
+    } else {
+        drawThings(commands, simulation, layers, skinPipeline);
+        drawThings(commands, simulation, layers, skinBacksPipeline);
+    }
     if (layers.map() != ColorMap::none) {
         drawValues(commands, simulation, overlay);
     } else {
         drawBalls(commands, opened(ballPipeline, layers), simulation, overlay);
         if (layers.skin() == SkinLook::solid) drawSheets(commands, layers, simulation);
-        if (layers.skin() == SkinLook::solid)
+        if (layers.skin() == SkinLook::solid && !isOnce)
             drawCuts(commands, opened(insidePipeline, layers), opened(clippedPipeline, layers), simulation);
     }
     drawMarks(commands, simulation, layers);
@@ -246,6 +281,16 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
     drawScreen(commands, hasBackdrop ? backdropPipeline : skyPipeline);
     drawWalls(commands, wallPipeline, walls_.sides(), sideColor);
     recordLayers(commands, simulation, overlay);
+    device_.functions().vkCmdEndRenderPass(commands);
+}
+
+void Renderer::recordSurfaces(VkCommandBuffer commands, const Canvas& canvas,
+                              const sim::Simulation& simulation, const Layers& layers) const noexcept {
+    constexpr std::array nothing{VkClearValue{}, VkClearValue{}, VkClearValue{.depthStencil = {1, 0}}};
+    begin(commands, *surfacesPass_, canvas.surfacesFramebuffer(), canvas.extent(), nothing);
+    drawThings(commands, simulation, layers, skinSurfacePipeline);
+    drawThings(commands, simulation, layers, skinBacksSurfacePipeline);
+    drawCuts(commands, insideSurfacePipeline, clippedSurfacePipeline, simulation);
     device_.functions().vkCmdEndRenderPass(commands);
 }
 

@@ -23,6 +23,8 @@ struct Quality {
     /// Draws backs of skins of closed bodies only if the camera may be inside one, or for a section.
     bool leavesBacks = false;
     std::uint32_t floorEvery = 1; ///< pictures per update of the floor's light
+    /// Draws bodies and colliders as surfaces first and shades each pixel once; needs one sample.
+    bool shadesOnce = false;
 };
 
 /// For moving pictures in a window on a software device: smaller maps, fewer taps, one sample.
@@ -141,13 +143,20 @@ private:
     void makeBackdrop(Additions& to) const;
     void makeEnlarging(Additions& to) const;
     void makeCuts(Additions& to) const;
+    void makeSurfaces(Additions& to) const;
     void makeSheets(Additions& to) const;
     void makeBalls(Additions& to) const;
     void makeHeld(Additions& to) const;
     void makeWalls(Additions& to) const;
     static const vk::ShaderCode* openedForm(std::size_t index, const PipelineRequest& request) noexcept;
     const RenderPass& countsPass(Additions& to) const;
-    const RenderPass& passOf(const Canvas& canvas) const noexcept;
+    /// The pass of a picture, or the one that keeps the depth of surfaces.
+    const RenderPass& passOf(const Canvas& canvas, bool keepsDepth = false) const noexcept;
+    void addSurfaces(Canvas& canvas) const;
+    /// Whether pictures with these layers are shaded from surfaces.
+    bool shadesOnce(const Canvas& canvas, const Layers& layers) const noexcept;
+    void recordSurfaces(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,
+                        const Layers& layers) const noexcept;
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation, const Overlay& overlay,
                     bool isFloorDue) const noexcept;
     /// Pipelines of a light map: for all faces, for faces towards the light, and for balls.
@@ -257,6 +266,11 @@ private:
         handPipeline,
         insidePipeline,
         clippedPipeline,
+        skinSurfacePipeline,
+        skinBacksSurfacePipeline,
+        insideSurfacePipeline,
+        clippedSurfacePipeline,
+        surfacesPipeline, // shades them
         clothPipeline,
         clothPiecesPipeline, // along cuts
         ballShadowPipeline,
@@ -287,6 +301,8 @@ private:
     std::optional<RenderPass> readablePass_; // like pass_, for pictures that shaders read
     RenderPass copiedPass_;                  // like pass_, for pictures that are copied
     std::optional<RenderPass> wholePass_;    // if pictures may be enlarged
+    std::optional<RenderPass> surfacesPass_; // if each pixel is shaded once
+    std::vector<RenderPass> keepingPasses_;  // then: like pass_, readablePass_, copiedPass_, with its depth
 };
 
 } // namespace sinew::viewer

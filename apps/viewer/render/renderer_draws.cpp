@@ -119,7 +119,8 @@ void Renderer::drawSkins(VkCommandBuffer commands, OfSkins pipelines, const sim:
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
         if (pipelines.leavesSheets && light_.isSheet[i]) continue;
         if (pipeline == skinCountPipeline && !light_.isClosed[i]) continue; // not closed
-        if (pipeline == skinBacksPipeline && leavesBacks_ && light_.isOutward[i]) continue;
+        const bool isOfBacks = pipeline == skinBacksPipeline || pipeline == skinBacksSurfacePipeline;
+        if (isOfBacks && leavesBacks_ && light_.isOutward[i]) continue;
         const std::size_t own = light_.isOutward[i] ? pipelines.solids : pipelines.any;
         if (own != bound) bind(commands, bound = own);
         const sim::SkinRange& skin = drawn.ranges[i];

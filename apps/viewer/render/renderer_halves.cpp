@@ -7,8 +7,10 @@ Halves Renderer::makeHalves(VkExtent2D extent, std::span<const VkImageView> pict
                             bool isCopied) const {
     const VkExtent2D half{(width + 1) / 2, extent.height};
     const auto makeHalf = [&] {
-        return Canvas(device_, *readablePass_, format_,
+        Canvas canvas(device_, *readablePass_, format_,
                       Enlarging(device_, *wholePass_, format_.color, half, 1, {}));
+        addSurfaces(canvas);
+        return canvas;
     };
     Halves halves{RenderPass::whole(device_, format_.color,
                                     isCopied ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL : finalLayout_),

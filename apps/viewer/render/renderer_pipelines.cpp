@@ -3,6 +3,7 @@
 
 #include "viewer_shaders.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace sinew::viewer {
@@ -126,6 +127,27 @@ void Renderer::makeCuts(Additions& to) const {
     request.name = "clipped";
     request.fragment = &shaders::clippedFrag;
     addLit(to, clippedPipeline, request);
+}
+
+void Renderer::makeSurfaces(Additions& to) const {
+    const auto add = [&](std::size_t index, std::size_t whole, const vk::ShaderCode& fragment) {
+        const auto lit = std::ranges::find(to.made_, whole, &Additions::Made::index);
+        PipelineRequest request = lit->request;
+        request.name += ".surface";
+        request.fragment = &fragment;
+        request.pass = surfacesPass_->handle();
+        request.colors = surfaceFormats.size();
+        addPipeline(to, index, request);
+    };
+    add(skinSurfacePipeline, skinPipeline, shaders::skinSurfaceFrag);
+    add(skinBacksSurfacePipeline, skinBacksPipeline, shaders::skinSurfaceFrag);
+    add(insideSurfacePipeline, insidePipeline, shaders::insideSurfaceFrag);
+    add(clippedSurfacePipeline, clippedPipeline, shaders::clippedSurfaceFrag);
+    addLit(to, surfacesPipeline,
+           {.name = "surfaces",
+            .vertex = &shaders::screenVert,
+            .fragment = &shaders::surfacesFrag,
+            .depth = Depth::testBehind});
 }
 
 void Renderer::makeSheets(Additions& to) const {

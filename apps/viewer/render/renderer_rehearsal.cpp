@@ -22,6 +22,7 @@ void Renderer::recordRehearsal(VkCommandBuffer commands, std::uint32_t slot, Can
     sets_.write(slot, frameParams(light_, camera, canvas.aspect(), layers.section));
     sets_.writeCounts(slot, canvas.hasCounts() ? canvas.counts() : maps_.floor.image.view(), maps_.nearest());
     sets_.writeBackdrop(slot, maps_.floor.image.view(), maps_.nearest());
+    sets_.writeSurfaces(slot, maps_.floor.image.view(), maps_.floor.image.view(), maps_.nearest());
     sets_.writeEnlarged(slot, maps_.floor.image.view(), maps_.stretching());
     sets_.bind(commands, slot);
     constexpr std::array nothing{VkClearValue{}, VkClearValue{.depthStencil = {1, 0}}};

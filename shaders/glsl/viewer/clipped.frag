@@ -4,11 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/tissue.glsl"
 #include "viewer/section.glsl"
+#include "viewer/shown.glsl"
 
 layout(location = 0) in vec3 worldPosition;
 layout(location = 1) in vec3 worldNormal;
 layout(location = 2) in vec4 inBody;
-layout(location = 0) out vec4 shown;
 
 const float lipWidth = 1.6; // [pixels]
 const float lipShade = 0.22;
@@ -26,8 +26,5 @@ void main() {
     const float dark = lip(); // before anything is discarded: it needs neighbouring pixels
     keepBehindSection(worldPosition);
     const vec4 skin = frame.skins[min(uint(inBody.w + 0.5), SKIN_COLORS - 1u)];
-    shown = shade(worldPosition, worldNormal, tissue(skin.rgb * mix(1.0, lipShade, dark), skin.w));
-#ifdef GLASS
-    shown.a = glassAlpha(worldPosition, worldNormal);
-#endif
+    show(worldPosition, worldNormal, tissue(skin.rgb * mix(1.0, lipShade, dark), skin.w));
 }

@@ -5,17 +5,14 @@
 #include "viewer/tissue.glsl"
 #include "viewer/inside.glsl"
 #include "viewer/section.glsl"
+#include "viewer/shown.glsl"
 
 layout(location = 0) in vec3 worldPosition;
 layout(location = 1) in vec3 worldNormal;
 layout(location = 2) in vec4 inBody;
-layout(location = 0) out vec4 shown;
 
 void main() {
     keepBehindSection(worldPosition);
     const vec4 skin = frame.skins[min(uint(inBody.w + 0.5), SKIN_COLORS - 1u)];
-    shown = shade(worldPosition, worldNormal, insideSurface(inBody.xyz, skin));
-#ifdef GLASS
-    shown.a = glassAlpha(worldPosition, worldNormal);
-#endif
+    show(worldPosition, worldNormal, insideSurface(inBody.xyz, skin));
 }

@@ -34,11 +34,11 @@ vec3 tissueAlbedo(vec3 inBody, vec3 skin) {
     return mix(flesh * mix(0.55, 1.25, strand), vec3(0.74, 0.55, 0.30), 0.55 * fat);
 }
 
-// Walls of a cut see each other more than the sky. `skin`: linear RGB and gloss.
+// `skin`: linear RGB and gloss.
 Surface insideSurface(vec3 inBody, vec4 skin) {
     if (skin.w < leastMoist) {
         const float grain = noise(inBody * (260.0 / frame.stage.w));
-        return Surface(skin.rgb * mix(0.66, 0.86, grain), skin.w, 0.6, 0.10);
+        return Surface(skin.rgb * mix(0.66, 0.86, grain), skin.w, 0.6, insideRim);
     }
-    return Surface(tissueAlbedo(inBody, skin.rgb), insideMoist, 0.6, 0.10);
+    return Surface(tissueAlbedo(inBody, skin.rgb), insideMoist, 0.6, insideRim);
 }

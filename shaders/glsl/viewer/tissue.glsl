@@ -35,17 +35,24 @@ struct Surface {
     float rim;     // share of the sky that is mirrored at grazing angles
 };
 
+const float skinRim = 0.34, insideRim = 0.10; // walls of a cut see each other more than the sky
+
 Surface tissue(vec3 albedo, float moist) {
-    return Surface(albedo, moist, 0.6, 0.34);
+    return Surface(albedo, moist, 0.6, skinRim);
 }
 
-// The color of a pixel that shows a surface point.
-vec4 shade(vec3 worldPosition, vec3 worldNormal, Surface surface) {
+// The unit normal on the side of a triangle that is seen. An inverted triangle in a smooth surface, such as a sliver
+// beside a cut, is lit like its surroundings.
+vec3 seenNormal(vec3 worldPosition, vec3 worldNormal) {
+    const vec3 v = normalize(frame.eye.xyz - worldPosition);
+    return normalize(worldNormal) * (gl_FrontFacing || dot(worldNormal, v) > 0.0 ? 1.0 : -1.0);
+}
+
+// The color of a pixel that shows a surface point; `n`: see seenNormal().
+vec4 shadeSeen(vec3 worldPosition, vec3 n, Surface surface) {
     const vec3 albedo = surface.albedo;
     const float moist = surface.moist;
     const vec3 v = normalize(frame.eye.xyz - worldPosition);
-    // an inverted triangle in a smooth surface, such as a sliver beside a cut, is lit like its surroundings
-    const vec3 n = normalize(worldNormal) * (gl_FrontFacing || dot(worldNormal, v) > 0.0 ? 1.0 : -1.0);
     const vec3 l = frame.toLight.xyz;
     const vec3 halfway = normalize(l + v);
     const float nv = max(dot(n, v), 0.02), facing = dot(n, l), nl = max(facing, 0.0);
@@ -76,6 +83,10 @@ vec4 shade(vec3 worldPosition, vec3 worldNormal, Surface surface) {
 
     const vec3 diffuse = albedo * (direct + ambient) / pi;
     return finish(diffuse + moist * keyLight * nl * lit * fresnel * gloss + rim, gl_FragCoord.xy);
+}
+
+vec4 shade(vec3 worldPosition, vec3 worldNormal, Surface surface) {
+    return shadeSeen(worldPosition, seenNormal(worldPosition, worldNormal), surface);
 }
 
 // Opacity of a translucent skin: larger at grazing angles.
