@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::array empty{VkClearValue{.color = {{0, 0, 0, 1}}}, VkClearValue{.depthStencil = {1, 0}}};
 
+constexpr std::uint64_t picturesBeforeUnseen = 3; // the first picture should come soon
+
 bool isSrgb(VkFormat format) {
     return format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB;
 }
@@ -274,6 +276,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
     drawCap(commands, canvas, layers);
     if (overlay.hand) drawHand(commands, simulation, *overlay.hand, handColor, 1);
     for (const Hand& pin : overlay.pins) drawHand(commands, simulation, pin, pinColor, -1);
+    if (pictures_ == picturesBeforeUnseen) drawUnseen(commands, {handPipeline});
     drawStroke(commands, overlay.stroke, strokeColor, sheet.slot * pointsASlot);
     drawStroke(commands, overlay.gauge.first(std::min<std::size_t>(overlay.gauge.size(), 2)), gaugeColor,
                sheet.slot * pointsASlot + mostStrokePoints);
@@ -291,6 +294,8 @@ void Renderer::recordSurfaces(VkCommandBuffer commands, const Canvas& canvas,
     drawThings(commands, simulation, layers, skinSurfacePipeline);
     drawThings(commands, simulation, layers, skinBacksSurfacePipeline);
     drawCuts(commands, insideSurfacePipeline, clippedSurfacePipeline, simulation);
+    if (pictures_ == picturesBeforeUnseen && simulation.cutSurface().draws.size > 0)
+        drawUnseen(commands, {insideSurfacePipeline, clippedSurfacePipeline});
     device_.functions().vkCmdEndRenderPass(commands);
 }
 

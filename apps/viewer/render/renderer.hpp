@@ -157,6 +157,10 @@ private:
     bool shadesOnce(const Canvas& canvas, const Layers& layers) const noexcept;
     void recordSurfaces(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,
                         const Layers& layers) const noexcept;
+    /// Draws nothing with pipelines that a picture may need later, so that a driver that compiles at the
+    /// first use does so before a stroke begins.
+    void drawUnseen(VkCommandBuffer commands, std::initializer_list<std::size_t> pipelines) const noexcept;
+    void bindNothing(VkCommandBuffer commands) const noexcept; ///< vertices of a degenerate triangle
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation, const Overlay& overlay,
                     bool isFloorDue) const noexcept;
     /// Pipelines of a light map: for all faces, for faces towards the light, and for balls.

@@ -41,14 +41,28 @@ void Renderer::recordRehearsal(VkCommandBuffer commands, std::uint32_t slot, Can
         begin(commands, passOf(canvas), canvas.framebuffer(0), canvas.extent(), nothing);
     const vk::DeviceFunctions& functions = device_.functions();
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, made.pipeline.handle());
+    bindNothing(commands);
+    push(commands, {{layers.map() != ColorMap::none ? 1.0f : 0.0f}});
+    functions.vkCmdDraw(commands, 3, 1, 0, 0);
+    functions.vkCmdEndRenderPass(commands);
+}
+
+void Renderer::bindNothing(VkCommandBuffer commands) const noexcept {
     std::array<VkBuffer, mostBindings> buffers;
     std::array<VkDeviceSize, mostBindings> offsets;
     buffers.fill(nothing_.view().buffer);
     offsets.fill(nothing_.view().offset);
-    functions.vkCmdBindVertexBuffers(commands, 0, mostBindings, buffers.data(), offsets.data());
-    push(commands, {{layers.map() != ColorMap::none ? 1.0f : 0.0f}});
-    functions.vkCmdDraw(commands, 3, 1, 0, 0);
-    functions.vkCmdEndRenderPass(commands);
+    device_.functions().vkCmdBindVertexBuffers(commands, 0, mostBindings, buffers.data(), offsets.data());
+}
+
+void Renderer::drawUnseen(VkCommandBuffer commands,
+                          std::initializer_list<std::size_t> pipelines) const noexcept {
+    bindNothing(commands);
+    push(commands, layout::SkinPush{});
+    for (const std::size_t pipeline : pipelines) {
+        bind(commands, pipeline);
+        device_.functions().vkCmdDraw(commands, 3, 1, 0, 0);
+    }
 }
 
 } // namespace sinew::viewer
