@@ -199,7 +199,8 @@ void addStepInput(py::module_& module) {
         .def(py::init([](const std::string& kind, std::uint32_t body, const Vector& linear,
                          const Vector& angular, const std::array<float, 4>& rotation, const Vector& center,
                          float radius) {
-                 constexpr const char* kinds[] = {"add_velocity", "set_velocity", "impulse", "pose"};
+                 constexpr const char* kinds[] = {"add_velocity", "set_velocity", "impulse",
+                                                  "pose",         "spawn",        "despawn"};
                  const auto found = std::ranges::find(kinds, kind);
                  if (found == std::end(kinds)) throw py::value_error("there is no motion of kind " + kind);
                  return SinewMotion{static_cast<std::uint32_t>(found - std::begin(kinds)),
@@ -305,6 +306,7 @@ PYBIND11_MODULE(_sinew, module) {
         .def("add_attachments", &Scene::addAttachments, py::arg("particles"), py::arg("anchors"),
              py::arg("compliances") = 0.0f)
         .def("add_body", &Scene::addBody, py::arg("name"), py::arg("first"), py::arg("count"))
+        .def("set_absent", &Scene::setAbsent, py::arg("body"), py::arg("absent") = true)
         .def("add_plane", &Scene::addPlane, py::arg("normal") = Vector{0, 1, 0}, py::arg("offset") = 0.0f,
              py::arg("friction") = 0.0f, py::arg("restitution") = 0.0f)
         .def("add_cloth", &Scene::addCloth)

@@ -156,6 +156,10 @@ struct Scene : Owned<SinewScene, sinewDestroyScene> {
         return body;
     }
 
+    void setAbsent(std::uint32_t body, bool isAbsent) {
+        check(sinewSetAbsent(handle, body, isAbsent ? 1 : 0));
+    }
+
     void addPlane(const Vector& normal, float offset, float friction, float restitution) {
         SinewPlane plane = sinewDefaultPlane();
         plane.normal = toVec3(normal);

@@ -236,6 +236,10 @@ struct SINEW_API Body {
     /// one say nothing about those of the other, and no overlap of the two counts as one at load. Particles
     /// of no body have the number 0.
     std::uint32_t arrival = 0;
+    /// Starts outside of the world, and enters and leaves it by motions (MotionKind::spawn, despawn). Costs
+    /// memory, and little time while it is absent. Needs `split`, Settings::motions, and a body that moves,
+    /// may not be cut, and is linked to no other and to no anchor.
+    bool isAbsent = false;
 };
 
 /// Position of a skin vertex in a lattice cell: x = sum over corners k of N_k(weights) x_k, trilinear. Corner

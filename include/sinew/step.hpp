@@ -84,7 +84,9 @@ enum class MotionKind {
     addVelocity, ///< adds velocities of a rigid motion
     setVelocity, ///< replaces all velocities by those
     impulse,     ///< adds the velocities of the rigid motion that an impulse and its moment give
-    pose         ///< turns a body about its centre of mass and displaces it, with its velocities
+    pose,        ///< turns a body about its centre of mass and displaces it, with its velocities
+    spawn,       ///< puts a body of Body::isAbsent into the world as the scene has it, turned and displaced
+    despawn      ///< takes it out again
 };
 
 /// A change of the motion of a body, or of all particles in a region, at the start of one step. It acts on
@@ -99,20 +101,28 @@ enum class MotionKind {
 /// Links, attachments and grabs hold on to it and pull; a blade's stroke begins anew in it. Previous
 /// positions move with it, previous vertices of skins do not. It has no effect on a body with a fixed or
 /// driven particle.
+///
+/// A spawned body has the shape of the scene, no velocity and no memory; a velocity may follow in the same
+/// step. It is turned about the centre of mass that it has in the scene, then displaced from there. One that
+/// is in the world is placed anew. A body out of the world stands still in one point, absentPlace on all
+/// three axes (Body::isAbsent), with no inverse mass: it touches nothing, and other motions leave it there.
+/// Where several of a step spawn, despawn or pose a body, the last counts.
 struct Motion {
     static constexpr std::uint32_t allBodies = 0xffffffff;
+    static constexpr float absentPlace = 1e6f; ///< coordinates of all particles of an absent body [m]
 
     MotionKind kind = MotionKind::addVelocity;
     /// Index into Scene::bodies, with all its pieces but removed ones; or allBodies: loose particles too. A
-    /// pose needs one.
+    /// pose, a spawn and a despawn need one.
     std::uint32_t body = allBodies;
     Vec3 center{}; ///< of the region [m]
     /// 0 = everywhere; else a motion acts on particles nearer to `center` than that, after all poses [m]. Of
-    /// a pose 0.
+    /// a pose, a spawn and a despawn 0.
     float radius = 0;
-    Vec3 linear{};  ///< velocity of the centre of mass [m/s]; impulse [N s]; of a pose its displacement [m]
+    /// Velocity of the centre of mass [m/s]; impulse [N s]; of a pose or spawn its displacement [m].
+    Vec3 linear{};
     Vec3 angular{}; ///< angular velocity [rad/s]; of an impulse its moment about the centre of mass [N m s]
-    Quaternion rotation{}; ///< of a pose, about the centre of mass; of unit length
+    Quaternion rotation{}; ///< of a pose or spawn, about the centre of mass; of unit length
 };
 
 /// The surface that the edge of a blade sweeps in a step: quads between two poly-lines, each split into two

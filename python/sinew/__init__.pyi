@@ -69,6 +69,8 @@ class Scene:
         """Springs to points (n, 3) that `step(anchors=...)` moves [m]. Returns the first index."""
     def add_body(self, name: str, first: int, count: int) -> int:
         """Names a range of particles. Returns the index of the body, as the functions below do."""
+    def set_absent(self, body: int, absent: bool = True) -> None:
+        """Lets a body start outside of the world: motions of kind spawn and despawn let it in and out."""
     def add_plane(self, normal: Vector = (0, 1, 0), offset: float = 0.0, friction: float = 0.0, restitution: float = 0.0) -> None: ...
     def add_cloth(self, **sheet: Any) -> int:
         """name, columns, rows, spacing, origin, right, down, area_density, membrane_stiffness, bending_stiffness, skip_stiffness,
@@ -102,9 +104,9 @@ class Field:
 
 class Motion:
     """A change of the motion of a body or region, once, at the start of the first step of step(): linear is a velocity [m/s], an impulse
-    [N s] or a displacement [m] of the centre of mass, angular a velocity [rad/s] or moment [N m s] about it, rotation that of a pose (x,
-    y, z, w). SinewMotion of sinew_motions.h has the rules."""
-    def __init__(self, kind: Literal["add_velocity", "set_velocity", "impulse", "pose"], body: int = 0xFFFFFFFF, linear: Vector = (0, 0, 0),
+    [N s] or a displacement [m] of the centre of mass, angular a velocity [rad/s] or moment [N m s] about it, rotation that of a pose or spawn
+    (x, y, z, w). SinewMotion of sinew_motions.h has the rules."""
+    def __init__(self, kind: Literal["add_velocity", "set_velocity", "impulse", "pose", "spawn", "despawn"], body: int = 0xFFFFFFFF, linear: Vector = (0, 0, 0),
                  angular: Vector = (0, 0, 0), rotation: Sequence[float] = (0, 0, 0, 1), center: Vector = (0, 0, 0),
                  radius: float = 0.0) -> None: ...
 

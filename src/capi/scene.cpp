@@ -4,6 +4,7 @@
 
 #include "sim/compile/compile.hpp"
 #include "sinew/colliders.hpp"
+#include "sinew/sinew_motions.h"
 #include "sinew/start.hpp"
 #include "sinew/substeps.hpp"
 #include "sinew/validate.hpp"
@@ -348,6 +349,17 @@ SinewResult sinewGetBody(SinewScene scene, uint32_t index, SinewBody* body) {
         result.restVolume = from.restVolume;
         copyText(from.name, result.name);
         return SINEW_OK;
+    });
+}
+
+SinewResult sinewSetAbsent(SinewScene scene, uint32_t body, uint32_t isAbsent) {
+    return call(__func__, [&] {
+        const Use<SceneObject> object(scene.id, Access::write);
+        std::vector<sim::Body>& bodies = object->scene.bodies;
+        if (body >= bodies.size())
+            invalidArgument("body " + std::to_string(body) + " is asked for, and there are " +
+                            std::to_string(bodies.size()));
+        bodies[body].isAbsent = isAbsent != 0;
     });
 }
 

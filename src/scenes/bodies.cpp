@@ -5,6 +5,7 @@
 #include "scenes/origin.hpp"
 #include "scenes/surface.hpp"
 #include "sinew/bodies.hpp"
+#include "sinew/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -248,6 +249,13 @@ float toughnessOf(const Section& body) {
     return body.number("toughness");
 }
 
+void letBeAbsent(LoadedScene& loaded, const Section& section, std::size_t firstBody) {
+    if (!section.flag("absent")) return;
+    for (std::size_t b = firstBody; b < loaded.scene.bodies.size(); ++b)
+        loaded.scene.bodies[b].isAbsent = true;
+    loaded.settings.motions = sim::ranges::mostMotions;
+}
+
 void addCloth(LoadedScene& loaded, const Section& cloth) {
     requireUnit(cloth, "right");
     requireUnit(cloth, "down");
@@ -286,6 +294,7 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
     sim::addCloth(loaded.scene, sheet);
     if (!cloth.has("thickness")) noteDefaultContacts(loaded, cloth, loaded.scene.bodies.size() - 1);
     addSurface(loaded, cloth, first);
+    letBeAbsent(loaded, cloth, loaded.scene.bodies.size() - 1);
 }
 
 void addChain(LoadedScene& loaded, const Section& section) {
@@ -327,7 +336,8 @@ void addBox(LoadedScene& loaded, const Section& box, FaceChoices& faces) {
                                .tearsPerStep = box.count("tears_per_step"),
                                .toughness = toughnessOf(box)};
     const BoxRows rows = rowsOf(box, lattice, copies, loaded.origin);
-    const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
+    const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size(),
+                      firstBody = loaded.scene.bodies.size();
     for (std::uint64_t i = 0; i < count; ++i) {
         sim::Lattice one = lattice;
         one.origin = rows.origin(i, copies);
@@ -337,6 +347,7 @@ void addBox(LoadedScene& loaded, const Section& box, FaceChoices& faces) {
     }
     addSurface(loaded, box, first);
     faces.add(loaded, box, firstGrid);
+    letBeAbsent(loaded, box, firstBody);
 }
 
 void addParticles(LoadedScene& loaded, const Section& section) {

@@ -26,6 +26,8 @@ bool isColliding(const LoadedScene& loaded, const Section& body);
 /// Notes in LoadedScene::defaults the bodies of a section, those from `first` on, if they touch by
 /// default.
 void noteDefaultContacts(LoadedScene& loaded, const Section& body, std::size_t first);
+/// Lets the bodies from `firstBody` on be absent at first, if the table says so, with room for motions.
+void letBeAbsent(LoadedScene& loaded, const Section& section, std::size_t firstBody);
 
 /// Throws SceneError for `key`, which says how a body touches that touches nothing.
 [[noreturn]] void refuseUntouching(const LoadedScene& loaded, const Section& body, const char* key);

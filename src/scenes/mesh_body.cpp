@@ -279,6 +279,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     addSurface(loaded, section, first);
     noteDefaultContacts(loaded, section, firstBody);
     faces.add(loaded, section, firstGrid);
+    letBeAbsent(loaded, section, firstBody);
 }
 
 PlacedMesh placedMesh(const Section& section, const Source& source, const std::array<double, 3>& origin) {

@@ -117,6 +117,7 @@ constexpr Key keys[] = {
     {"cloth", "velocity", Kind::vector, "m/s", speed, "[0, 0, 0]", "velocity of the centre of mass at the start"},
     {"cloth", "spin", Kind::vector, "rad/s", speed, "[0, 0, 0]", "angular velocity about the centre of mass at the start"},
     {"cloth", "rotation", Kind::vector, "degrees", angle, "[0, 0, 0]", "about x, then y, then z, around the middle of the sheet"},
+    {"cloth", "absent", Kind::flag, "", {}, "false", "whether the body starts outside of the world, for a host that spawns it"},
     {"cloth", "color", Kind::vector, "", ranges::color, "[0.16, 0.34, 0.58]", "linear red, green and blue"},
 
     {"chain", "name", Kind::text, "", {}, "\"chain\"", "name of the body in reports and files"},
@@ -159,6 +160,7 @@ constexpr Key keys[] = {
     {"box", "velocity", Kind::vector, "m/s", speed, "[0, 0, 0]", "velocity of the centre of mass at the start"},
     {"box", "spin", Kind::vector, "rad/s", speed, "[0, 0, 0]", "angular velocity about the centre of mass at the start"},
     {"box", "rotation", Kind::vector, "degrees", angle, "[0, 0, 0]", "about x, then y, then z, around the middle of the box; each copy around its own"},
+    {"box", "absent", Kind::flag, "", {}, "false", "whether the body starts outside of the world, for a host that spawns it"},
     {"box", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
 
     {"mesh", "name", Kind::text, "", {}, "", "name of the body in reports and files; that of the mesh file or shape if missing"},
@@ -194,6 +196,7 @@ constexpr Key keys[] = {
     {"mesh", "toughness", Kind::number, "J/m^2", ranges::toughness, "0", "work of a blade for each area that it cuts, of the body at rest: the force on the blade in the report; changes no motion"},
     {"mesh", "velocity", Kind::vector, "m/s", speed, "[0, 0, 0]", "velocity of the centre of mass at the start"},
     {"mesh", "spin", Kind::vector, "rad/s", speed, "[0, 0, 0]", "angular velocity about the centre of mass at the start"},
+    {"mesh", "absent", Kind::flag, "", {}, "false", "whether the body starts outside of the world, for a host that spawns it"},
     {"mesh", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
 
     {"particles", "name", Kind::text, "", {}, "\"particles\"", "name of the body in reports and files"},

@@ -1,5 +1,6 @@
 // Scenes of the C interface: arrays, bodies, files, and what is refused.
 #include "capi/support.hpp"
+#include "sinew/sinew_motions.h"
 
 #include <cmath>
 #include <fstream>
@@ -166,6 +167,13 @@ TEST(CApiScene, MakesAVoxelBodyOfAMesh) {
     EXPECT_NEAR(body.restVolume, 1.0f / 6, 1e-3f);
     EXPECT_EQ(std::string(body.name), std::string(mesh.name).substr(0, 63));
     EXPECT_EQ(countsOf(scene).skins, 1u);
+}
+
+TEST(CApiScene, LetsABodyBeAbsent) {
+    Scene scene;
+    makeCube(scene);
+    EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "body 5 is asked for", sinewSetAbsent(scene, 5, 1)));
+    EXPECT_TRUE(isOk(sinewSetAbsent(scene, 0, 1)));
 }
 
 TEST(CApiScene, SetsTheMotionOfOneBody) {

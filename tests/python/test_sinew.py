@@ -134,6 +134,23 @@ class Module(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "2 to 256 points"):
             sinew.Blade([[0, 0, 0]], [[0, 0, 0]])
 
+    def test_bodies_come_and_go_by_motions(self):
+        scene = cube()
+        scene.set_absent(0)
+        with self.assertRaisesRegex(sinew.Error, "settings.motions"):
+            sinew.Simulation(self.device, scene)
+        simulation = sinew.Simulation(self.device, scene, sinew.Settings(motions=2))
+        simulation.step(1, gravity=(0, 0, 0))
+        self.assertTrue((simulation.positions[:, :3] == 1e6).all())
+        there = sinew.Simulation(self.device, cube(), sinew.Settings(motions=2))
+        there.step(1, gravity=(0, 0, 0))
+        simulation.step(1, gravity=(0, 0, 0), motions=[sinew.Motion("spawn", 0, linear=(1, 0, 0))])
+        np.testing.assert_allclose(simulation.positions[:, :3] - there.positions[:, :3], [(1, 0, 0)] * len(there.positions), atol=1e-6)
+        simulation.step(1, gravity=(0, 0, 0), motions=[sinew.Motion("despawn", 0)])
+        self.assertTrue((simulation.positions[:, :3] == 1e6).all())
+        with self.assertRaisesRegex(sinew.Error, "does not let be absent"):
+            there.step(motions=[sinew.Motion("spawn", 0)])
+
     def test_as_many_host_colliders_as_asked_for_push(self):
         scene = sinew.Scene()
         places = np.stack(np.meshgrid(np.arange(16), np.arange(16), [0]), axis=-1).reshape(-1, 3).astype(float)

@@ -3,6 +3,7 @@
 
 #include "sinew/bodies.hpp"
 #include "sinew/events.hpp"
+#include "sinew/validate.hpp"
 
 #include <array>
 #include <random>
@@ -178,6 +179,15 @@ Settings drawSettings(Lots& lots) {
     return settings;
 }
 
+// Every other body, if it can.
+void letBodiesBeAbsent(DrawnScene& drawn) {
+    for (std::size_t b = 0; b < drawn.scene.bodies.size(); b += 2) {
+        bool& isAbsent = drawn.scene.bodies[b].isAbsent;
+        isAbsent = true;
+        isAbsent = validate(drawn.scene, drawn.settings).empty();
+    }
+}
+
 } // namespace
 
 DrawnScene drawScene(std::uint32_t seed) {
@@ -189,6 +199,7 @@ DrawnScene drawScene(std::uint32_t seed) {
     drawn.settings.fields = lots.extraIn(3) ? 1 : 0;
     drawn.settings.events = lots.extraIn(2) ? allEvents : 0;
     drawn.settings.motions = lots.extraIn(3) ? 2 : 0;
+    if (drawn.settings.motions > 0 && drawn.settings.solver == Solver::split) letBodiesBeAbsent(drawn);
     return drawn;
 }
 

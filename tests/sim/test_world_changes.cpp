@@ -78,6 +78,35 @@ TEST(World, AddsAndRemovesCollidersAndWhatTheyCarry) {
     EXPECT_LT(play.positions(body)[0].y, -0.5f) << "the collider is gone";
 }
 
+TEST(World, KeepsBodiesInAndOutWhenOthersArrive) {
+    for (const bool sleeps : {false, true}) {
+        Play play(dampedGround(), {.substeps = 6, .sleeps = sleeps, .motions = 1});
+        Scene guest = box({0, 0.5f, 0}, {2, 2, 2});
+        guest.bodies[0].isAbsent = true;
+        const PartId pool = play.add(guest);
+        const auto isAway = [&] { return play.positions(pool)[0].x == Motion::absentPlace; };
+        play.run(4);
+        EXPECT_TRUE(isAway());
+        const PartId other = play.add(stranger());
+        play.run(4);
+        EXPECT_TRUE(isAway());
+        Motion motion{.kind = MotionKind::spawn, .body = play.at(pool).first.bodies};
+        play.step({.motions = std::span(&motion, 1)});
+        EXPECT_NEAR(double{play.positions(pool)[0].y}, 0.5, 0.01);
+        play.remove(other);
+        play.run(60);
+        EXPECT_FALSE(isAway());
+        EXPECT_LT(play.positions(pool)[0].y, 0.3f) << "it has fallen to the ground";
+        EXPECT_GT(play.positions(pool)[0].y, -0.01f);
+        motion = {.kind = MotionKind::despawn, .body = play.at(pool).first.bodies};
+        play.step({.motions = std::span(&motion, 1)});
+        EXPECT_TRUE(isAway());
+        play.add(stranger());
+        play.run(4);
+        EXPECT_TRUE(isAway());
+    }
+}
+
 TEST(World, MakesRoomForMoreContacts) {
     Play play(ground(), {.substeps = 6, .contactRoom = 1}),
         roomy(ground(), {.substeps = 6, .contactRoom = 64});

@@ -1,4 +1,5 @@
-// Tests that the state hash does not depend on the run, on threads, or on the order of invocations.
+// Tests that the state hash does not depend on the run, on threads, or on the order of invocations, nor the
+// figures of a report on bodies that are absent.
 #include "tools/program.hpp"
 
 #include <fstream>
@@ -121,4 +122,34 @@ TEST_F(SameState, WithFormsThatWereMeasuredAndRemembered) {
     const nlohmann::json given = report({"box.toml", "--frames", "5", "--forms", "columns=1,chunk=1"}, kept);
     EXPECT_EQ(given["forms"]["source"], "given");
     EXPECT_EQ(report({"box.toml", "--frames", "5"}, kept)["forms"]["source"], "usual");
+}
+
+// A body that is absent from start to end changes no figure.
+TEST_F(SameState, OfFiguresBesideAnAbsentBody) {
+    const std::string box = "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [0, 0.3, 0]\n";
+    const std::string guest = "[[box]]\nname = \"guest\"\nparticles = [3, 3, 3]\nspacing = 0.1\n"
+                              "center = [2, 0.5, 0]\nvelocity = [3, 0, 0]\ncollides = true\nabsent = true\n",
+                      solver = "[solver]\nsubsteps = 8\nsleep = true\n", host = box + "collides = true\n";
+    for (const std::string plane : {"", "[[plane]]\n[[plane]]\nnormal = [0, -1, 0]\noffset = -9\n"}) {
+        write("alone.toml", solver + plane + host);
+        write("beside.toml", solver + plane + host + guest);
+        const auto reportOf = [&](const char* scene) {
+            return report({scene, "--frames", "60", "--trace", "trace.csv", "--trace-every", "30"});
+        };
+        const auto trace = [&] { // without the memory that is in use
+            std::ifstream stream(folder_ / "trace.csv");
+            std::string kept;
+            for (std::string line; std::getline(stream, line);)
+                kept += line.substr(0, line.rfind(',', line.rfind(',') - 1)) + "\n";
+            return kept;
+        };
+        const nlohmann::json alone = reportOf("alone.toml");
+        const std::string traced = trace();
+        const nlohmann::json beside = reportOf("beside.toml");
+        EXPECT_EQ(alone["error"], beside["error"]);
+        EXPECT_EQ(alone["sleeping"], beside["sleeping"]);
+        EXPECT_EQ(traced, trace());
+        EXPECT_EQ(alone["error"]["momentum"].is_null(), !plane.empty());
+        EXPECT_FALSE(alone["error"]["volume"].is_null());
+    }
 }

@@ -60,7 +60,10 @@ constexpr Sweep halfCut{{{{{0.17f, 1, -1}, {0.17f, 1, 1}}}, {{{0.17f, -1, -1}, {
 struct Cut {
     explicit Cut(const sim::Scene& scene_, const Layers& on = {}, const Sweep& sweep = cornerCut,
                  int more = 1)
-        : layers(on), scene(scene_), document(test::device(), scene, {.substeps = 8}),
+        : layers(on), scene(scene_),
+          document(
+              test::device(), scene,
+              {.substeps = 8, .motions = std::ranges::any_of(scene.bodies, &sim::Body::isAbsent) ? 1u : 0u}),
           inspection(test::device(), document, 1),
           probe(test::device(), scene, document.settings(), document.simulation()) {
         inspection.prepare(layers);
@@ -161,6 +164,24 @@ TEST(Removed, IsNotInThePicture) {
     const float all = std::sqrt(3.0f) * 4 * spacing;
     EXPECT_GT(wide, 1.5f * all);
     EXPECT_NEAR(narrow, all, 0.1f * all);
+}
+
+// Nor are bodies that are absent.
+TEST(Removed, AbsentBodiesAreNotInThePicture) {
+    for (const bool isCuttable : {false, true}) {
+        sim::Scene scene = block(0);
+        scene.grids[0].isCuttable = isCuttable;
+        const std::size_t first = scene.distances.size();
+        sim::addLattice(scene, {.origin = {1, 0, 0}, .cells = {2, 2, 2}, .spacing = spacing});
+        scene.bodies.back().isAbsent = true;
+        Cut cut(scene);
+        EXPECT_LT(cut.probe.bounds().diagonal().norm(), 1);
+        const auto isLive = cut.probe.liveLinks();
+        for (std::size_t d = 0; d < scene.distances.size(); ++d)
+            if (d >= first || !isCuttable) { // the cut parts others
+                EXPECT_EQ(isLive(d), d < first) << d;
+            }
+    }
 }
 
 struct Photo {

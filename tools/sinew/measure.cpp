@@ -7,6 +7,7 @@
 #include "sinew/crossings.hpp"
 #include "sinew/overlap.hpp"
 #include "sinew/skin_mesh.hpp"
+#include "sinew/step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,9 +55,16 @@ void measureStrain(const sim::Scene& scene, const State& state, Errors& errors) 
     errors.strainMax = strains.result().largest;
 }
 
-void measureVolume(const sim::Scene& scene, std::span<const mesh::TriangleMesh> skins, Errors& errors) {
+bool isAway(const sim::Skin& skin, const State& state) {
+    if (skin.vertexCount() == 0) return false;
+    return state.isAway(skin.particles.empty() ? skin.cells.front().particles[0] : skin.particles.front());
+}
+
+void measureVolume(const sim::Scene& scene, const State& state, std::span<const mesh::TriangleMesh> skins,
+                   Errors& errors) {
     for (std::size_t i = 0; i < skins.size(); ++i) {
         const sim::Skin& skin = scene.skins[i];
+        if (isAway(skin, state)) continue;
         const mesh::MeshReport rest = mesh::inspect(skinMesh(skin, skinVertices(scene, skin)));
         if (!rest.defects.isClosed() || rest.volume == 0) continue;
         const double change = mesh::inspect(skins[i]).volume / rest.volume - 1;
@@ -78,6 +86,7 @@ void measureMomentum(const sim::Scene& scene, const State& state, std::uint64_t 
     Point before{}, after{};
     double scale = 0;
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        if (state.isAway(i)) continue;
         const double mass = 1 / double{scene.particles[i].inverseMass};
         const Point v = pointOf(state.velocities[i]);
         before = sum(before, pointOf(scene.particles[i].velocity), mass);
@@ -108,6 +117,11 @@ double depthInColliders(const sim::Scene& scene, const State& state, double time
 
 } // namespace
 
+bool State::isAway(std::size_t particle) const {
+    const std::array<float, 4>& x = positions[particle];
+    return std::all_of(x.begin(), x.begin() + 3, [](float one) { return one == sim::Motion::absentPlace; });
+}
+
 Errors measurePenetration(const sim::Scene& scene, const State& state, std::uint64_t frames) {
     Errors errors;
     const std::optional<Overlap> overlap = overlapOf(scene, state);
@@ -133,7 +147,7 @@ Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh
     Errors errors = measurePenetration(scene, state, frames);
     errors.crossings = crossingsOf(scene, state);
     measureStrain(scene, state, errors);
-    measureVolume(scene, skins, errors);
+    measureVolume(scene, state, skins, errors);
     measureMomentum(scene, state, frames, errors);
     return errors;
 }

@@ -13,12 +13,14 @@ namespace sinew::tools {
 struct State {
     std::vector<std::array<float, 4>> positions, velocities;
     std::vector<bool> isAsleep = {}; ///< by particle; empty if nothing can sleep
-    /// By particle: in a removed fragment (sim::Scene::debris); empty if nothing can be cut. Figures except
-    /// momentum exclude these particles.
+    /// By particle: in a removed fragment (sim::Scene::debris) or an absent body; empty if nothing can be
+    /// either. Figures exclude these particles, but momentum includes removed fragments.
     std::vector<bool> isRemoved = {};
     /// By distance constraint of the scene; empty if nothing can be cut.
     std::vector<bool> isCut = {};
     bool has(std::size_t particle) const { return isRemoved.empty() || !isRemoved[particle]; }
+    /// Whether a particle stands where those of absent bodies do.
+    bool isAway(std::size_t particle) const;
     /// Whether a distance constraint is live.
     bool holds(std::size_t distance) const { return isCut.empty() || !isCut[distance]; }
 };

@@ -243,6 +243,11 @@ State Runner::readState() {
     if (simulation().pieces().size > 0)
         for (const std::uint32_t piece : session_.queue.download<std::uint32_t>(simulation().pieces()))
             state.isRemoved.push_back(piece == REMOVED_PIECE);
+    if (std::ranges::any_of(scene_.bodies, &sim::Body::isAbsent)) {
+        state.isRemoved.resize(scene_.particles.size());
+        for (std::size_t i = 0; i < state.isRemoved.size(); ++i)
+            state.isRemoved[i] = state.isRemoved[i] || state.isAway(i);
+    }
     const sim::BufferId links = simulation().program().cutting.links;
     if (links != sim::BufferId{}) {
         const app::CutLinks cut(scene_, sim::stateLayout(scene_, settings_).slot);
@@ -252,7 +257,9 @@ State Runner::readState() {
     if (!settings_.sleeps) return state;
     const std::vector<float> inverseMass = sim::inverseMasses(scene_); // 0 on the device for sleepers
     for (std::size_t i = 0; i < inverseMass.size(); ++i) {
-        state.isAsleep.push_back(inverseMass[i] > 0 && state.positions[i][3] == 0);
+        const bool isAway = state.isAway(i);
+        state.isAsleep.push_back(!isAway && inverseMass[i] > 0 && state.positions[i][3] == 0);
+        if (isAway) continue;
         state.positions[i][3] = state.velocities[i][3] = inverseMass[i];
     }
     return state;

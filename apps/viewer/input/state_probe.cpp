@@ -2,6 +2,7 @@
 #include "viewer/input/state_probe.hpp"
 
 #include "sinew/inspection.hpp"
+#include "sinew/step.hpp"
 #include "sinew/vk/commands.hpp"
 #include "viewer/input/pick.hpp"
 
@@ -13,6 +14,11 @@ vk::Buffer readback(const vk::Device& device, const std::string& name, const vk:
     return vk::Buffer(
         device,
         {.name = name, .count = of.size / of.stride, .stride = of.stride, .kind = vk::MemoryKind::readback});
+}
+
+bool isAway(const sim::layout::vec4& place) {
+    constexpr float away = sim::Motion::absentPlace;
+    return place.x == away && place.y == away && place.z == away;
 }
 
 } // namespace
@@ -57,6 +63,7 @@ Box StateProbe::bounds(const sim::Body& body) const {
     for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i) {
         if (isRemoved(pieces(), i)) continue;
         const sim::layout::vec4& place = positions()[i];
+        if (isAway(place)) continue;
         const Vector3 position(place.x, place.y, place.z);
         if (position.allFinite()) box.extend(position);
     }
@@ -78,12 +85,14 @@ std::span<const sim::layout::vec4> StateProbe::velocities() const noexcept {
 }
 
 std::function<bool(std::size_t)> StateProbe::liveLinks() {
-    if (isWhole_ || !links_) return [](std::size_t) { return true; };
+    if (isWhole_ || !links_) // of an absent body both ends are away
+        return [this](std::size_t d) { return !isAway(positions()[scene_.distances[d].a]); };
     if (!cutLinks_) cutLinks_.emplace(scene_, sim::particleSlots(scene_, settings_).slot);
     const std::span words(reinterpret_cast<const std::uint32_t*>(links_->to.mapped()), links_->to.count());
     return [this, words](std::size_t d) {
         const sim::DistanceConstraint& link = scene_.distances[d];
-        return !cutLinks_->isCut(d, words) && !isRemoved(pieces(), link.a) && !isRemoved(pieces(), link.b);
+        return !isAway(positions()[link.a]) && !cutLinks_->isCut(d, words) && !isRemoved(pieces(), link.a) &&
+               !isRemoved(pieces(), link.b);
     };
 }
 

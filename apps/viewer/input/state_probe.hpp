@@ -38,7 +38,7 @@ public:
     /// For every particle (see sim::Simulation::pieces()); empty if nothing can be cut.
     std::span<const std::uint32_t> pieces() const noexcept;
     /// Whether a link of the scene (index into Scene::distances) is live: it is not cut, and neither end is
-    /// in a removed fragment. Valid until the next recording.
+    /// in a removed fragment or an absent body. Valid until the next recording.
     std::function<bool(std::size_t)> liveLinks();
 
 private:

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 #include "events/events.h"
+#include "events/absent.glsl"
 
 layout(std430, binding = 0) readonly buffer Contacts { uint contacts[]; }; // of this step, by body and partner
 layout(std430, binding = 1) buffer Touching { uint touching[]; }; // 0 = they do not touch, else 1 + steps since they did
@@ -48,7 +49,7 @@ bool hasSlept(uint body) {
     if (!maySleep) return false;
     const uint before = slept[body];
     slept[body] = noted[body].awake != 0u ? 0u : noted[body].asleep != 0u ? 1u : before;
-    return slept[body] != before;
+    return slept[body] != before && noted[body].awake != EVENT_ABSENT;
 }
 
 bool hasParted(uint body) {

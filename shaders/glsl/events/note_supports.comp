@@ -8,6 +8,7 @@
 layout(push_constant) uniform Push { EventPush push; };
 #include "events/partners.glsl"
 #include "common/math.glsl"
+#include "common/absent.glsl"
 
 layout(std430, binding = 2) readonly buffer Reaches { float reaches[]; }; // contact offset and limit [m]; far below 0 = never moves
 layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; };   // x + thetaH v
@@ -39,7 +40,7 @@ void main() {
     if (i >= push.count) return;
     const uint body = bodies[i];
     const float reach = reaches[i];
-    if (body == NO_BODY || reach < -1e30) return;
+    if (body == NO_BODY || reach < -1e30 || isAbsent(positions[i].xyz)) return;
     const vec3 x = placeOf(i);
     for (uint p = 0u; p < planeCount; ++p)
         if (dot3(planes[p].xyz, x) - planes[p].w <= reach) addContact(body, push.bodies + p);

@@ -39,6 +39,7 @@ void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count || bodies[i] >= push.bodies || placed[bodies[i]] == 0u || inverseMassOf(i) == 0.0) return;
     const uint k = placed[bodies[i]] - 1u;
+    if (requests[k].kind != MOTION_POSE) return; // see move_pool
     wake(i);
     const vec3 v = rotated(requests[k].rotation, velocities[i].xyz);
     const Sum x = placedAt(k, placeOf(i));

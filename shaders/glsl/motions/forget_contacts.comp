@@ -31,6 +31,7 @@ void main() {
         const uint other = bodyOf(contacts[element].other, haveShapes);
         if ((pose | poseOf(other)) == 0u) continue;
         const vec4 one = memory[element];
-        memory[element] = body == other ? vec4(rotated(requests[pose - 1u].rotation, one.xyz), one.w) : vec4(0.0);
+        const bool turns = body == other && requests[pose - 1u].kind == MOTION_POSE;
+        memory[element] = turns ? vec4(rotated(requests[pose - 1u].rotation, one.xyz), one.w) : vec4(0.0);
     }
 }

@@ -34,5 +34,5 @@ bool actsOn(MotionRequest request, uint body, vec3 x) {
 }
 
 bool isOfRound(MotionRequest request, uint isPose) {
-    return request.kind != MOTION_NONE && (request.kind == MOTION_POSE) == (isPose != 0u);
+    return request.kind != MOTION_NONE && (request.kind >= MOTION_POSE) == (isPose != 0u);
 }

@@ -11,11 +11,13 @@ layout(std430, binding = 2) readonly buffer Requests { MotionRequest requests[];
 layout(std430, binding = 3) readonly buffer Frames { MotionFrame frames[]; };
 layout(std430, binding = 4) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 5) buffer Previous { vec4 previous[]; };
+layout(std430, binding = 6) readonly buffer Positions { vec4 positions[]; }; // public [m]
 layout(push_constant) uniform Push { MotionPush push; };
 #include "motions/pose.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count || bodies[i] >= push.bodies || placed[bodies[i]] == 0u || !isFinished(status)) return;
-    previous[i].xyz = placedAt(placed[bodies[i]] - 1u, previous[i].xyz).rounded;
+    const uint k = placed[bodies[i]] - 1u; // a spawned body was nowhere: it has no motion
+    previous[i].xyz = requests[k].kind == MOTION_POSE ? placedAt(k, previous[i].xyz).rounded : positions[i].xyz;
 }

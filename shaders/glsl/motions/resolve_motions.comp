@@ -64,7 +64,7 @@ void main() {
     for (uint b = k; b < push.bodies; b += GROUP_SIZE) {
         uint pose = 0u;
         for (uint m = 0u; m < push.motions; ++m)
-            if (requests[m].kind == MOTION_POSE && requests[m].body == b) pose = m + 1u;
+            if (requests[m].kind >= MOTION_POSE && requests[m].body == b) pose = m + 1u;
         placed[b] = pose;
     }
 }

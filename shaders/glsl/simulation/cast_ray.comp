@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 #include "simulation/pick.h"
+#include "common/absent.glsl"
 
 layout(push_constant) uniform Push { PickPush push; };
 
@@ -24,7 +25,7 @@ float meet(uint particle) {
     const float along = -dot(from, push.direction.xyz);
     const vec3 apart = from + along * push.direction.xyz;
     const float rest = radius * radius - dot(apart, apart);
-    if (radius < 0.0 || pieces[particle] == REMOVED_PIECE || !(rest >= 0.0)) return PICK_FAR;
+    if (radius < 0.0 || pieces[particle] == REMOVED_PIECE || isAbsent(positions[particle].xyz) || !(rest >= 0.0)) return PICK_FAR;
     const float halfWay = sqrt(rest), t = along - halfWay;
     if (push.isOpened != 0u && t <= push.origin.w && along + halfWay > push.origin.w) return push.origin.w;
     return t > push.origin.w && t <= push.direction.w ? t : PICK_FAR;

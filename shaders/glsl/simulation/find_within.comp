@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 #include "simulation/pick.h"
+#include "common/absent.glsl"
 
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) readonly buffer Pieces { uint pieces[]; };
@@ -12,7 +13,7 @@ layout(push_constant) uniform Push { WithinPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
-    if (i >= push.count || pieces[i] == REMOVED_PIECE) return;
+    if (i >= push.count || pieces[i] == REMOVED_PIECE || isAbsent(positions[i].xyz)) return;
     if (push.isMoving != 0u && inverseMasses[i] == 0.0) return;
     const vec3 beyond = max(abs(positions[i].xyz - push.center.xyz) - push.halfExtents.xyz, vec3(0.0));
     if (dot(beyond, beyond) > push.center.w * push.center.w) return;

@@ -165,6 +165,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.push.room = lists.pooled.room;
     lists.grid.entries = pooled_lists::entriesInUse(lists.pooled, lists.grid);
     lists.radii = program.upload("faces.radii", request.radii);
+    program.program().grids.back().touching = lists.radii;
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);
     lists.excluded = program.upload("faces.excluded", request.exclusions);

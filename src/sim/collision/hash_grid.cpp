@@ -149,7 +149,10 @@ Grid add(ProgramBuilder& program, const Request& request) {
                                        .sorted = grid.sorted,
                                        .count = grid.push.count,
                                        .cells = cells,
-                                       .detected = grid.detected});
+                                       .detected = grid.detected,
+                                       .radii = grid.radii,
+                                       .touching = {},
+                                       .watched = grid.watched});
     return grid;
 }
 

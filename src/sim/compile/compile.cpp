@@ -8,6 +8,7 @@
 #include "sim/core/hash.hpp"
 #include "sim/lattice/cells.hpp"
 #include "sim/model/links.hpp"
+#include "sim/motions/pool.hpp"
 #include "sim/solvers/gauss_seidel.hpp"
 #include "sim/solvers/jacobi.hpp"
 #include "sim/solvers/solver_plan.hpp"
@@ -68,9 +69,10 @@ ParticleBuffers addParticles(ProgramBuilder& program, const SceneModel& model,
             .mostW = solver.mostW.empty()
                          ? unbound
                          : program.upload("state.most_w", spread(solver.mostW, layout, layout.count)),
-            .velocities =
-                program.upload("state.velocities",
-                               spread(velocitiesOf(model.scene, model.inverseMass), layout, layout.count)),
+            .velocities = program.upload(
+                "state.velocities",
+                spread(velocitiesOf(model.scene, motions::withAbsent(model.scene, model.inverseMass)), layout,
+                       layout.count)),
             .layout = layout,
             .sleep = nullptr,
             .grabs = nullptr,
@@ -120,9 +122,10 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     built.constraintCount =
         static_cast<std::uint32_t>(linkCount(scene) + scene.attachments.size() + scene.tethers.size());
     const SceneModel model(scene, settings);
-    const std::vector<float>& inverseMass = model.inverseMass;
+    const std::vector<float> inverseMass = motions::withAbsent(scene, model.inverseMass);
     const StateLayout& layout = model.layout;
-    const std::vector<Vec3> start = lattice::startingPositions(scene, inverseMass);
+    const std::vector<Vec3> start =
+        motions::withAbsent(scene, lattice::startingPositions(scene, model.inverseMass));
     built.positions = program.upload("positions", positionsOf(start, inverseMass));
     if (settings.publishesVelocities)
         built.velocities = program.upload("velocities", velocitiesOf(scene, inverseMass));
@@ -157,7 +160,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     addPublishing(build); // Feature::check between the check of the state and its copy
     build.add(&Feature::cutEnd);
     build.add(&Feature::end);
-    if (solver.positionW != inverseMass) addWeights(program, build.particles);
+    if (solver.positionW != model.inverseMass) addWeights(program, build.particles);
     build.add(&Feature::finish);
     program.into(List::rewrite, [&] { build.add(&Feature::rewrite); });
     surface::addSkins(build); // Feature::skinNormals between positions and normals, Feature::skinEnd

@@ -12,6 +12,7 @@
 #include "sim/grabs/grab.hpp"
 #include "sim/levels/levels.hpp"
 #include "sim/motions/motions.hpp"
+#include "sim/motions/pool.hpp"
 #include "sim/rigid/colliders.hpp"
 #include "sim/rigid/driven.hpp"
 #include "sim/sleep/sleep.hpp"
@@ -38,6 +39,8 @@ constexpr Feature rows[] = {
      .open = constraints::attachment::add,
      .afterContacts = constraints::attachment::addPass},
     {.name = "grabs", .begin = grabs::add, .afterContacts = grabs::addPass},
+    {.name = "bodies that come and go", .begin = motions::addComing},
+    {.name = "choice of grabs", .begin = grabs::addChoice},
     {.name = "contacts",
      .cutEnd = solvers::addCutFilters,
      .end = solvers::addContactMemory,
@@ -65,6 +68,9 @@ constexpr Feature rows[] = {
      .open = sleep::addOpening,
      .check = sleep::addDetection,
      .finish = sleep::finish},
+    {.name = "lists of what is in the world",
+     .open = motions::addPoolGroups,
+     .check = motions::endPoolGroups},
 };
 
 } // namespace

@@ -13,6 +13,7 @@
 #include "sim/model/grids.hpp"
 #include "sim/model/links.hpp"
 #include "sim/model/touching.hpp"
+#include "sim/motions/pool.hpp"
 #include "sim/rigid/check_colliders.hpp"
 #include "sim/stiffness/shares.hpp"
 #include "sinew/ranges.hpp"
@@ -333,18 +334,14 @@ void checkFaces(const Scene& scene, Complaints& complaints) {
 
 // Complains about contacts in a scene whose solver does not support them; they are not ignored.
 void checkContacts(const Scene& scene, const Settings& settings, Complaints& complaints) {
-    if (settings.solver != Solver::split && particlesTouch(scene))
-        complaints.add(std::string("solver ") + solverName(settings.solver) +
-                           " does not support particles that touch each other (Particle::radius)",
+    if (settings.solver == Solver::split) return;
+    const auto refuse = [&](const char* what) {
+        complaints.add(std::string("solver ") + solverName(settings.solver) + " does not support " + what,
                        "use split");
-    if (settings.solver != Solver::split && facesTouch(scene))
-        complaints.add(std::string("solver ") + solverName(settings.solver) +
-                           " does not support particles that touch faces (Scene::faces)",
-                       "use split");
-    if (settings.solver != Solver::split && !scene.driven.empty())
-        complaints.add(std::string("solver ") + solverName(settings.solver) +
-                           " does not support bodies that are driven (Scene::driven)",
-                       "use split");
+    };
+    if (particlesTouch(scene)) refuse("particles that touch each other (Particle::radius)");
+    if (facesTouch(scene)) refuse("particles that touch faces (Scene::faces)");
+    if (!scene.driven.empty()) refuse("bodies that are driven (Scene::driven)");
 }
 
 // Needs a scene that is otherwise valid: the number follows from its links. Most settings skip the check.
@@ -574,6 +571,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkGrids(scene, complaints);
     for (std::size_t i = 0; i < scene.skins.size(); ++i)
         checkSkin(scene.skins[i], element("skin", i), scene.particles.size(), complaints);
+    if (complaints.isEmpty()) motions::checkPool(scene, settings, complaints);
     if (complaints.isEmpty()) checkCutting(scene, settings, complaints);
     if (complaints.isEmpty()) checkCellVolumes(scene, settings, complaints);
     if (complaints.isEmpty()) collision::checkCrowding(scene, complaints);

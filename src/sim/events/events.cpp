@@ -254,7 +254,8 @@ void addListing(Build& build) {
     const BufferId status = program.program().status;
     if (events.maySleep)
         program.dispatch(k::noteSleep, events.push.count,
-                         {events.bodies, particles.sleep->weights, particles.velocities, events.noted},
+                         {events.bodies, particles.sleep->weights, particles.velocities, events.noted,
+                          particles.positions},
                          events.push);
     layout::EventPush push = events.push;
     push.count = events.contactWords() / 2 + events.bodyWords();

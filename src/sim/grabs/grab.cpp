@@ -15,6 +15,8 @@ namespace {
 
 static_assert(MOST_GRABS == ranges::mostGrabs);
 
+constexpr std::uint32_t comeAndGoId = 1; // constant_id in select_grabbed.comp
+
 constexpr float mostGain = 1e8f; // the largest useful value in float32
 
 // The linked component of each particle, and the mass of the component.
@@ -80,13 +82,23 @@ void add(Build& build) {
     program.addToState(grabs->held, grabs->held, {.of = Elements::one, .values = Elements::particles});
     program.addToState(grabs->pulling, grabs->pulling, {.of = Elements::one});
     program.updateGrabs(grabs->requests);
-    program.dispatch(kernels::openGrabs, settings.grabs,
-                     {grabs->requests, grabs->states, grabs->holding, grabs->pulling}, push);
-    program.dispatchIndirect(kernels::selectGrabbed, {grabs->holding, 0, count},
-                             {grabs->requests, grabs->states, grabs->bodies, program.program().positions,
-                              grabs->grips, grabs->held, grabs->pulling},
-                             push);
     build.particles.grabs = grabs;
+}
+
+void addChoice(Build& build) {
+    const ParticleBuffers& particles = build.particles;
+    if (!particles.grabs) return;
+    ProgramBuilder& program = build.program;
+    const Grabs& grabs = *particles.grabs;
+    const bool comeAndGo = std::ranges::any_of(build.model.scene.bodies, &Body::isAbsent);
+    program.dispatch(kernels::openGrabs, grabs.push.grabs,
+                     {grabs.requests, grabs.states, grabs.holding, grabs.pulling}, grabs.push);
+    program.dispatchIndirect(kernels::selectGrabbed, {grabs.holding, 0, grabs.push.count},
+                             {grabs.requests, grabs.states, grabs.bodies,
+                              boundIf(!comeAndGo, program.program().positions), grabs.grips, grabs.held,
+                              grabs.pulling, boundIf(comeAndGo, particles.positions),
+                              boundIf(comeAndGo, particles.velocities), boundIf(comeAndGo, particles.step)},
+                             grabs.push, {{comeAndGoId, comeAndGo}});
 }
 
 void addPass(Build& build, const Substep& substep) {

@@ -18,9 +18,11 @@ struct Grabs {
     BufferId requests, states, bodies, grips, held, holding, pulling;
 };
 
-/// Sets build.particles.grabs and appends the passes at the start of a step. Nothing without
-/// Settings::grabs.
+/// Sets build.particles.grabs: adds the buffers. Nothing without Settings::grabs; the functions below then
+/// add nothing either.
 void add(Build& build);
+/// Appends the passes that determine the held particles, after bodies have come and gone (motions/pool.hpp).
+void addChoice(Build& build);
 /// Appends the pull at the end of a substep.
 void addPass(Build& build, const Substep& substep);
 

@@ -45,6 +45,10 @@ void addOfSplit(Key& key, const Scene& scene) {
     key.each(scene.grids,
              [&](const Grid& grid) { key.addAll(grid.isCuttable, grid.tearStrain, grid.toughness); });
     key.add(scene.debris);
+    if (std::ranges::any_of(scene.bodies, &Body::isAbsent))
+        key.each(scene.bodies, [&](const Body& body) {
+            key.addAll(body.firstParticle, body.particleCount, body.isAbsent);
+        });
 }
 
 void addLinks(Key& key, const Scene& scene) {

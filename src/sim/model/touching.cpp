@@ -17,10 +17,14 @@ std::vector<float> looseRadii(const Scene& scene) {
 }
 
 std::vector<std::uint32_t> arrivals(const Scene& scene) {
+    constexpr std::uint32_t ofAbsent = 0x80000000u; // each has a number of its own
     std::vector<std::uint32_t> result(scene.particles.size(), 0);
-    for (const Body& body : scene.bodies)
-        for (std::uint32_t i = 0; body.arrival != 0 && i < body.particleCount; ++i)
-            if (body.firstParticle + i < result.size()) result[body.firstParticle + i] = body.arrival;
+    for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+        const Body& body = scene.bodies[b];
+        const std::uint32_t arrival = body.isAbsent ? ofAbsent + b : body.arrival;
+        for (std::uint32_t i = 0; arrival != 0 && i < body.particleCount; ++i)
+            if (body.firstParticle + i < result.size()) result[body.firstParticle + i] = arrival;
+    }
     return result;
 }
 

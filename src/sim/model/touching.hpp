@@ -12,7 +12,7 @@ namespace sinew::sim {
 /// thick and touch in its place.
 std::vector<float> looseRadii(const Scene& scene);
 
-/// By particle Body::arrival.
+/// By particle Body::arrival; each body that may be absent has a number of its own.
 std::vector<std::uint32_t> arrivals(const Scene& scene);
 
 /// Whether two particles with a radius may touch each other, at least one of which moves.

@@ -3,6 +3,7 @@
 #include "sim/motions/motions.hpp"
 
 #include "kernels.hpp"
+#include "sim/motions/pool.hpp"
 #include "sim/sleep/sleep.hpp"
 #include "sinew/ranges.hpp"
 
@@ -21,6 +22,11 @@ static_assert(MOTION_ALL_BODIES == Motion::allBodies);
 // constant_ids of motions.glsl, apply_motions.comp and forget_contacts.comp
 constexpr std::uint32_t maySleepId = 1, hasDebrisId = 2, isCuttableId = 3, areEdgesId = 1, haveShapesId = 2;
 
+// What the host writes.
+struct Requests {
+    BufferId requests, arguments;
+};
+
 struct Motions {
     layout::MotionPush push{};
     BufferId requests, arguments, bodies, sums, frames, placed;
@@ -30,6 +36,20 @@ struct Motions {
 
 std::uint32_t groupsOf(std::size_t items) {
     return static_cast<std::uint32_t>((items + GROUP_ITEMS - 1) / GROUP_ITEMS);
+}
+
+// The centre of mass of a body in the scene [m].
+std::array<float, 3> centerOf(const SceneModel& model, const Body& body) {
+    double mass = 0, x = 0, y = 0, z = 0;
+    for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i) {
+        const double m = 1 / double{model.inverseMass[i]};
+        const Vec3& at = model.scene.particles[i].position;
+        mass += m;
+        x += m * double{at.x};
+        y += m * double{at.y};
+        z += m * double{at.z};
+    }
+    return {static_cast<float>(x / mass), static_cast<float>(y / mass), static_cast<float>(z / mass)};
 }
 
 std::vector<MotionBody> bodiesOf(const SceneModel& model) {
@@ -44,6 +64,8 @@ std::vector<MotionBody> bodiesOf(const SceneModel& model) {
             one.end = std::max(one.end, layout.slot[i] + 1);
             one.isHeld = one.isHeld || !model.moves(i);
         }
+        one.isAbsent = body.isAbsent;
+        if (body.isAbsent) one.center = centerOf(model, body);
     }
     bodies.push_back({.first = 0, .end = count, .origin = layout.slot.front()});
     return bodies;
@@ -53,8 +75,19 @@ IndirectItems itemsOf(const Motions& motions, std::uint32_t element, std::size_t
     return {motions.arguments, element, static_cast<std::uint32_t>(most)};
 }
 
+Requests requestsOf(Build& build) {
+    if (const Requests* found = build.find<Requests>()) return *found;
+    ProgramBuilder& program = build.program;
+    const Requests made{
+        program.scratchOfStep<layout::MotionRequest>("motions.requests", build.model.settings.motions),
+        program.scratchOfStep<layout::DispatchArguments>("motions.arguments", MOTION_ARGUMENTS)};
+    program.updateMotions(made.requests, made.arguments);
+    return build.keep(made);
+}
+
 Motions& addBuffers(Build& build) {
     ProgramBuilder& program = build.program;
+    const Requests given = requestsOf(build);
     const SceneModel& model = build.model;
     const std::uint32_t count = model.settings.motions;
     const auto slots = static_cast<std::uint32_t>(model.layout.count);
@@ -63,8 +96,8 @@ Motions& addBuffers(Build& build) {
     const bool hasDebris = cutting.debris > 0, maySleep = build.particles.sleep != nullptr;
     Motions motions{
         .push = {slots, count, 0, bodies, model.settings.solver == Solver::split ? 1u : 0u},
-        .requests = program.scratchOfStep<layout::MotionRequest>("motions.requests", count),
-        .arguments = program.scratchOfStep<layout::DispatchArguments>("motions.arguments", MOTION_ARGUMENTS),
+        .requests = given.requests,
+        .arguments = given.arguments,
         .bodies = program.upload("motions.bodies", bodiesOfSlots(model.scene, model.layout, MOTION_NO_BODY)),
         .sums = program.scratchOfStep<layout::MotionSums>("motions.sums", std::size_t{count} * MOTION_CHUNKS),
         .frames = program.scratchOfStep<layout::MotionFrame>("motions.frames", count),
@@ -74,7 +107,6 @@ Motions& addBuffers(Build& build) {
     motions.constants.insert({{maySleepId, maySleep}, {hasDebrisId, hasDebris}});
     motions.members = {motions.bodies, sleep::weightsOf(build.particles),
                        boundIf(hasDebris, cutting.particles), boundIf(hasDebris, cutting.pieces)};
-    program.updateMotions(motions.requests, motions.arguments);
     program.program().motions = {.slots = groupsOf(slots), .bodies = bodiesOf(model)};
     return build.keep(std::move(motions));
 }
@@ -132,14 +164,24 @@ std::uint32_t kindOf(MotionKind kind) {
         return MOTION_IMPULSE;
     case MotionKind::pose:
         return MOTION_POSE;
+    case MotionKind::spawn:
+        return MOTION_SPAWN;
+    case MotionKind::despawn:
+        return MOTION_DESPAWN;
     }
     return MOTION_NONE;
+}
+
+bool places(MotionKind kind) {
+    return kindOf(kind) >= MOTION_POSE;
 }
 
 layout::MotionRequest onDevice(const Motion& motion, const MotionGroups& scene) {
     const MotionBody& body =
         scene.bodies[std::min<std::size_t>(motion.body, scene.bodies.size() - 1)]; // the last one is all
-    const Vec3 &v = motion.linear, &a = motion.angular, &c = motion.center;
+    const Vec3 &v = motion.linear, &a = motion.angular;
+    const Vec3 mass{body.center[0], body.center[1], body.center[2]};
+    const Vec3& c = motion.kind == MotionKind::spawn ? mass : motion.center;
     const Quaternion& q = motion.rotation;
     const double length = lengthOf(q);
     const auto unit = [length](float component) {
@@ -168,6 +210,10 @@ void add(Build& build) {
     addRound(build, motions, false);
 }
 
+void addComing(Build& build) {
+    if (haveAbsent(build.model.scene)) addPool(build, requestsOf(build).requests);
+}
+
 void addForgetting(Build& build) {
     const Motions* motions = build.find<Motions>();
     if (!motions) return;
@@ -189,6 +235,7 @@ void addForgetting(Build& build) {
                                   ofFaces ? contacts.faces : boundIf(ofEdges, contacts.edges)},
                                  push, {{areEdgesId, ofEdges}, {haveShapesId, ofFaces || ofEdges}});
     }
+    addPoolMasks(build, motions->bodies);
 }
 
 void addPrevious(Build& build) {
@@ -204,14 +251,14 @@ void addPrevious(Build& build) {
     program.dispatchIndirect(k::placePrevious, itemsOf(*motions, MOTIONS_PREVIOUS, push.count),
                              {program.upload("motions.bodies_of_particles", bodies), motions->placed,
                               motions->requests, motions->frames, program.program().status,
-                              program.program().previousPositions},
+                              program.program().previousPositions, program.program().positions},
                              push);
 }
 
 Fault faultOf(const Motion& motion, const MotionGroups& scene) noexcept {
     constexpr float leastRadius = 1e-6f;                        // [m]
     constexpr double leastUnit = 1 - 1e-3, mostUnit = 1 + 1e-3; // length of a rotation
-    const bool isOfAll = motion.body == Motion::allBodies, isPose = motion.kind == MotionKind::pose;
+    const bool isOfAll = motion.body == Motion::allBodies;
     if (scene.bodies.empty()) return Fault::noRoom;
     if (kindOf(motion.kind) == MOTION_NONE) return Fault::kind;
     if (!isNear(motion.linear) || !isNear(motion.angular) || !isNear(motion.center) ||
@@ -219,11 +266,14 @@ Fault faultOf(const Motion& motion, const MotionGroups& scene) noexcept {
         return Fault::number;
     if (!isOfAll && motion.body >= scene.bodies.size() - 1) return Fault::body;
     if (motion.radius != 0 && !(motion.radius >= leastRadius)) return Fault::radius;
-    if (!isPose) return Fault::none;
+    if (!places(motion.kind)) return Fault::none;
     if (isOfAll || motion.radius != 0) return Fault::notWhole;
+    const MotionBody& body = scene.bodies[motion.body];
+    if (motion.kind == MotionKind::despawn) return body.isAbsent ? Fault::none : Fault::isAlwaysThere;
     const double length = lengthOf(motion.rotation);
     if (!(length >= leastUnit && length <= mostUnit)) return Fault::rotation;
-    return scene.bodies[motion.body].isHeld ? Fault::isHeld : Fault::none;
+    if (motion.kind == MotionKind::spawn) return body.isAbsent ? Fault::none : Fault::isAlwaysThere;
+    return body.isHeld ? Fault::isHeld : Fault::none;
 }
 
 const char* textOf(Fault fault) noexcept {
@@ -241,11 +291,13 @@ const char* textOf(Fault fault) noexcept {
     case Fault::radius:
         return "has a radius that is neither 0 nor at least 1e-6 m";
     case Fault::notWhole:
-        return "is a pose, but not of one whole body";
+        return "places a body, but not one whole one";
     case Fault::rotation:
         return "has a rotation that is not of unit length";
     case Fault::isHeld:
         return "is a pose of a body with a fixed or driven particle";
+    case Fault::isAlwaysThere:
+        return "spawns or despawns a body that the scene does not let be absent (isAbsent)";
     }
     return nullptr;
 }
@@ -260,7 +312,7 @@ std::size_t MotionRequests::advance(std::span<const Motion> motions) noexcept {
             continue;
         }
         requests_[m] = onDevice(motions[m], *groups_);
-        const bool isPose = motions[m].kind == MotionKind::pose;
+        const bool isPose = places(motions[m].kind);
         arePoses = arePoses || isPose;
         areVelocities = areVelocities || !isPose;
     }

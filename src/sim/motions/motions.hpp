@@ -18,13 +18,27 @@ namespace sinew::sim::motions {
 /// Adds the buffers, and the passes that move particles. Nothing unless Settings::motions; the functions
 /// below then add nothing either.
 void add(Build& build);
+/// Appends the passes that let bodies into the world and out of it, before grabs look for particles
+/// (pool.hpp).
+void addComing(Build& build);
 /// Appends the passes over contact lists, after these were added.
 void addForgetting(Build& build);
 /// Appends the pass over previous positions.
 void addPrevious(Build& build);
 
 /// The reason why a motion has no effect.
-enum class Fault : std::uint8_t { none, noRoom, kind, number, body, radius, notWhole, rotation, isHeld };
+enum class Fault : std::uint8_t {
+    none,
+    noRoom,
+    kind,
+    number,
+    body,
+    radius,
+    notWhole,
+    rotation,
+    isHeld,
+    isAlwaysThere
+};
 
 Fault faultOf(const Motion& motion, const MotionGroups& scene) noexcept;
 /// As a part of a sentence; null for `none`.

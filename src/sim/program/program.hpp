@@ -209,10 +209,9 @@ struct ContactGrid {
 
 /// Buffers of cuttable bodies (cutting/cut.hpp); invalid if a scene has none.
 struct CuttingBuffers {
-    BufferId links; ///< by slot: bits of the live links (lattice/link_masks.hpp)
-    BufferId
-        wholeCells; ///< by slot: fillAround without cells that lost an edge; only where cells have volumes
-    BufferId hits;  ///< by slot: layout::LinkHits of the links that the node owns
+    BufferId links;      ///< by slot: bits of the live links (lattice/link_masks.hpp)
+    BufferId wholeCells; ///< by slot: fillAround without cells that lost an edge; if cells have volumes
+    BufferId hits;       ///< by slot: layout::LinkHits of the links that the node owns
     BufferId savedLinks; ///< by slot: links before the step
     BufferId dirty;      ///< a bit for each slot: whether the last blade cut within reach of the node
     /// Slots with a dirty corner in one of their cells, by run, each run from its first slot on; their
@@ -227,8 +226,7 @@ struct CuttingBuffers {
     float bladeForceScale = 0; ///< 1 / its unit [1 / N s]
     BufferId labels;           ///< by slot: the lowest slot of its piece
     BufferId particles;        ///< by slot: the particle in it, or layout's NO_PARTICLE
-    /// By particle: the particle that names its piece; layout's NO_PARTICLE in bodies that are not cuttable,
-    /// its REMOVED_PIECE in a fragment.
+    /// By particle: the one that names its piece; NO_PARTICLE if not cuttable, REMOVED_PIECE in a fragment.
     BufferId pieces;
     BufferId pieceSizes;            ///< by particle: size of the piece that the particle names, or 0
     std::vector<BufferId> topology; ///< buffers that form a copy of the cuts
@@ -275,6 +273,9 @@ struct GridBuffers {
     std::uint32_t count = 0; ///< elements that `sorted` may have
     std::uint32_t cells = 0; ///< slots of the table
     BufferId detected;       ///< by slot of the state: position when lists were made [m]; w: body
+    BufferId radii;          ///< by element; below 0 = not in the grid
+    /// By slot, below 0 = left out: what touches faces, or invalid; what is checked for its way since then.
+    BufferId touching, watched;
 };
 
 /// The vertices of a sheet's skin along cuts, and what they depend on (surface/sheet_pieces.hpp).
@@ -296,8 +297,10 @@ struct FieldGroups {
 /// A body that the host moves: the slots between which its particles are.
 struct MotionBody {
     std::uint32_t first = 0, end = 0;
-    std::uint32_t origin = 0; ///< slot of its first particle
-    bool isHeld = false;      ///< has a particle that never moves, or is driven
+    std::uint32_t origin = 0;      ///< slot of its first particle
+    bool isHeld = false;           ///< has a particle that never moves, or is driven
+    bool isAbsent = false;         ///< may be absent: Body::isAbsent
+    std::array<float, 3> center{}; ///< of its mass in the scene [m]; of one that may be absent
 };
 
 /// Passes of motions (motions.hpp), and the bodies of the scene; the last one stands for all.

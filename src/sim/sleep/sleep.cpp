@@ -65,15 +65,19 @@ IndirectItems wakingItems(const Sleep& sleep, std::uint32_t element, std::uint32
     return {sleep.waking, element, items};
 }
 
+void addListAwake(ProgramBuilder& program, const Sleep& sleep, const IndirectItems& items) {
+    program.dispatchIndirect(k::listAwake, items,
+                             {sleep.groups, sleep.listed, sleep.passes, sleep.arguments, sleep.state},
+                             sleep.push);
+}
+
 // Passes that wake the particles of marked islands, and then list the groups that run.
 void addWaking(ProgramBuilder& program, const Sleep& sleep, BufferId velocities, std::uint32_t all,
                std::uint32_t one) {
     program.dispatchIndirect(k::wakeIslands, wakingItems(sleep, all, sleep.push.count),
                              {sleep.weights, velocities, sleep.islands, sleep.marks, sleep.groups},
                              sleep.push);
-    program.dispatchIndirect(k::listAwake, wakingItems(sleep, one, GROUP_ITEMS),
-                             {sleep.groups, sleep.listed, sleep.passes, sleep.arguments, sleep.state},
-                             sleep.push);
+    addListAwake(program, sleep, wakingItems(sleep, one, GROUP_ITEMS));
 }
 
 // Passes that wake islands marked in a substep.
@@ -119,6 +123,42 @@ void setContents(ProgramBuilder& program, BufferId buffer, std::span<const std::
     std::copy(bytes.begin(), bytes.end(), initial.begin());
 }
 
+// Buffers of listed groups, all of which run at first.
+void addGroupBuffers(ProgramBuilder& program, Sleep& sleep) {
+    std::vector<std::uint32_t> groups(sleep.push.groups);
+    std::iota(groups.begin(), groups.end(), 0u);
+    sleep.groups = program.upload("sleep.groups", std::vector<std::uint32_t>(groups.size(), 7));
+    sleep.listed = program.upload("sleep.listed", groups);
+    sleep.passes = program.scratch<layout::SleepPass>("sleep.passes", mostPasses);
+    sleep.arguments = program.scratch<layout::DispatchArguments>("sleep.arguments", mostPasses);
+}
+
+// An empty list of passes with its counts and state; element 0 says whether anything runs.
+std::shared_ptr<Sleep> makeSleep(Build& build) {
+    const SceneModel& model = build.model;
+    const auto count = static_cast<std::uint32_t>(model.layout.count);
+    auto sleep = std::make_shared<Sleep>();
+    sleep->push.count = count;
+    sleep->push.groups = groupsOf(count, GROUP_ITEMS);
+    sleep->push.passes = mostPasses; // unused ones have no groups
+    sleep->push.substeps = model.settings.substeps;
+    layout::SleepState state{};
+    state.listed = sleep->push.groups;
+    sleep->state = build.program.upload("sleep.state", std::vector{state});
+    return sleep;
+}
+
+// Writes the passes that were seen, and their arguments of the first step: every particle is awake.
+void setPasses(ProgramBuilder& program, const Sleep& sleep) {
+    std::vector<layout::DispatchArguments> arguments;
+    for (const layout::SleepPass& pass : sleep.passesSeen) {
+        const bool runs = pass.kind == SLEEP_ALL || pass.kind == SLEEP_LISTED;
+        arguments.push_back({runs ? pass.groups : 0, 1, 1, 0});
+    }
+    setContents(program, sleep.passes, std::as_bytes(std::span(sleep.passesSeen)));
+    setContents(program, sleep.arguments, std::as_bytes(std::span(arguments)));
+}
+
 } // namespace
 
 std::vector<float> restLimits(const Scene& scene, const StateLayout& layout) {
@@ -138,22 +178,29 @@ std::vector<float> restLimits(const Scene& scene, const StateLayout& layout) {
     return limits;
 }
 
+std::shared_ptr<Sleep> addGroups(Build& build) {
+    auto sleep = makeSleep(build);
+    addGroupBuffers(build.program, *sleep);
+    return sleep;
+}
+
+void addListing(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep, const IndirectItems& items) {
+    addListAwake(program, *sleep, items);
+    makeIndirect(program, sleep);
+}
+
+void finishListing(ProgramBuilder& program, const Sleep& sleep) {
+    program.setIndirection({});
+    setPasses(program, sleep);
+}
+
 void add(Build& build) {
     const SceneModel& model = build.model;
     if (!model.settings.sleeps) return;
     ProgramBuilder& program = build.program;
     const StateLayout& layout = model.layout;
     const auto count = static_cast<std::uint32_t>(layout.count);
-    auto sleep = std::make_shared<Sleep>();
-    sleep->push.count = count;
-    sleep->push.groups = groupsOf(count, GROUP_ITEMS);
-    sleep->push.passes = mostPasses; // unused ones have no groups
-    sleep->push.substeps = model.settings.substeps;
-    std::vector<std::uint32_t> groups(sleep->push.groups);
-    std::iota(groups.begin(), groups.end(), 0u);
-    layout::SleepState state{};
-    state.listed = sleep->push.groups;
-    sleep->state = program.upload("sleep.state", std::vector{state});
+    auto sleep = makeSleep(build);
     sleep->weights = program.upload("sleep.weights", weightsOf(model));
     sleep->limits = program.upload("sleep.limits", restLimits(model.scene, layout));
     sleep->rests = program.scratch<layout::vec4>("sleep.rests", count);
@@ -161,10 +208,7 @@ void add(Build& build) {
     sleep->islands = program.scratch<std::uint32_t>("sleep.islands", count);
     sleep->least = program.scratch<std::uint32_t>("sleep.least", count);
     sleep->marks = program.scratch<std::uint32_t>("sleep.marks", count);
-    sleep->groups = program.upload("sleep.groups", std::vector<std::uint32_t>(groups.size(), 7));
-    sleep->listed = program.upload("sleep.listed", groups);
-    sleep->passes = program.scratch<layout::SleepPass>("sleep.passes", mostPasses);
-    sleep->arguments = program.scratch<layout::DispatchArguments>("sleep.arguments", mostPasses);
+    addGroupBuffers(program, *sleep);
     sleep->waking = program.scratch<layout::DispatchArguments>("sleep.waking", SLEEP_ARGUMENTS);
     program.program().sleep = {sleep->arguments, sleep->listed};
     program.addToState(sleep->state, sleep->state, {.of = Elements::one});
@@ -280,16 +324,8 @@ void finish(Build& build) {
                       sleep.marks, sleep.state},
                      sleep.push);
     program.setIndirection({});
-    program.dispatchIndirect(k::listAwake, wakingItems(sleep, SLEEP_CLOSING_ONE, GROUP_ITEMS),
-                             {sleep.groups, sleep.listed, sleep.passes, sleep.arguments, sleep.state},
-                             sleep.push);
-    std::vector<layout::DispatchArguments> arguments; // of the first step: every particle is awake
-    for (const layout::SleepPass& pass : sleep.passesSeen) {
-        const bool runs = pass.kind == SLEEP_ALL || pass.kind == SLEEP_LISTED;
-        arguments.push_back({runs ? pass.groups : 0, 1, 1, 0});
-    }
-    setContents(program, sleep.passes, std::as_bytes(std::span(sleep.passesSeen)));
-    setContents(program, sleep.arguments, std::as_bytes(std::span(arguments)));
+    addListAwake(program, sleep, wakingItems(sleep, SLEEP_CLOSING_ONE, GROUP_ITEMS));
+    setPasses(program, sleep);
 }
 
 } // namespace sinew::sim::sleep

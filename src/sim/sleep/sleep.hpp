@@ -39,6 +39,14 @@ BufferId weightsOf(const ParticleBuffers& particles);
 /// By work group of particles: 0 if passes over listed groups leave it out; unbound if none can sleep.
 BufferId groupsOf(const ParticleBuffers& particles);
 
+/// The listed groups alone, of a scene in which nothing sleeps but bodies may be absent (motions/pool.hpp):
+/// all run at first.
+std::shared_ptr<Sleep> addGroups(Build& build);
+/// Appends the pass that lists groups anew. Direct dispatches that follow run for listed groups, or whole.
+void addListing(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep, const IndirectItems& items);
+/// Ends that range.
+void finishListing(ProgramBuilder& program, const Sleep& sleep);
+
 /// Sets build.particles.sleep: adds the buffers. Nothing unless Settings::sleeps; the functions below then
 /// add nothing either.
 void add(Build& build);

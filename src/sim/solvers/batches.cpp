@@ -113,11 +113,11 @@ void appendBody(Batch& batch, const lattice::Box& box, std::vector<layout::Latti
 
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids) {
     // levels, attachments, grabs, fields, tethers, colliders, host colliders, driven bodies and events of
-    // contacts need passes between substeps
+    // contacts need passes between substeps; absent bodies are left out of dispatches of a substep
     if (settings.keepsForces || (settings.events & contactEvents) != 0 || settings.levels > 0 ||
         !scene.attachments.empty() || settings.grabs > 0 || settings.fields > 0 ||
         settings.hostColliders > 0 || !scene.tethers.empty() || !scene.colliders.empty() ||
-        !scene.driven.empty())
+        !scene.driven.empty() || std::ranges::any_of(scene.bodies, &Body::isAbsent))
         return false;
     if (grids.empty() || listedParticles(scene, grids) > 0) return false;
     return std::ranges::all_of(grids, [&](std::uint32_t g) {

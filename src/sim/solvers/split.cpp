@@ -10,6 +10,7 @@
 #include "sim/levels/levels.hpp"
 #include "sim/model/grids.hpp"
 #include "sim/model/touching.hpp"
+#include "sim/motions/pool.hpp"
 #include "sim/rigid/planes.hpp"
 #include "sim/solvers/batches.hpp"
 #include "sim/solvers/split_kernels.hpp"
@@ -28,6 +29,7 @@ namespace {
 struct Gather {
     std::vector<BufferId> buffers; // those of the links
     ProgramBuilder::Constants constants;
+    std::optional<IndirectItems> items = {}; // if bodies come and go
     std::function<void(std::span<const BufferId> buffers, std::uint32_t substep)> dispatch;
     bool alternatesVelocities = false;
 };
@@ -78,15 +80,19 @@ std::vector<constraints::distance::GatherLink> listedLinks(const Common& common)
 template <typename Push>
 void setDispatch(const Common& common, Gather& gather, const vk::ShaderCode& code, Push push) {
     gather.dispatch = [&program = common.program, &code, constants = gather.constants, push,
-                       isSharp = common.isClampSharp(), all = common.build.model.settings.substeps](
-                          std::span<const BufferId> buffers, std::uint32_t substep) mutable {
+                       items = gather.items, isSharp = common.isClampSharp(),
+                       all = common.build.model.settings.substeps](std::span<const BufferId> buffers,
+                                                                   std::uint32_t substep) mutable {
         push.isFirst = substep == 0;
         if (isSharp) {
             const bool isLook = substep % CLAMP_INTERVAL == 0;
             constants[followsDirectionsId] = isLook;
             constants[untilNextId] = isLook ? std::min<std::uint32_t>(CLAMP_INTERVAL, all - substep) : 0;
         }
-        program.dispatch(code, push.count, buffers, push, constants);
+        if (items)
+            program.dispatchIndirect(code, *items, buffers, push, constants);
+        else
+            program.dispatch(code, push.count, buffers, push, constants);
     };
 }
 
@@ -206,6 +212,8 @@ Grids uploadGrids(const Common& common, Residence residence) {
     return grids;
 }
 
+constexpr std::size_t chunksPlace = 1; // among the buffers of a gather of a batch
+
 // Buffers and constants shared by the kernels for a batch, those of a substep and those of a whole step.
 Gather gridGather(const Common& common, const Batch& batch, BufferId cells) {
     Gather gather = common.gather();
@@ -230,6 +238,10 @@ std::vector<Gather> addGathers(const Common& common) {
     const auto [batches, cells] = uploadGrids(common, Residence::memory);
     for (const Batch& batch : batches.batches) {
         gathers.push_back(gridGather(common, batch, cells));
+        gathers.back().items = motions::addPoolChunks(
+            common.build, gathers.back().buffers[chunksPlace],
+            isOneNode(common.model.settings.forms) ? GROUP_ITEMS / LATTICE_GROUP : LATTICE_GROUP,
+            batch.push.count);
         setDispatch(common, gathers.back(), kernelFor(batch, common.model.settings.forms), batch.push);
     }
     return gathers;
