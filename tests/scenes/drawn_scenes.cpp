@@ -199,7 +199,8 @@ DrawnScene drawScene(std::uint32_t seed) {
     drawn.settings.fields = lots.extraIn(3) ? 1 : 0;
     drawn.settings.events = lots.extraIn(2) ? allEvents : 0;
     drawn.settings.motions = lots.extraIn(3) ? 2 : 0;
-    if (drawn.settings.motions > 0 && drawn.settings.solver == Solver::split) letBodiesBeAbsent(drawn);
+    const bool mayBeAbsent = drawn.settings.motions > 0 && drawn.settings.solver == Solver::split;
+    if (mayBeAbsent && lots.extraIn(3)) letBodiesBeAbsent(drawn);
     return drawn;
 }
 

@@ -372,6 +372,40 @@ TEST(Pool, AbsentBodiesAreLeftOut) {
     }
 }
 
+// More chunks than a work group has, so that groups drop out, and reversed kernels begin at the other end.
+TEST(Pool, ReversedKernelsHaveTheSameBits) {
+    for (const bool sleeps : {false, true})
+        for (const std::uint32_t columns : {0u, 1u}) {
+            Scene scene;
+            addLattice(scene, {.cells = {15, 15, 15}, .spacing = 0.05f, .radius = 0.02f});
+            for (std::uint32_t b = 0; b < 6; ++b)
+                addLattice(scene, {.origin = {2.0f + static_cast<float>(b), 0, 0},
+                                   .cells = {9, 9, 9},
+                                   .spacing = 0.05f,
+                                   .radius = 0.02f});
+            for (std::size_t b = 1; b < scene.bodies.size(); ++b) scene.bodies[b].isAbsent = true;
+            scene.planes.push_back({.normal = {0, 1, 0}, .offset = -0.1f});
+            std::vector<std::uint64_t> hashes;
+            for (const bool isReversed : {false, true}) {
+                Settings chosen = with(sleeps);
+                chosen.substeps = 4;
+                chosen.isReversed = isReversed;
+                if (columns > 0) chosen.forms = {.columns = columns, .chunk = 1};
+                test::Runner runner(scene, chosen);
+                const Vector3d before = runner.positions().front();
+                runner.run(6);
+                EXPECT_LT(runner.positions().front().y(), before.y() - 0.01) << "it falls";
+                const std::vector<Motion> in = spawns({1, 4}), out{despawn(1)};
+                runner.step(Step{.motions = in});
+                runner.run(4);
+                runner.step(Step{.motions = out});
+                runner.run(6);
+                hashes.push_back(runner.stateHash());
+            }
+            EXPECT_EQ(hashes[0], hashes[1]) << sleeps << columns;
+        }
+}
+
 // Particles of absent bodies have empty lists of pairs and faces, and are in no list of pairs.
 TEST(Pool, ManyComeAndGo) {
     for (const bool sleeps : {false, true}) {
@@ -506,6 +540,13 @@ TEST(Pool, WrongBodiesAreRefused) {
     bad = stackScene(true, false);
     bad.distances.push_back({.a = 0, .b = bad.bodies[2].firstParticle, .restLength = 1});
     EXPECT_NE(complaintOf(bad, settings).find("is linked to what is not of it"), std::string::npos);
+    bad = stackScene(true, false);
+    bad.bodies[1].particleCount += 1;
+    EXPECT_NE(complaintOf(bad, settings).find("shares a particle with another body"), std::string::npos);
+    bad = stackScene(true, false);
+    bad.skins.push_back(
+        {.name = "skin", .triangles = {{0, 1, 2}}, .particles = {0, 1, bad.bodies[2].firstParticle}});
+    EXPECT_NE(complaintOf(bad, settings).find("has a skin with what is not of it"), std::string::npos);
     bad = stackScene(true, false);
     bad.attachments.push_back({.particle = bad.bodies[2].firstParticle});
     EXPECT_NE(complaintOf(bad, settings).find("has an attachment"), std::string::npos);

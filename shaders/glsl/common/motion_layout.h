@@ -105,4 +105,5 @@ struct PoolPush {
 struct PoolListPush {
     uint count;    // entries
     uint perGroup; // of the dispatch that they are for
+    uint end;      // entry at which a reversed one begins, backwards
 };

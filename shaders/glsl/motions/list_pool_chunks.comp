@@ -30,8 +30,10 @@ void main() {
         if (l == lane) place = total;
         total += sums[l];
     }
+    const uint firstListed = isReversed ? push.end - total : 0u;
     for (uint c = first; c < end; ++c)
-        if (isListed(c)) chunks[place++] = all[c];
-    for (uint c = total + lane; c < push.count; c += GROUP_SIZE) chunks[c] = LatticeChunk(all[0].origin, 0u);
+        if (isListed(c)) chunks[firstListed + place++] = all[c];
+    for (uint c = lane; c < push.count; c += GROUP_SIZE)
+        if (c < firstListed || c >= firstListed + total) chunks[c] = LatticeChunk(all[0].origin, 0u);
     if (lane == 0u) arguments[0] = arguments[1] = DispatchArguments((total + push.perGroup - 1u) / push.perGroup, 1u, 1u, 0u);
 }

@@ -80,7 +80,9 @@ Shares sharesOf(const Bodies& bodies, std::span<const float> radii) {
         if (members[b].empty()) continue;
         const auto number = static_cast<std::uint32_t>(shares.bodies.size());
         shares.numbers[b] = number;
-        const std::uint32_t origin = members[b].front();
+        const auto isThere = [&](std::uint32_t slot) { return !bodies.isAbsent[slot]; };
+        const auto there = std::ranges::find_if(members[b], isThere);
+        const std::uint32_t origin = there == members[b].end() ? members[b].front() : *there;
         layout::FrameBody body{static_cast<std::uint32_t>(shares.chunks.size()), 0, origin, bodies.kinds[b]};
         for (std::size_t first = 0; first < members[b].size(); first += share, ++body.chunks)
             shares.chunks.push_back({static_cast<std::uint32_t>(shares.members.size() + first),
@@ -107,8 +109,11 @@ Bodies bodiesOf(const SceneModel& model) {
     const std::vector<std::uint32_t> movers = linkedMovers(model.scene, inverseMass);
     Bodies bodies{std::vector<std::uint32_t>(layout.count, loose),
                   std::vector<std::uint32_t>(firstLinked + large.size(), FRAME_MOVES),
-                  std::vector<bool>(layout.count, false)};
+                  std::vector<bool>(layout.count, false), std::vector<bool>(layout.count, false)};
     bodies.kinds[still] = FRAME_STANDS;
+    for (const Body& body : model.scene.bodies)
+        for (std::uint32_t i = 0; body.isAbsent && i < body.particleCount; ++i)
+            bodies.isAbsent[layout.slot[body.firstParticle + i]] = true;
     for (std::size_t i = 0; i < components.size(); ++i) {
         const std::uint32_t slot = layout.slot[i];
         bodies.isMember[slot] = true;

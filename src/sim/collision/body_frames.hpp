@@ -17,6 +17,7 @@ struct Bodies {
     std::vector<std::uint32_t> ofSlots; ///< by state slot; padding belongs to any body
     std::vector<std::uint32_t> kinds;   ///< by body: FRAME_MOVES or FRAME_STANDS
     std::vector<bool> isMember;         ///< by state slot: whether a frame is fitted to it
+    std::vector<bool> isAbsent;         ///< by state slot, Body::isAbsent; a body starts at another if it can
 
     /// Whether a body is one linked component, not all that have no frame of their own.
     static bool isAlone(std::uint32_t body);

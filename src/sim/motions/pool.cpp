@@ -125,8 +125,26 @@ private:
     std::vector<const char*> reasons_;
 };
 
+// Particles of two bodies, and of skins that other bodies share.
+void addShared(const Scene& scene, Reasons& reasons) {
+    std::vector<std::uint8_t> owners(scene.particles.size(), 0);
+    for (const Body& body : scene.bodies)
+        for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
+            if (++owners[i] > 1) {
+                reasons.add(i, "shares a particle with another body");
+                break;
+            }
+    for (const Skin& skin : scene.skins) {
+        std::vector<std::uint32_t> carriers = skin.particles;
+        for (const CellEmbedding& cell : skin.cells)
+            carriers.insert(carriers.end(), cell.particles.begin(), cell.particles.end());
+        if (!carriers.empty()) reasons.addUnlessOfOne(carriers, "has a skin with what is not of it");
+    }
+}
+
 Reasons reasonsAgainst(const Scene& scene) {
     Reasons reasons(scene);
+    addShared(scene, reasons);
     const std::vector<float> w = inverseMasses(scene);
     const std::vector<bool> isDriven = rigid::driven::areDriven(scene);
     for (std::uint32_t i = 0; i < w.size(); ++i) {
@@ -174,7 +192,7 @@ void addPool(Build& build, BufferId requests) {
                        .all = static_cast<std::uint32_t>(model.scene.bodies.size()),
                        .slots = static_cast<std::uint32_t>(model.layout.count)},
               .particles = program.upload("pool.particles", members),
-              .changes = program.scratchOfStep<std::uint32_t>("pool.changes", model.scene.bodies.size()),
+              .changes = program.scratch<std::uint32_t>("pool.changes", model.scene.bodies.size()),
               .absent = program.scratch<std::uint32_t>("pool.absent", bodies.size()),
               .arguments = program.scratchOfStep<layout::DispatchArguments>("pool.arguments", POOL_ARGUMENTS),
               .numbers = numbersOfSlots(model),
@@ -241,7 +259,7 @@ std::optional<IndirectItems> addPoolChunks(Build& build, BufferId chunks, std::u
     program.dispatchIndirect(k::listPoolChunks, {pool->arguments, POOL_LISTS, GROUP_ITEMS},
                              {program.initialOf(name + ".all", chunks),
                               program.upload(name + ".bodies", bodies), pool->absent, chunks, arguments},
-                             layout::PoolListPush{count, perGroup});
+                             layout::PoolListPush{count, perGroup, std::min(count, items)});
     pool->lists.push_back(arguments);
     return IndirectItems{arguments, 0, items};
 }
