@@ -51,8 +51,8 @@ const std::array beforeTools{
     Binding{{key, GLFW_KEY_HOME}, frame, "Home", "frame everything", "Frame all"},
     Binding{{key, GLFW_KEY_SPACE}, pause, "Space", "pause or continue", "Pause"},
     Binding{{key, GLFW_KEY_P}, pause, "P", "pause or continue"},
-    Binding{{key, GLFW_KEY_PERIOD}, step, ". (period)", "pause and take one step", "Step"},
-    Binding{{key, GLFW_KEY_COMMA}, stepBack, ", (comma)", "pause and undo one step", "Back"},
+    Binding{{key, GLFW_KEY_PERIOD}, step, "period (.)", "pause and take one step", "Step"},
+    Binding{{key, GLFW_KEY_COMMA}, stepBack, "comma (,)", "pause and undo one step", "Back"},
     Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
     Binding{{key, GLFW_KEY_S}, slowMotion, "S", "slow motion: 1/2, 1/4, 1/8, full speed", "Slower"},
 };
