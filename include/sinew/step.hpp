@@ -106,7 +106,7 @@ enum class MotionKind {
 /// step. It is turned about the centre of mass that it has in the scene, then displaced from there. One that
 /// is in the world is placed anew. A body out of the world stands still in one point, absentPlace on all
 /// three axes (Body::isAbsent), with no inverse mass: it touches nothing, and other motions leave it there.
-/// Where several of a step spawn, despawn or pose a body, the last counts.
+/// If several of a step spawn, despawn or pose a body, the last counts.
 struct Motion {
     static constexpr std::uint32_t allBodies = 0xffffffff;
     static constexpr float absentPlace = 1e6f; ///< coordinates of all particles of an absent body [m]

@@ -30,7 +30,7 @@ void checkDots(const std::string& text, const std::string& file) {
     }
 }
 
-// What to do about a file that is not there: names the file beside it that is spelled most like it, with its
+// The advice on a file that is not there: names the file beside it that is spelled most like it, with its
 // extension or without.
 std::string cureOfMissing(const std::filesystem::path& path) {
     constexpr std::size_t mostFiles = 10'000; // of a folder: more take too long to read

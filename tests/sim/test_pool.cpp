@@ -201,7 +201,7 @@ TEST(Pool, SleepersGoAtOnce) {
         }
 }
 
-// What lay on a body that goes, or is placed anew, falls, also if it slept.
+// A body that lay on one that goes, or is placed anew, falls, also if it slept.
 TEST(Pool, WhatLayOnABodyFalls) {
     for (const auto& [sleeps, isPlaced] : {std::pair{false, false}, {true, false}, {true, true}}) {
         Scene scene = stackScene(true, false);

@@ -99,7 +99,7 @@ protected:
         for (const char one : text) input.characters.push_back(static_cast<unsigned>(one));
         picture(input);
     }
-    // What Enter leads to after a text.
+    // The value that Enter sets after a text.
     std::optional<Knobs> typed(const Vector2& at, const std::string& text) {
         type(at, text);
         return picture({.pointer = at, .keys = {{GLFW_KEY_ENTER, true}, {GLFW_KEY_ENTER, false}}}).knobs;

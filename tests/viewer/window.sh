@@ -56,7 +56,7 @@ await() { # SECONDS COMMAND...: waits until the command succeeds
     fail "waited in vain for: $*"
 }
 says() { grep -q "$1" viewer.out; }
-hasEnded() { ! kill -0 "$running" 2>/dev/null; }
+hasEnded() { [[ ! -d /proc/$running ]]; }
 isFilming() { [[ -n $(find . -name '*.mp4*.part' -size "+$1") ]]; } # SIZE: more than that is written
 hasTitle() { [[ $(title) =~ $1 ]]; }
 lacksTitle() { [[ ! $(title) =~ $1 ]]; }

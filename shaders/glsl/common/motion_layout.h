@@ -57,7 +57,7 @@ struct MotionPush {
     uint halfKick; // 1 = velocities are half a substep behind positions (`split`)
 };
 
-// What a step does to a body that may be absent (Body::isAbsent); from POOL_SPAWNED on it is spawned by motion
+// A change of a body that may be absent (Body::isAbsent); from POOL_SPAWNED on it is spawned by motion
 // change - POOL_SPAWNED.
 #define POOL_SAME 0
 #define POOL_LEFT 1    // it is absent, and the tables do not say so: at first, and after an undone step

@@ -22,7 +22,7 @@ static_assert(MOTION_ALL_BODIES == Motion::allBodies);
 // constant_ids of motions.glsl, apply_motions.comp and forget_contacts.comp
 constexpr std::uint32_t maySleepId = 1, hasDebrisId = 2, isCuttableId = 3, areEdgesId = 1, haveShapesId = 2;
 
-// What the host writes.
+// Buffers that the host writes.
 struct Requests {
     BufferId requests, arguments;
 };

@@ -102,7 +102,7 @@ std::vector<std::uint32_t> numbersOfChunks(const SceneModel& model, std::span<co
     return numbers;
 }
 
-// What keeps bodies from being absent, body by body: the first reason that is found.
+// The reasons that keep bodies from being absent: the first that is found for each body.
 class Reasons {
 public:
     explicit Reasons(const Scene& scene) : bodies_(absentBodies(scene)), reasons_(scene.bodies.size()) {}
