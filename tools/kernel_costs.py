@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """kernel_costs.py TABLE.csv: makes tools/sinew/predict/kernels.csv from the table that the test GpuCompiler writes:
 
-    SINEW_KERNEL_TABLE=FOLDER ctest --preset release -R GpuCompiler.*NAVI21
+    SINEW_KERNEL_TABLE=FOLDER build/release/bin/test_gpu_compiler --gtest_filter=*NAVI21
     tools/kernel_costs.py FOLDER/kernels_NAVI21.csv
 
 A line a kernel; of its specialisations the median one by latency, as a scene uses few of them.

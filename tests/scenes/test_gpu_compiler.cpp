@@ -1,7 +1,7 @@
-// Makes every kernel of the simulation, with the constants of shipped and random scenes, by the compiler of a
-// real GPU that need not be present (support/null_hardware.hpp). Uses the newest and the oldest GPU family
-// that a driver of 2022 supports well, and more with SINEW_FULL=1. SINEW_KERNEL_TABLE names a folder for a
-// table of all kernels.
+// Makes every kernel of the simulation, with the constants of shipped and random scenes, by the compilers of
+// real GPUs that need not be present (support/null_hardware.hpp). All tests of this program run in one
+// process, because they share the list of these kernels. SINEW_KERNEL_TABLE names a folder for a table of all
+// kernels.
 #include "all_kernels.hpp"
 #include "scenes/drawn_scenes.hpp"
 #include "scenes/load.hpp"
@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <tuple>
 
 using namespace sinew;
 namespace fs = std::filesystem;
@@ -48,19 +49,21 @@ std::vector<sim::Forms> formsOf(const vk::Device& device, const sim::Settings& s
     return forms;
 }
 
+using Constants = std::map<std::uint32_t, std::uint32_t>;
+using Uses = std::set<std::pair<const vk::ShaderCode*, Constants>>;
+
 /// A kernel with its constants, and the bindings that a dispatch leaves empty.
 struct Gaps {
     const vk::ShaderCode* code = nullptr;
-    std::map<std::uint32_t, std::uint32_t> constants;
+    Constants constants;
     std::set<std::uint32_t> bindings;
     auto operator<=>(const Gaps&) const = default;
 };
 
-/// Makes the kernels of scenes on a device, and records their shader code.
-struct Maker {
+/// Collects the kernels of scenes, with their constants, as they are compiled for a device.
+struct Collector {
     const vk::Device& device;
-    bool makesPipelines = true;
-    std::set<const vk::ShaderCode*> made{};
+    Uses uses{};
     std::set<Gaps> gaps{};
 
     void record(const sim::StepProgram& program) {
@@ -75,16 +78,10 @@ struct Maker {
         });
     }
 
-    void make(const sim::Scene& scene, const sim::Settings& settings) {
+    void add(const sim::Scene& scene, const sim::Settings& settings) {
         const sim::StepProgram program = sim::compileFor(device, scene, settings);
         record(program);
-        for (const sim::KernelUse& use : program.kernels) {
-            made.insert(use.code);
-            if (!makesPipelines) continue;
-            std::vector<vk::SpecialisationConstant> constants;
-            for (const auto& [id, value] : use.constants) constants.push_back({id, value});
-            EXPECT_NO_THROW(device.kernels().get(device, *use.code, constants)) << use.code->name;
-        }
+        for (const sim::KernelUse& use : program.kernels) uses.emplace(use.code, use.constants);
     }
 };
 
@@ -94,29 +91,29 @@ sim::Scene farAway(sim::Scene scene) {
     return scene;
 }
 
-// Makes the kernels that keep forces, if the scene supports them; for `jacobi`, without its links.
-void makeKept(Maker& maker, sim::Scene scene, sim::Settings settings) {
+// Adds the kernels that keep forces, if the scene supports them; for `jacobi`, without its links.
+void addKept(Collector& collector, sim::Scene scene, sim::Settings settings) {
     settings.keepsForces = true;
     if (settings.solver == sim::Solver::jacobi) {
         scene.distances.clear();
         scene.bends.clear();
         scene.grids.clear();
     }
-    if (sim::validate(scene, settings).empty()) maker.make(scene, settings);
+    if (sim::validate(scene, settings).empty()) collector.add(scene, settings);
 }
 
-// Makes a scene in all its forms, with and without grabs and host colliders, which exclude resident bodies,
+// Adds a scene in all its forms, with and without grabs and host colliders, which exclude resident bodies,
 // and far away.
-void makeForms(Maker& maker, const sim::Scene& scene, sim::Settings settings) {
-    for (const sim::Forms& forms : formsOf(maker.device, settings)) {
+void addForms(Collector& collector, const sim::Scene& scene, sim::Settings settings) {
+    for (const sim::Forms& forms : formsOf(collector.device, settings)) {
         settings.forms = forms;
-        maker.make(scene, settings);
+        collector.add(scene, settings);
     }
     settings.forms = {};
-    maker.make(farAway(scene), settings);
+    collector.add(farAway(scene), settings);
     settings.grabs = settings.hostColliders = settings.solver == sim::Solver::split;
-    maker.make(scene, settings);
-    makeKept(maker, scene, settings);
+    collector.add(scene, settings);
+    addKept(collector, scene, settings);
 }
 
 // The scene with removal of fragments, and with skins either as before mesh::addMesh split them, or
@@ -172,55 +169,53 @@ sim::Scene twoSheets() {
     return scene;
 }
 
-void makeKernelsOfAllScenes(Maker& maker) {
-    makeForms(maker, twoSheets(), {.substeps = fewSubsteps});
-    makeKept(maker, twoSheets(), {.substeps = fewSubsteps, .hostColliders = 9}); // more share their sums
-    maker.make(twoSheets(), {.substeps = fewSubsteps, .motions = 1, .keepsPrevious = true});
+void addKernelsOfAllScenes(Collector& collector) {
+    addForms(collector, twoSheets(), {.substeps = fewSubsteps});
+    addKept(collector, twoSheets(), {.substeps = fewSubsteps, .hostColliders = 9}); // more share their sums
+    collector.add(twoSheets(), {.substeps = fewSubsteps, .motions = 1, .keepsPrevious = true});
     for (const fs::path& file : sceneFiles())
         for (const char* solver : {"split", "jacobi", "gauss_seidel"}) {
             SCOPED_TRACE(file.stem().string() + ", " + solver);
             std::optional<scenes::LoadedScene> loaded = loadFor(file, solver);
             if (!loaded) continue;
             loaded->settings.substeps = std::min(loaded->settings.substeps, fewSubsteps);
-            makeForms(maker, loaded->scene, loaded->settings);
+            addForms(collector, loaded->scene, loaded->settings);
             sim::Settings coarse = loaded->settings;
             coarse.levels = 2;
-            if (sim::validate(loaded->scene, coarse).empty()) maker.make(loaded->scene, coarse);
+            if (sim::validate(loaded->scene, coarse).empty()) collector.add(loaded->scene, coarse);
             sim::Settings sharp = loaded->settings;
             sharp.hasSharpClamp = sharp.solver == sim::Solver::split;
             const bool hasEveryForm =
                 file.stem() == "beam" || file.stem() == "organ" || file.stem() == "cloth_study";
-            if (sharp.hasSharpClamp && hasEveryForm) makeForms(maker, loaded->scene, sharp);
+            if (sharp.hasSharpClamp && hasEveryForm) addForms(collector, loaded->scene, sharp);
             if (file.stem() == "clutter" && loaded->settings.solver == sim::Solver::split)
-                makeForms(maker, takingRecoils(loaded->scene), loaded->settings);
-            if (loaded->settings.solver == sim::Solver::split && !loaded->scene.grids.empty())
-                for (const sim::Scene& scene : {recovering(loaded->scene), withDebris(loaded->scene, false),
-                                                withDebris(loaded->scene, true)})
-                    makeForms(maker, scene, loaded->settings);
+                addForms(collector, takingRecoils(loaded->scene), loaded->settings);
+            if (loaded->settings.solver != sim::Solver::split || loaded->scene.grids.empty()) continue;
+            addForms(collector, recovering(loaded->scene), loaded->settings);
+            addForms(collector, withDebris(loaded->scene, false), loaded->settings);
+            collector.add(withDebris(loaded->scene, true), loaded->settings);
         }
 }
 
 // The kernels that no program has: they carry states between simulations, or answer the host.
-void makeKernelsOfWorlds(Maker& maker) {
+void addKernelsOfWorlds(Uses& uses) {
     for (const vk::ShaderCode* code :
          {&sim::kernels::carryElements, &sim::kernels::carryContacts, &sim::kernels::startArrivals,
           &sim::kernels::castRay, &sim::kernels::castRayBalls, &sim::kernels::castRayCuts,
-          &sim::kernels::resolvePick, &sim::kernels::findWithin}) {
-        EXPECT_NO_THROW(maker.device.kernels().get(maker.device, *code, {})) << code->name;
-        maker.made.insert(code);
-    }
+          &sim::kernels::resolvePick, &sim::kernels::findWithin})
+        uses.emplace(code, Constants{});
 }
 
-void makeKernelsOfDrawnScenes(Maker& maker, std::uint32_t count) {
+void addKernelsOfDrawnScenes(Collector& collector, std::uint32_t count) {
     std::size_t valid = 0;
     for (std::uint32_t seed = 0; seed < count; ++seed) {
         SCOPED_TRACE(seed);
         auto [scene, settings] = test::drawScene(seed);
         if (!sim::validate(scene, settings).empty()) continue;
-        maker.make(scene, settings);
+        collector.add(scene, settings);
         settings.forms.columns = settings.forms.chunk = 1; // one node for each invocation
-        maker.make(scene, settings);
-        makeKept(maker, scene, settings);
+        collector.add(scene, settings);
+        addKept(collector, scene, settings);
         ++valid;
     }
     EXPECT_GT(valid, count / 2);
@@ -258,10 +253,19 @@ void expectNoSpill(const PipelineFacts& facts) {
     }
 }
 
-// Expects every kernel of the build.
-void expectAllKernels(const std::set<const vk::ShaderCode*>& made) {
-    for (const vk::ShaderCode* code : sim::kernels::all)
-        EXPECT_TRUE(made.contains(code)) << "no scene of this test has " << code->name;
+// The kernels of all scenes for a device. Devices that programs are compiled alike for share one list.
+const Uses& usesOf(const vk::Device& device) {
+    using Likeness = std::tuple<sim::DeviceKind, std::uint64_t, std::uint64_t, std::uint64_t>;
+    static std::map<Likeness, Uses> lists;
+    const auto& limits = device.limits();
+    Uses& uses =
+        lists[{sim::kindOf(device), limits.maxSharedMemory, limits.maxGroupInvocations, limits.maxTexels}];
+    if (!uses.empty()) return uses;
+    Collector collector{device};
+    addKernelsOfAllScenes(collector);
+    addKernelsOfDrawnScenes(collector, drawnScenes);
+    addKernelsOfWorlds(collector.uses);
+    return uses = std::move(collector.uses);
 }
 
 } // namespace
@@ -272,11 +276,15 @@ TEST_P(GpuCompiler, MakesEveryKernelWithoutSpilling) {
     if (!hardware)
         GTEST_SKIP() << "no driver here compiles for " << family.name << ": install mesa-vulkan-drivers";
     const vk::KeptKernels kept(hardware->device()); // makes each kernel only once
-    Maker maker{hardware->device()};
-    makeKernelsOfAllScenes(maker);
-    makeKernelsOfDrawnScenes(maker, drawnScenes);
-    makeKernelsOfWorlds(maker);
-    expectAllKernels(maker.made);
+    std::set<const vk::ShaderCode*> made;
+    for (const auto& [code, values] : usesOf(hardware->device())) {
+        made.insert(code);
+        std::vector<vk::SpecialisationConstant> constants;
+        for (const auto& [id, value] : values) constants.push_back({id, value});
+        EXPECT_NO_THROW(hardware->device().kernels().get(hardware->device(), *code, constants)) << code->name;
+    }
+    for (const vk::ShaderCode* code : sim::kernels::all)
+        EXPECT_TRUE(made.contains(code)) << "no scene of this test has " << code->name;
     for (const PipelineFacts& facts : hardware->pipelines()) {
         EXPECT_GT(facts["Instructions"], 0u) << facts.kernel;
         if (family.mostRegisters == 0 || facts["VGPRs"] < family.mostRegisters) expectNoSpill(facts);
@@ -287,13 +295,13 @@ TEST_P(GpuCompiler, MakesEveryKernelWithoutSpilling) {
 // A kernel may read anything from the buffer that the executor binds where a dispatch leaves a binding empty.
 TEST(Kernels, AccessNoBindingThatADispatchLeavesEmpty) {
     constexpr std::uint32_t few = 200;
-    Maker maker{test::device(), false};
-    makeKernelsOfAllScenes(maker);
-    makeKernelsOfDrawnScenes(maker, few);
-    ASSERT_GT(maker.gaps.size(), 50u);
+    Collector collector{test::device()};
+    addKernelsOfAllScenes(collector);
+    addKernelsOfDrawnScenes(collector, few);
+    ASSERT_GT(collector.gaps.size(), 50u);
     std::optional<std::set<std::uint32_t>> accessed;
     const Gaps* last = nullptr;
-    for (const Gaps& gaps : maker.gaps) {
+    for (const Gaps& gaps : collector.gaps) {
         const bool isSame = last && last->code == gaps.code && last->constants == gaps.constants;
         if (!isSame) accessed = test::accessedBindings(*gaps.code, gaps.constants);
         last = &gaps;
