@@ -5,12 +5,12 @@
 #endif
 bool isExcluded(uint of, uint partner) {
     if (!ANY_EXCLUDED) return false;
-    uint low = EXCLUDED(of), high = EXCLUDED(of + 1u);
-    const uint end = high;
-    while (low < high) {
-        const uint middle = (low + high) / 2u;
-        if (EXCLUDED(middle) < partner) low = middle + 1u;
-        else high = middle;
+    uint low = EXCLUDED(of), n = EXCLUDED(of + 1u) - low;
+    const bool isAny = n > 0u;
+    while (n > 1u) {
+        const uint middle = n / 2u; // of what is left
+        low += EXCLUDED(low + middle) <= partner ? middle : 0u;
+        n -= middle;
     }
-    return low < end && EXCLUDED(low) == partner;
+    return isAny && EXCLUDED(low) == partner;
 }

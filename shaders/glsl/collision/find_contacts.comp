@@ -68,11 +68,14 @@ void searchFast(uint i, vec3 x, float radius, bool isSmall) {
     }
 }
 
+// The particles of the grid in the order of its cells, so that lanes of a group search the same cells, then large ones.
 void main() {
-    const uint i = itemIndex(push.count);
+    const uint item = itemIndex(push.count), inGrid = START(push.cells);
+    if (item >= inGrid + push.large) return;
+    const uint i = item < inGrid ? SORTED(item).w : large[item - inGrid];
     const vec3 x = POSITION(i).xyz;
     const float radius = RADIUS(i);
-    const bool isSmall = isInGrid(radius, push.most) && !isFast(i);
+    const bool isSmall = item < inGrid && !isFast(i);
     if (isSmall) searchCells(i, x, radius, frameOf(bounds, push.cells));
     if (radius < 0.0) return;
     for (uint l = 0u; l < push.large; ++l)
