@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <span>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -238,6 +240,20 @@ TEST(Grid, SlotsOfEqualFullBodiesFollowTheRuleThatKernelsCompute) {
     }
     for (const Scene& scene : {ragged, unequal, mixture(), test::chain(5)})
         EXPECT_FALSE(stateLayout(scene, {}).boxes.has_value());
+}
+
+// Bodies with few particles in their box of slots: kernels that may run over a list run over these particles.
+TEST(Grid, PassesRunOverParticlesWhereSlotsAreMostlyEmpty) {
+    EXPECT_TRUE(compactSlots(orderedLayout(1000)).empty());
+    StateLayout sparse{.slot = {5, 130, 700}, .count = 6 * paddedCount(1)};
+    const std::vector<std::uint32_t> slots = compactSlots(sparse);
+    ASSERT_EQ(slots.size(), paddedCount(1)) << "whole work groups";
+    EXPECT_TRUE(std::ranges::equal(std::span(slots).first(3), sparse.slot));
+    std::set<std::uint32_t> all(slots.begin(), slots.end());
+    EXPECT_EQ(all.size(), slots.size()) << "no slot twice";
+    EXPECT_LT(*all.rbegin(), sparse.count);
+    sparse.count = paddedCount(1);
+    EXPECT_TRUE(compactSlots(sparse).empty()) << "as many groups as without a list";
 }
 
 TEST(Grid, ThatContradictsTheListsIsRefusedInASentence) {

@@ -181,8 +181,8 @@ TEST(ProgramBuilder, TakesAListOfGroupsForKernelsThatMayRunOverOne) {
     const BufferId arguments = p.builder.scratch<Vec4>("arguments", 1);
     p.builder.beginPhase("solve");
     const std::array<BufferId, 4> buffers{p.positions, p.velocities, before, p.step};
-    const std::array<std::uint32_t, 2> push{8, 1};             // count, whether it is the first substep
-    constexpr std::uint32_t lastBinding = 31, runsListed = 30; // bindings.h
+    const std::array<std::uint32_t, 2> push{8, 1};           // count, whether it is the first substep
+    constexpr std::uint32_t lastBinding = 31, runsOver = 30; // bindings.h
     p.builder.dispatch(kernels::saveSubstepStart, 8, buffers, push);
     p.builder.dispatchListed(kernels::saveSubstepStart, {arguments, 0, 8}, buffers, listed, push);
     const StepProgram program = p.builder.finish();
@@ -191,7 +191,7 @@ TEST(ProgramBuilder, TakesAListOfGroupsForKernelsThatMayRunOverOne) {
     EXPECT_EQ(boundUses(program[List::step][1]).back().buffer, listed);
     EXPECT_EQ(boundUses(program[List::step][1]).back().binding, lastBinding);
     EXPECT_EQ(boundBuffers(program, program[List::step][0]).back(), unbound);
-    EXPECT_EQ(program.kernels[program[List::step][1].kernel].constants.at(runsListed), 1u);
+    EXPECT_EQ(program.kernels[program[List::step][1].kernel].constants.at(runsOver), 1u);
 }
 
 TEST(ProgramBuilder, RefusesAnEmptyDispatchAndAPassWithoutPhase) {

@@ -77,6 +77,7 @@ vec3 drivenVelocityOf(vec4 velocity) { return isDriven(velocity) ? velocity.xyz 
 
 void main() {
     const uint i = itemIndex(push.count);
+    if (isPadding(bounds.listed)) return;
     const uvec2 list = lists[i];
     const uint end = list.x + list.y;
     firstSlot = list.x;

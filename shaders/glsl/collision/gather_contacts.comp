@@ -43,6 +43,7 @@ layout(push_constant) uniform Push { ContactPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
+    if (isPadding(bounds.listed)) return;
     const uvec2 list = lists[i];
     const vec4 self = TOUCHING(i), velocity = VELOCITY(i);
     const float w = velocity.w, h = step.h;

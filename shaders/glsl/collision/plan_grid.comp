@@ -80,7 +80,7 @@ void planPasses(bool isBuilt, bool isComplete) {
         ++bounds.builds;
         bounds.drift -= strayOf(bounds.moved);
     }
-    touching[0] = DispatchArguments(bounds.listed, 1u, 1u, 0u);
+    touching[0] = DispatchArguments(groupsOf(bounds.listed), 1u, 1u, 0u);
     touching[1] = DispatchArguments(bounds.listedParticles, 1u, 1u, 0u);
     touching[2] = DispatchArguments(min((bounds.entries + GROUP_SIZE - 1u) / GROUP_SIZE, uint(ROWS_MOST_GROUPS)), 1u, 1u, 0u);
     bounds.isSwept = bounds.sweeping;

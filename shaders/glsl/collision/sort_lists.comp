@@ -1,7 +1,7 @@
 #version 460
 // Makes the contact list of every particle or, FACES, of points with faces or, EDGES, of edges with the edges in rows that
 // they own, from the pairs that were found: sorted by index, with the contact distance and, hasMemory, the contact memory.
-// listsOwners: lists the groups with a candidate; for edges index_rows_by_owner does so.
+// listsOwners: lists the particles with a candidate; for edges index_rows_by_owner does so.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/kernel.glsl"
@@ -64,7 +64,7 @@ float reachOf(float own, uint other) { return own + radii[other]; }
 layout(std430, binding = OWNERS_BINDING) writeonly buffer Owners { uint owners[]; }; // one per element
 #endif
 
-void listGroups(uint i) {
+void listTouching(uint i) {
 #ifdef LISTS_OWNERS
     if (listsOwners) listOwner(i);
 #endif
@@ -145,6 +145,6 @@ void main() {
     sortChain(chain, list.x, n);
     returnMemory(list, i);
     lists[i] = list;
-    if (n > 0u) listGroups(i);
+    if (n > 0u) listTouching(i);
     chains[i] = 0u;
 }

@@ -49,7 +49,7 @@ void listTouchedParticles(uint i, uint a, uint b, uint c) {
 #ifdef TOUCHED_BINDING
 #define TOUCHED(k) touched[k]
 #else
-#define TOUCHED(k) listedGroups[k]
+#define TOUCHED(k) listedItems[k]
 #endif
 uint touchedItem() {
     const uint k = gl_GlobalInvocationID.x, n = TOUCHED(TOUCHED_LIST);

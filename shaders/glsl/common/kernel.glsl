@@ -14,23 +14,34 @@ bool isFinished(StatusWords status) { return (status.nonFinite | status.candidat
 
 // The item of this invocation; the caller returns if it is >= count.
 #if defined MAY_RUN_LISTED || defined RUNS_LISTED
-// Runs over all work groups or, with runsListed, over listed ones: those with an awake particle (list_awake.comp), or
-// with one in a contact (listed_groups.glsl).
+// Runs over all work groups; over listed ones, those with an awake particle (list_awake.comp) or one in a contact
+// (listed_groups.glsl); or over listed items, slots that hold a particle or have a candidate.
 #ifdef MAY_RUN_LISTED
-layout(constant_id = RUNS_LISTED_ID) const bool runsListed = false;
+layout(constant_id = RUNS_OVER_ID) const uint runsOver = RUNS_OVER_ALL;
 #else
-const bool runsListed = true;
+const uint runsOver = RUNS_OVER_GROUPS;
 #endif
-layout(std430, binding = LAST_BINDING) readonly buffer ListedGroups { uint listedGroups[]; };
+layout(std430, binding = LAST_BINDING) readonly buffer ListedItems { uint listedItems[]; };
+uint listedGroup() {
+    const uint place = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
+    return runsOver == RUNS_OVER_GROUPS ? listedItems[place] : place;
+}
+// The place of this invocation in a list of items, which is padded to whole work groups.
+uint placeInList() {
+    const uint all = gl_NumWorkGroups.x * GROUP_SIZE;
+    return isReversed ? all - 1u - gl_GlobalInvocationID.x : gl_GlobalInvocationID.x;
+}
 uint itemIndex(uint count) {
-    if (!runsListed) {
+    if (runsOver == RUNS_OVER_ITEMS) return listedItems[placeInList()];
+    if (runsOver == RUNS_OVER_ALL) {
         const uint i = gl_GlobalInvocationID.x;
         return isReversed && i < count ? count - 1u - i : i;
     }
-    const uint place = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
     const uint lane = isReversed ? GROUP_SIZE - 1u - gl_LocalInvocationID.x : gl_LocalInvocationID.x;
-    return listedGroups[place] * GROUP_SIZE + lane;
+    return listedGroup() * GROUP_SIZE + lane;
 }
+// Whether the item is padding of a list of which the device knows the length.
+bool isPadding(uint length) { return runsOver == RUNS_OVER_ITEMS && placeInList() >= length; }
 #elif defined RUNS_OVER_SLOTS
 // Runs over slots of the state that hold a particle, not over padding; ~0 after the last.
 layout(std430, binding = LAST_BINDING) readonly buffer Slots { uint slots[]; };

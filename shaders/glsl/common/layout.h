@@ -256,7 +256,7 @@ struct GridBounds {
     // particles of the grid, and of those too fast for cells. plan_grid moves them to:
     uint sweeping, sweepers, hurrying;
     uint isSwept, fast; // the first for the substep that is solved, and the number of particles to be searched one by one
-    uint listed, listedParticles; // work groups with an owner of a list, with a particle, that has a candidate
+    uint listed, listedParticles; // owners of a list with a candidate; work groups with a particle that has one
     uint lacking; // StatusWords::candidates of a step of this simulation that lacked capacity, else 0: no later step may finish either
     float drift;  // distance that particles may still stray, in sum, from their expected positions in this step [m]
     // The newest lists (pooled_lists): number of pairs found, including those that did not fit; entries of all

@@ -15,10 +15,11 @@ layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 #define HITS_BINDING 5
 #include "common/hit_masks.glsl"
 layout(std430, binding = 6) readonly buffer Touching { vec4 touching[]; }; // positions with which contacts were counted [m]
+layout(std140, binding = 7) uniform Bounds { GridBounds bounds; };
 
 void main() {
     const uint i = itemIndex(push.count);
-    if (i >= push.count) return;
+    if (i >= push.count || isPadding(bounds.listed)) return;
     const uint body = bodies[i];
     if (body == NO_BODY || velocities[i].w == 0.0) return;
     const uvec2 list = lists[i];

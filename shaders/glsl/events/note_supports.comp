@@ -44,7 +44,7 @@ void main() {
     const vec3 x = placeOf(i);
     for (uint p = 0u; p < planeCount; ++p)
         if (dot3(planes[p].xyz, x) - planes[p].w <= reach) addContact(body, push.bodies + p);
-    const uint record = nearRecord();
+    const uint record = nearRecord(i);
     const bool testsNear = findsNear && isRegarded(record, x, x);
     for (uint c = nextTested(testsNear, record, 0u); c < colliderCount; c = nextTested(testsNear, record, c + 1u)) {
         if (c < hostColliderCount && colliders[c].isAbsent != 0u) continue;

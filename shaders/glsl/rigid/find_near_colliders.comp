@@ -85,7 +85,7 @@ void main() {
         barrier(); // all have read it
         find(around);
     }
-    const uint record = nearRecord();
+    const uint record = nearRecord(i);
     for (uint w = lane; w < nearWords; w += GROUP_SIZE) near[record + NEAR_HEAD + w] = found[w];
     if (lane > 0u) return;
     for (uint axis = 0u; axis < 3u; ++axis) {

@@ -6,13 +6,13 @@
 const bool findsNear = colliderCount > FEW_COLLIDERS; // few are tested one by one
 const uint nearWords = (colliderCount + 31u) / 32u;
 
-// First word of the record of this work group of particles: low and high corner of the box, the longest path in a
+// First word of the record of the work group of particle i: low and high corner of the box, the longest path in a
 // substep [m], the stamp of the step, a bit for each collider.
-uint nearRecord() {
-    const uint place = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
+uint nearRecord(uint i) {
 #ifdef MAY_RUN_LISTED
-    return (runsListed ? listedGroups[place] : place) * (NEAR_HEAD + nearWords);
+    return (runsOver == RUNS_OVER_ITEMS ? i / GROUP_SIZE : listedGroup()) * (NEAR_HEAD + nearWords);
 #else
+    const uint place = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
     return place * (NEAR_HEAD + nearWords);
 #endif
 }

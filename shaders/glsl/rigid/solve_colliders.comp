@@ -103,7 +103,7 @@ void main() {
     const vec3 wayBefore = movement.way;
     vec3 rebound = vec3(0.0);
     bool isTouching = false;
-    const uint record = nearRecord();
+    const uint record = nearRecord(i);
     bool testsNear = findsNear && isRegarded(record, movement.x - movement.way, movement.x);
     for (uint c = nextTested(testsNear, record, 0u); c < colliderCount; c = nextTested(testsNear, record, c + 1u)) {
         vec3 n, surfaceVelocity;

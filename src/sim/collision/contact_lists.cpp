@@ -53,13 +53,13 @@ namespace k = kernels;
 void addSorting(ProgramBuilder& program, const Lists& lists) {
     const hash_grid::Grid& grid = lists.grid;
     std::vector<BufferId> buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, grid.radii);
-    const bool hasMemory = lists.pooled.memory.has_value(), listsGroups = lists.touching != BufferId{};
+    const bool hasMemory = lists.pooled.memory.has_value(), listsOwners = lists.touching != BufferId{};
     buffers.insert(buffers.end(),
-                   {boundIf(hasMemory, lists.hits), boundIf(listsGroups, grid.touching.arguments),
-                    boundIf(listsGroups, lists.marks), boundIf(listsGroups, lists.touching)});
+                   {boundIf(hasMemory, lists.hits), boundIf(listsOwners, grid.touching.arguments),
+                    boundIf(listsOwners, lists.touching)});
     constexpr std::uint32_t hasMemoryId = 1, listsOwnersId = 2; // constant_ids in sort_lists.comp
     program.dispatchIndirect(k::sortLists, grid.particles, buffers, lists.push,
-                             {{hasMemoryId, hasMemory}, {listsOwnersId, listsGroups}});
+                             {{hasMemoryId, hasMemory}, {listsOwnersId, listsOwners}});
 }
 
 } // namespace
@@ -97,10 +97,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.hits =
         program.scratch<std::array<std::uint32_t, 2>>("pairs.hits", count + lists.push.room / 32 + 1);
     lists.large = program.upload("contacts.large", large);
-    if (request.listsGroups) {
-        lists.touching = program.scratch<std::uint32_t>("contacts.groups", count / GROUP_ITEMS);
-        lists.marks = program.scratch<std::uint32_t>("contacts.groups.listed", count / GROUP_ITEMS);
-    }
+    if (request.listsOwners) lists.touching = program.scratch<std::uint32_t>("contacts.owners", count);
     if (!request.exclusions.empty()) lists.excluded = program.upload("contacts.excluded", request.exclusions);
     return lists;
 }

@@ -35,7 +35,7 @@ struct Request {
     std::uint32_t substeps = 1;                  ///< of a step
     bool hasMemory = false;                      ///< whether contacts have memory
     pooled_lists::Initial initial;
-    bool listsGroups = false; ///< whether groups with a candidate are listed
+    bool listsOwners = false; ///< whether particles with a candidate are listed
 };
 
 /// Contact lists, owned by particles. A list includes pairs within the margin, which need not touch.
@@ -47,7 +47,7 @@ struct Lists {
     BufferId large, excluded;
     BufferId hits; ///< which candidates touch (shaders/glsl/common/hit_masks.glsl)
     bool hasOneRadius = false;
-    BufferId touching, marks; ///< work groups with a candidate; only if requested
+    BufferId touching; ///< slots of particles with a candidate; only if requested
 };
 
 Lists add(ProgramBuilder& program, const Request& request);

@@ -84,7 +84,7 @@ struct Grid {
         patches;                  ///< of passes that run with a build
     IndirectItems searching;      ///< pairs of faces that search for points
     IndirectItems owners, linked; ///< of rows: owners of found pairs, others with links
-    /// Items in work groups with a candidate: owners of lists, particles.
+    /// Particles that have a candidate; work groups of particles that have one in a row.
     IndirectItems touching, touchingParticles;
     IndirectItems entries; ///< all used entries of the pool; only if pairs have links
     BufferId watched;      ///< by slot: below 0 = neither it nor anything it is a corner of can touch

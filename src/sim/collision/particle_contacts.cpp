@@ -153,13 +153,14 @@ void addUncontactedEnd(ProgramBuilder& program, const Contacts& contacts, const 
         program.dispatchIndirect(k::finishWithoutContacts, grid.slowed, buffers, push, constants);
 }
 
-// Appends a pass over all particles, or over the groups with a candidate.
+// Appends a pass over all particles, or over those with a candidate.
 void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
-                     std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
-    if (!contacts.solvesListedGroups) {
+                     std::vector<BufferId> buffers, ProgramBuilder::Constants constants = {}) {
+    if (!contacts.solvesListed) {
         program.dispatch(code, contacts.push.count, buffers, contacts.push, constants);
         return;
     }
+    constants.emplace(RUNS_OVER_ID, RUNS_OVER_ITEMS);
     program.dispatchListed(code, contacts.lists.grid.touching, buffers, contacts.lists.touching,
                            contacts.push, constants);
 }
@@ -169,12 +170,12 @@ void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const Part
     const hash_grid::Moved moved{predicted.positions, predicted.velocities, predicted.step,
                                  sleep::weightsOf(predicted), sleep::groupsOf(predicted)};
     if (isFirst) hash_grid::addFit(program, contacts.lists.grid, moved);
-    if (contacts.solvesListedGroups)
+    if (contacts.solvesListed)
         addUncontactedEnd(program, contacts, predicted, next, true);
     else
         hash_grid::addListCheck(program, contacts.lists.grid, moved);
     contact_lists::addBuild(program, contacts.lists, moved, isLast);
-    if (contacts.solvesListedGroups) addUncontactedEnd(program, contacts, predicted, next, false);
+    if (contacts.solvesListed) addUncontactedEnd(program, contacts, predicted, next, false);
     contact_lists::addLists(program, contacts.lists, moved);
 }
 
@@ -197,9 +198,10 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
 
 void addEvents(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
     const contact_lists::Lists& lists = contacts.lists;
-    events::SeenPairs pairs{lists.pooled.contacts, lists.pooled.ranges, lists.hits, contacts.touching};
-    if (contacts.solvesListedGroups) {
-        pairs.groups = lists.grid.touching;
+    events::SeenPairs pairs{lists.pooled.contacts, lists.pooled.ranges, lists.hits, contacts.touching,
+                            lists.grid.bounds};
+    if (contacts.solvesListed) {
+        pairs.items = lists.grid.touching;
         pairs.listed = lists.touching;
     }
     events::addPairs(program, predicted, pairs);
@@ -261,7 +263,7 @@ Contacts add(ProgramBuilder& program, const SceneModel& model) {
     overlaps::forget(overlaps, leastOverlap(scene, settings));
     surfaces::Surfaces surfaces = surfaces::add(program, scene, layout);
     const bool isMostlyLinked = areMostlyLinked(model);
-    const bool solvesListedGroups = // keeping forces requires one end of the substep
+    const bool solvesListed = // keeping forces requires one end of the substep
         !settings.sleeps && !settings.keepsForces && isMostlyLinked && !surfaces.hasRestitution &&
         !overlaps::haveParting(overlaps);
     const bool countsNear = !isMostlyLinked && !surfaces.hasRestitution;
@@ -286,10 +288,10 @@ Contacts add(ProgramBuilder& program, const SceneModel& model) {
                                     .substeps = settings.substeps,
                                     .hasMemory = surfaces.hasFriction || hasRecovery,
                                     .initial = first,
-                                    .listsGroups = solvesListedGroups}),
+                                    .listsOwners = solvesListed}),
                       .planes = rigid::planes::add(program, scene, layout),
                       .surfaces = std::move(surfaces),
-                      .solvesListedGroups = solvesListedGroups,
+                      .solvesListed = solvesListed,
                       .countsNear = countsNear,
                       .hasRebound = std::ranges::any_of(
                           scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
@@ -307,7 +309,7 @@ Contacts add(ProgramBuilder& program, const SceneModel& model) {
     ContactBuffers& shown = program.program().contacts;
     shown.pairs = contacts.lists.pooled.contacts;
     shown.pairLists = contacts.lists.pooled.ranges;
-    if (solvesListedGroups) {
+    if (solvesListed) {
         const std::vector<std::uint32_t> slots = slotsInOrder(layout);
         contacts.particles = program.upload("contacts.particles", slots);
         contacts.particleCount = static_cast<std::uint32_t>(slots.size());

@@ -18,9 +18,9 @@ struct Contacts {
     rigid::planes::Planes planes;
     surfaces::Surfaces surfaces;
     layout::ContactPush push{};
-    /// Whether the substep ends for all particles as if they touched nothing, and then again for groups with
-    /// a candidate; otherwise one pass ends it for all.
-    bool solvesListedGroups = false;
+    /// Whether the substep ends for all particles as if they touched nothing, and then again for those
+    /// with a candidate; otherwise one pass ends it for all.
+    bool solvesListed = false;
     /// Whether pairs that hardly miss count in shares (SHARE_BAND): most particles are loose, and none
     /// rebound.
     bool countsNear = false;

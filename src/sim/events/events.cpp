@@ -177,9 +177,10 @@ void addPairs(ProgramBuilder& program, const ParticleBuffers& predicted, const S
     if (!events) return;
     const std::vector<BufferId> buffers{events->bodies, events->contacts, predicted.velocities,
                                         pairs.contacts, pairs.lists,      pairs.hits,
-                                        pairs.touching};
-    if (pairs.groups)
-        program.dispatchListed(k::notePairs, *pairs.groups, buffers, pairs.listed, events->push);
+                                        pairs.touching, pairs.bounds};
+    if (pairs.items)
+        program.dispatchListed(k::notePairs, *pairs.items, buffers, pairs.listed, events->push,
+                               {{RUNS_OVER_ID, RUNS_OVER_ITEMS}});
     else
         program.dispatch(k::notePairs, events->push.count, buffers, events->push);
 }

@@ -46,9 +46,8 @@ void addSupports(Build& build, const Substep& substep);
 
 /// Candidates of contacts of particles, which of them touch, and with which positions.
 struct SeenPairs {
-    BufferId contacts, lists, hits, touching;
-    std::optional<IndirectItems> groups =
-        {}; ///< of passes over contacts, which run for `listed` groups alone
+    BufferId contacts, lists, hits, touching, bounds;
+    std::optional<IndirectItems> items = {}; ///< of passes over contacts, which run for `listed` slots alone
     BufferId listed = {};
 };
 /// Appends the count of contacts of `predicted`, after the pass that says which candidates touch.

@@ -23,6 +23,17 @@ std::vector<std::uint32_t> slotsInOrder(const StateLayout& layout) {
     return slots;
 }
 
+std::vector<std::uint32_t> compactSlots(const StateLayout& layout) {
+    std::vector<std::uint32_t> slots = slotsInOrder(layout);
+    const std::size_t size = paddedCount(slots.size());
+    if (4 * size > 3 * layout.count) return {};
+    std::vector<bool> holds(layout.count, false);
+    for (const std::uint32_t slot : slots) holds[slot] = true;
+    for (std::uint32_t slot = 0; slots.size() < size; ++slot)
+        if (!holds[slot]) slots.push_back(slot);
+    return slots;
+}
+
 std::vector<std::uint32_t> bodiesOfSlots(const Scene& scene, const StateLayout& layout, std::uint32_t none) {
     std::vector<std::uint32_t> bodies(layout.count, none);
     for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)

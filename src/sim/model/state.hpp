@@ -50,6 +50,10 @@ StateLayout orderedLayout(std::size_t particles);
 /// The slots that hold a particle, ascending.
 std::vector<std::uint32_t> slotsInOrder(const StateLayout& layout);
 
+/// The slots that hold a particle, then others up to whole work groups, if these are at most three quarters
+/// of all slots; else none.
+std::vector<std::uint32_t> compactSlots(const StateLayout& layout);
+
 /// `particles` rounded up to whole work groups.
 std::size_t paddedCount(std::size_t particles);
 

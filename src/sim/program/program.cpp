@@ -10,8 +10,8 @@ namespace sinew::sim {
 
 namespace {
 
-// constant_id of isReversed in kernel.glsl, usesTexels in fetched.glsl, runsListed in kernel.glsl
-constexpr std::uint32_t reversedId = 0, usesTexelsId = USES_TEXELS_ID, runsListedId = RUNS_LISTED_ID;
+// constant_id of isReversed in kernel.glsl, usesTexels in fetched.glsl, runsOver in kernel.glsl
+constexpr std::uint32_t reversedId = 0, usesTexelsId = USES_TEXELS_ID, runsOverId = RUNS_OVER_ID;
 
 bool touches(vk::Access access, vk::Access part) {
     return (static_cast<unsigned>(access) & static_cast<unsigned>(part)) != 0;
@@ -142,8 +142,13 @@ void ProgramBuilder::append(Pass pass) {
 void ProgramBuilder::dispatchDirect(const vk::ShaderCode& code, std::uint32_t items,
                                     std::span<const BufferId> buffers, std::span<const std::byte> push,
                                     const Constants& constants) {
-    if (!indirection_ || list_ != List::step || when_ != When::always)
-        return dispatchBytes(code, items, buffers, push, constants);
+    if (!indirection_ || list_ != List::step || when_ != When::always) {
+        if (items != slots_.all || !interfaceOf(code).hasConstant(runsOverId))
+            return dispatchBytes(code, items, buffers, push, constants);
+        Constants overItems = constants;
+        overItems[runsOverId] = RUNS_OVER_ITEMS;
+        return dispatchListedBytes(code, slots_.items, buffers, slots_.list, push, overItems);
+    }
     const IndirectForm form = indirection_(interfaceOf(code), items);
     if (form.listed != BufferId{})
         dispatchListedBytes(code, form.items.most, buffers, form.listed, push, constants);
@@ -157,7 +162,7 @@ void ProgramBuilder::dispatchListedBytes(const vk::ShaderCode& code, std::uint32
                                          std::span<const std::byte> push, Constants constants) {
     std::vector<BufferId> all(buffers.begin(), buffers.end());
     all.push_back(listed);
-    constants[runsListedId] = true;
+    constants.try_emplace(runsOverId, RUNS_OVER_GROUPS);
     dispatchBytes(code, items, all, push, constants);
 }
 
@@ -166,8 +171,8 @@ void ProgramBuilder::bind(const vk::ShaderCode& code, Pass& pass, std::span<cons
     const auto& bindings = kernel.interface.bindings;
     auto count =
         static_cast<std::size_t>(std::ranges::count_if(bindings, [](const auto& b) { return !b.isTwin(); }));
-    // Kernels that may run over listed groups need no list if they run over all.
-    if (kernel.interface.hasConstant(runsListedId) && !kernel.constants.contains(runsListedId)) --count;
+    // Kernels that may run over a list need none if they run over all.
+    if (kernel.interface.hasConstant(runsOverId) && !kernel.constants.contains(runsOverId)) --count;
     if (buffers.size() != count)
         refuse(code, "takes " + std::to_string(count) + " buffers, got " + std::to_string(buffers.size()));
     for (std::size_t b = 0; b < buffers.size(); ++b) {

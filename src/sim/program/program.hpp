@@ -417,11 +417,9 @@ std::vector<BufferId> boundBuffers(const StepProgram& program, const Pass& pass)
 /// one barrier makes available to them, a later one makes visible to transfers or to reads of arguments.
 void planBarriers(std::span<Pass> passes, std::size_t bufferCount, Recording recording = {});
 
-/// The program as text: `label xitems buffer:access ...`, barriers in between, equal substeps folded, then
-/// totals.
+/// The program as text: passes with their buffers, barriers between, equal substeps folded, then totals.
 std::string describe(const StepProgram& program);
 
-/// Size of a recording of a step.
 struct PassCounts {
     std::size_t passes = 0, dispatches = 0, barriers = 0;
 };
@@ -430,12 +428,10 @@ PassCounts countPasses(const StepProgram& program, Recording recording);
 /// Key of a program: a hash of names, sizes and initial contents of buffers and of the passes of a step.
 std::uint64_t keyOf(const StepProgram& program) noexcept;
 
-/// Bytes that the kernels of one step are declared to access: each used buffer once a pass, twice if read and
-/// written.
+/// Bytes that kernels of a step declare to access: each used buffer once a pass, twice if also written.
 std::uint64_t declaredBytes(const StepProgram& program);
 
-/// Collects buffers and passes. Throws std::logic_error naming kernel and buffer if a dispatch does not fit
-/// the SPIR-V.
+/// Collects buffers and passes. Throws std::logic_error if a dispatch does not fit its SPIR-V.
 class ProgramBuilder {
 public:
     /// `usesTexels`: kernels read buffers with a texel twin as texels (Forms::usesTexels).
@@ -498,8 +494,8 @@ public:
                           const Constants& constants = {}) {
         dispatchIndirect(code, items, std::span(buffers.begin(), buffers.size()), push, constants);
     }
-    /// The same for the work groups in `listed`; the kernel must be one that may run over listed groups
-    /// (kernel.glsl: MAY_RUN_LISTED).
+    /// The same for listed work groups or, with the constant RUNS_OVER_ITEMS, items. The kernel must be one
+    /// that may run over a list (kernel.glsl: MAY_RUN_LISTED).
     template <typename Push>
     void dispatchListed(const vk::ShaderCode& code, const IndirectItems& items,
                         std::span<const BufferId> buffers, BufferId listed, const Push& push,
@@ -507,15 +503,15 @@ public:
         dispatchListedBytes(code, items.most, buffers, listed, std::as_bytes(std::span(&push, 1)), constants);
         makeLastIndirect(items);
     }
-    /// A function that replaces the direct dispatches that follow, by kernel and number of items; none = they
-    /// stay direct.
+    /// A function that replaces direct dispatches that follow, by kernel and number of items; or none.
     using Indirection =
         std::function<IndirectForm(const vk::KernelInterface& interface, std::uint32_t items)>;
     void setIndirection(Indirection indirection) { indirection_ = std::move(indirection); }
+    /// Direct dispatches over `all` items then run over listed ones, whole work groups, where kernels may.
+    void setSlots(BufferId list, std::uint32_t items, std::uint32_t all) { slots_ = {list, items, all}; }
     /// Adds [index] to the label of the last pass, for passes that differ only in their range.
     void numberLast(std::uint32_t index);
-    /// Registers a buffer of vec4 that a solver carries from step to step: restored when a step with a
-    /// non-finite state is undone.
+    /// Registers a buffer of vec4 that is restored when a step with a non-finite state is undone.
     void restoreOnUndo(BufferId buffer) { restoredOnUndo_.push_back(buffer); }
     /// Registers a part of the state that another program for the same scene can take over; it may be longer
     /// there.
@@ -589,6 +585,10 @@ private:
     std::map<const vk::ShaderCode*, vk::KernelInterface> interfaces_;
     std::vector<BufferId> restoredOnUndo_, keptForRepeat_;
     Indirection indirection_;
+    struct {
+        BufferId list;
+        std::uint32_t items, all;
+    } slots_{};
     List list_ = List::step;
     When when_ = When::always;
     bool isReversed_ = false, usesTexels_ = true;

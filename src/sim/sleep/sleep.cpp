@@ -57,7 +57,7 @@ IndirectItems itemsOf(Sleep& sleep, std::uint32_t kind, std::uint32_t items, std
 // Passes over particles run for listed groups; any other pass runs entirely or not at all.
 IndirectForm indirectForm(Sleep& sleep, const vk::KernelInterface& interface, std::uint32_t items) {
     const std::uint32_t groupSize = interface.groupSize[0];
-    if (!interface.hasConstant(RUNS_LISTED_ID)) return {itemsOf(sleep, SLEEP_ALL, items, groupSize), {}};
+    if (!interface.hasConstant(RUNS_OVER_ID)) return {itemsOf(sleep, SLEEP_ALL, items, groupSize), {}};
     return {itemsOf(sleep, SLEEP_LISTED, items, groupSize), sleep.listed};
 }
 

@@ -122,6 +122,33 @@ TEST(Touched, HasEachContactAndItsParticlesOnce) {
     EXPECT_GE(contacts, 100u);
 }
 
+// Contacts of particles of bodies are solved for particles with a candidate alone: the list has each once.
+TEST(Touched, ParticlesWithACandidateAreListedOnce) {
+    Scene scene;
+    for (const float y : {0.0f, 0.45f})
+        addLattice(scene, {.origin = {0.02f * y, y, 0},
+                           .cells = {5, 3, 4},
+                           .spacing = 0.1f,
+                           .youngModulus = 1e5f,
+                           .radius = 0.05f});
+    scene.planes.push_back({.normal = {0, 1, 0}, .offset = -0.05f});
+    test::Runner runner(scene, {.substeps = 16});
+    std::size_t candidates = 0;
+    for (int step = 0; step < 30; ++step) {
+        ASSERT_EQ(runner.run(1).nonFinite, 0u);
+        const auto lists = read<layout::ListRange>(runner, "pairs.lists");
+        const auto owners = read<std::uint32_t>(runner, "contacts.owners");
+        const layout::GridBounds bounds = read<layout::GridBounds>(runner, "grid.bounds").front();
+        std::vector<std::uint32_t> expected, listed(owners.begin(), owners.begin() + bounds.listed);
+        for (std::uint32_t i = 0; i < lists.size(); ++i)
+            if (lists[i].count > 0) expected.push_back(i);
+        std::ranges::sort(listed);
+        EXPECT_EQ(listed, expected) << step;
+        candidates += expected.size();
+    }
+    EXPECT_GE(candidates, 100u);
+}
+
 // Few candidates of edges are listed, among them all that touch, and their ends.
 TEST(Touched, HasEachContactBetweenEdgesAndItsEndsOnce) {
     const Scene scene = test::clothOnBox(0.15f);
