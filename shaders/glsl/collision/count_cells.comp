@@ -3,6 +3,7 @@
 // slot. Also stores the positions and bodies of particles: lists stay complete until particles have moved from there
 // by more than the slack.
 #extension GL_GOOGLE_include_directive : require
+#define MAY_RUN_LISTED
 #include "common/kernel.glsl"
 #include "collision/hash_grid.glsl"
 

@@ -1,6 +1,7 @@
 #version 460
 // Counting sort, last pass: stores the particles slot by slot.
 #extension GL_GOOGLE_include_directive : require
+#define MAY_RUN_LISTED
 #include "common/kernel.glsl"
 
 #include "common/fetched.glsl"

@@ -70,7 +70,7 @@ void searchFast(uint i, vec3 x, float radius, bool isSmall) {
 
 // The particles of the grid in the order of its cells, so that lanes of a group search the same cells, then large ones.
 void main() {
-    const uint item = itemIndex(push.count), inGrid = START(push.cells);
+    const uint item = placeOfAll(), inGrid = START(push.cells);
     if (item >= inGrid + push.large) return;
     const uint i = item < inGrid ? SORTED(item).w : large[item - inGrid];
     const vec3 x = POSITION(i).xyz;

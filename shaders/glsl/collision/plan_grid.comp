@@ -57,7 +57,7 @@ void planPasses(bool isBuilt, bool isComplete) {
     atomicMax(status.candidates, bounds.lacking);
     const bool areFew = bounds.sweepers <= MOST_SWEEPERS, isSlowed = bounds.hurrying > MOST_FAST;
     noteLists(!isComplete || isSlowed);
-    plan(GRID_PARTICLES, isBuilt, push.count);
+    plan(GRID_PARTICLES, isBuilt, push.items);
     plan(GRID_PARTICLE_CHUNKS, isBuilt, (push.count - 1u) / GRID_CHUNK + 1u);
     plan(GRID_CELL_CHUNKS, isBuilt, push.cells / GRID_CHUNK);
     plan(GRID_ONE_GROUP, isBuilt, 1u);
@@ -68,8 +68,8 @@ void planPasses(bool isBuilt, bool isComplete) {
         making[MAKING_OWNERS] = making[MAKING_LINKS] = DispatchArguments(0u, 1u, 1u, 0u);
     }
     plan(GRID_SLOWED, isSlowed, push.count);
-    plan(GRID_SWEPT, isBuilt && !areFew, push.count);
-    plan(GRID_UNSWEPT, isBuilt && areFew, push.count);
+    plan(GRID_SWEPT, isBuilt && !areFew, push.items);
+    plan(GRID_UNSWEPT, isBuilt && areFew, push.items);
     if (isBuilt) {
         bounds.listed = bounds.listedParticles = 0u; // the passes that make lists count again
         bounds.pairs = bounds.entries = bounds.links = bounds.owners = bounds.linked = 0u;

@@ -1,6 +1,7 @@
 #version 460
 // Saves contact memory before lists of particles are rebuilt.
 #extension GL_GOOGLE_include_directive : require
+#define MAY_RUN_LISTED
 #include "common/kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Contacts { ContactCandidate contacts[]; };

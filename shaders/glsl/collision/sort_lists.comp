@@ -4,14 +4,15 @@
 // listsOwners: lists the particles with a candidate; for edges index_rows_by_owner does so.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#include "common/kernel.glsl"
-
 #if defined FACES || defined EDGES
+#include "common/kernel.glsl"
 const bool hasMemory = true;
 #define ENTRIES_OF_PAIR 1u
 layout(push_constant) uniform Push { FaceFindPush push; };
 #define OWNERS push.points
 #else
+#define MAY_RUN_LISTED
+#include "common/kernel.glsl"
 layout(constant_id = 1) const bool hasMemory = false;
 layout(constant_id = 2) const bool listsOwners = false;
 #define ENTRIES_OF_PAIR 2u
@@ -67,8 +68,7 @@ layout(std430, binding = OWNERS_BINDING) writeonly buffer Owners { uint owners[]
 void listTouching(uint i) {
 #ifdef LISTS_OWNERS
     if (listsOwners) listOwner(i);
-#endif
-#ifdef LISTS_PARTICLES
+#elif defined LISTS_PARTICLES
     listParticle(i);
 #endif
 }
@@ -103,8 +103,7 @@ void returnMemory(uvec2 list, uint i) {
 #ifdef HITS_BINDING
     clearHits(list, i);
 #endif
-    const uint end = list.x + list.y;
-    uint element = list.x;
+    uint element = list.x, end = list.x + list.y;
     for (uint place = keptLists[i].x; place < keptLists[i].x + keptLists[i].y; ++place) {
         const uint other = keptOthers[place];
         while (element < end && contacts[element].other < other) ++element;
@@ -129,7 +128,7 @@ uint checked(uint i, uint n) {
     const uint room = push.room / ENTRIES_OF_PAIR, found = min(bounds.pairs, 4u * room + 1u);
     if (found <= room && n > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);
 #ifndef OWNERS_BINDING
-    if (i == 0u && found > room && status.candidates == 0u) status.candidates = (ENTRIES_OF_PAIR * found - 1u) / OWNERS + 1u;
+    if (placeOfAll() == 0u && found > room && status.candidates == 0u) status.candidates = (ENTRIES_OF_PAIR * found - 1u) / OWNERS + 1u;
 #endif
     return min(n, LIST_MOST);
 }

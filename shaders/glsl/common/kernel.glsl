@@ -12,10 +12,16 @@ layout(constant_id = 0) const bool isReversed = false;
 // True if a step finished: all values are finite, and all contacts fitted. Else the step is undone.
 bool isFinished(StatusWords status) { return (status.nonFinite | status.candidates | status.lacksLists) == 0u; }
 
+// The place of this invocation among all of its dispatch.
+uint placeOfAll() {
+    const uint all = gl_NumWorkGroups.x * GROUP_SIZE;
+    return isReversed ? all - 1u - gl_GlobalInvocationID.x : gl_GlobalInvocationID.x;
+}
+
 // The item of this invocation; the caller returns if it is >= count.
 #if defined MAY_RUN_LISTED || defined RUNS_LISTED
 // Runs over all work groups; over listed ones, those with an awake particle (list_awake.comp) or one in a contact
-// (listed_groups.glsl); or over listed items, slots that hold a particle or have a candidate.
+// (listed_groups.glsl); or over listed items, whole work groups: slots that hold a particle, or have a candidate.
 #ifdef MAY_RUN_LISTED
 layout(constant_id = RUNS_OVER_ID) const uint runsOver = RUNS_OVER_ALL;
 #else
@@ -26,13 +32,8 @@ uint listedGroup() {
     const uint place = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
     return runsOver == RUNS_OVER_GROUPS ? listedItems[place] : place;
 }
-// The place of this invocation in a list of items, which is padded to whole work groups.
-uint placeInList() {
-    const uint all = gl_NumWorkGroups.x * GROUP_SIZE;
-    return isReversed ? all - 1u - gl_GlobalInvocationID.x : gl_GlobalInvocationID.x;
-}
 uint itemIndex(uint count) {
-    if (runsOver == RUNS_OVER_ITEMS) return listedItems[placeInList()];
+    if (runsOver == RUNS_OVER_ITEMS) return listedItems[placeOfAll()];
     if (runsOver == RUNS_OVER_ALL) {
         const uint i = gl_GlobalInvocationID.x;
         return isReversed && i < count ? count - 1u - i : i;
@@ -41,7 +42,7 @@ uint itemIndex(uint count) {
     return listedGroup() * GROUP_SIZE + lane;
 }
 // Whether the item is padding of a list of which the device knows the length.
-bool isPadding(uint length) { return runsOver == RUNS_OVER_ITEMS && placeInList() >= length; }
+bool isPadding(uint length) { return runsOver == RUNS_OVER_ITEMS && placeOfAll() >= length; }
 #elif defined RUNS_OVER_SLOTS
 // Runs over slots of the state that hold a particle, not over padding; ~0 after the last.
 layout(std430, binding = LAST_BINDING) readonly buffer Slots { uint slots[]; };

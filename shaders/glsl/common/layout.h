@@ -304,6 +304,7 @@ struct GridBounds {
 
 struct GridPush {
     uint count;  // number of particles; whole work groups
+    uint items;  // the same of those that are visited
     uint cells;  // a power of two
     float edge;  // smallest size of a cell in a substep in which contacts may lie on paths [m]
     float quietEdge; // the same in other substeps [m]

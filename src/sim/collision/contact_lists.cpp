@@ -58,8 +58,8 @@ void addSorting(ProgramBuilder& program, const Lists& lists) {
                    {boundIf(hasMemory, lists.hits), boundIf(listsOwners, grid.touching.arguments),
                     boundIf(listsOwners, lists.touching)});
     constexpr std::uint32_t hasMemoryId = 1, listsOwnersId = 2; // constant_ids in sort_lists.comp
-    program.dispatchIndirect(k::sortLists, grid.particles, buffers, lists.push,
-                             {{hasMemoryId, hasMemory}, {listsOwnersId, listsOwners}});
+    hash_grid::addOverParticles(program, grid, k::sortLists, buffers, lists.push,
+                                {{hasMemoryId, hasMemory}, {listsOwnersId, listsOwners}});
 }
 
 } // namespace
@@ -71,6 +71,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     const float most = hash_grid::largestInGrid(request.radii);
     const float quietMost = hash_grid::largestUpTo(request.radii, most);
     Lists lists{.grid = hash_grid::add(program, {.radii = request.radii,
+                                                 .slots = program.slots(),
                                                  .margin = request.margin,
                                                  .edge = wide * most + margin,
                                                  .quietEdge = wide * quietMost + margin,
@@ -116,8 +117,8 @@ void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Move
     const hash_grid::Grid& grid = lists.grid;
     const pooled_lists::Lists& pooled = lists.pooled;
     if (pooled.memory)
-        program.dispatchIndirect(k::saveContactMemory, grid.particles, pooled_lists::keepingBuffers(pooled),
-                                 layout::CountPush{grid.push.count});
+        hash_grid::addOverParticles(program, grid, k::saveContactMemory, pooled_lists::keepingBuffers(pooled),
+                                    layout::CountPush{grid.push.count});
     std::vector<BufferId> buffers{grid.sorted, grid.starts,   moved.positions, grid.radii,
                                   grid.bounds, pooled.chains, pooled.pairs,    lists.large};
     const bool hasExclusions = lists.excluded != BufferId{};

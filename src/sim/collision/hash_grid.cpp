@@ -89,22 +89,25 @@ Grid add(ProgramBuilder& program, const Request& request) {
     const std::vector<layout::vec4> nowhere(request.particles > 0 ? request.particles : count,
                                             {1e18f, 1e18f, 1e18f, 0});
     const std::string name = request.name;
-    Grid grid{.push = {.count = static_cast<std::uint32_t>(count),
-                       .cells = cells,
-                       .edge = edge,
-                       .quietEdge = request.quietEdge > 0 ? request.quietEdge : edge,
-                       .most = most,
-                       .others = request.others,
-                       .quiet = std::max(request.quiet, 0.0f)},
-              .radii = program.upload(request.radiiName, request.radii),
-              .bounds = program.scratch<layout::GridBounds>(name + ".bounds", 1),
-              .arguments = program.scratch<layout::DispatchArguments>(name + ".arguments", GRID_ARGUMENTS),
-              .counts = program.scratch<std::uint32_t>(name + ".counts", cells),
-              .sums = program.scratch<std::uint32_t>(name + ".sums", cells / GRID_CHUNK + 1),
-              .starts = program.scratch<std::uint32_t>(name + ".starts", cells + 4),
-              .places = program.scratch<std::array<std::uint32_t, 2>>(name + ".places", count),
-              .sorted = program.scratch<layout::vec4>(name + ".sorted", count),
-              .detected = program.upload(name + ".detected", nowhere)};
+    Grid grid{
+        .push = {.count = static_cast<std::uint32_t>(count),
+                 .items = request.slots.items > 0 ? request.slots.items : static_cast<std::uint32_t>(count),
+                 .cells = cells,
+                 .edge = edge,
+                 .quietEdge = request.quietEdge > 0 ? request.quietEdge : edge,
+                 .most = most,
+                 .others = request.others,
+                 .quiet = std::max(request.quiet, 0.0f)},
+        .radii = program.upload(request.radiiName, request.radii),
+        .bounds = program.scratch<layout::GridBounds>(name + ".bounds", 1),
+        .arguments = program.scratch<layout::DispatchArguments>(name + ".arguments", GRID_ARGUMENTS),
+        .counts = program.scratch<std::uint32_t>(name + ".counts", cells),
+        .sums = program.scratch<std::uint32_t>(name + ".sums", cells / GRID_CHUNK + 1),
+        .starts = program.scratch<std::uint32_t>(name + ".starts", cells + 4),
+        .places = program.scratch<std::array<std::uint32_t, 2>>(name + ".places", count),
+        .sorted = program.scratch<layout::vec4>(name + ".sorted", count),
+        .detected = program.upload(name + ".detected", nowhere),
+        .slots = request.slots};
     grid.particles = {grid.arguments, GRID_PARTICLES, grid.push.count, true};
     grid.particleChunks = {grid.arguments, GRID_PARTICLE_CHUNKS, (grid.push.count - 1) / GRID_CHUNK + 1,
                            true};
@@ -198,18 +201,18 @@ void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions, con
     const bool hasHeadings = grid.push.ahead > 0 && positions == moved.positions;
     program.dispatchIndirect(k::measureBounds, grid.particleChunks, {positions, grid.radii, grid.bounds},
                              grid.push);
-    program.dispatchIndirect(
-        k::countCells, grid.particles,
-        {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.counted[0], grid.counted[1],
-         grid.counted[2], boundIf(hasHeadings, grid.headings), boundIf(hasHeadings, moved.velocities),
-         boundIf(hasHeadings, grid.frames.frames), moved.step, boundIf(hasHeadings, points)},
-        grid.push, {{hasHeadingsId, hasHeadings}});
+    addOverParticles(program, grid, k::countCells,
+                     {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.counted[0],
+                      grid.counted[1], grid.counted[2], boundIf(hasHeadings, grid.headings),
+                      boundIf(hasHeadings, moved.velocities), boundIf(hasHeadings, grid.frames.frames),
+                      moved.step, boundIf(hasHeadings, points)},
+                     grid.push, {{hasHeadingsId, hasHeadings}});
     program.dispatchIndirect(k::sumCells, grid.cellChunks, {grid.counts, grid.sums}, grid.push);
     program.dispatchIndirect(k::scanSums, grid.oneGroup, {grid.sums}, grid.push);
     program.dispatchIndirect(k::startCells, grid.cellChunks, {grid.counts, grid.sums, grid.starts},
                              grid.push);
-    program.dispatchIndirect(k::fillCells, grid.particles, {positions, grid.places, grid.starts, grid.sorted},
-                             grid.push);
+    addOverParticles(program, grid, k::fillCells, {positions, grid.places, grid.starts, grid.sorted},
+                     grid.push);
 }
 
 } // namespace sinew::sim::collision::hash_grid

@@ -16,6 +16,7 @@ namespace sinew::sim::collision::hash_grid {
 /// The contents of a grid.
 struct Request {
     std::span<const float> radii; ///< by state slot, whole work groups [m]; below 0 = no particle there
+    Slots slots{};                ///< those that a build visits; none = all
     float margin = 0;             ///< distance beyond contact up to which pairs must be found [m]
     float edge = 0;               ///< smallest size of a cell [m]
     /// The same while no particle moves farther than `quiet` in a substep [m]; 0 = no other size.
@@ -80,6 +81,7 @@ struct Grid {
     BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
     BufferId ways;     ///< by which particles may come near others in the substep [m]; unbound = none
     BufferId headings; ///< velocities of particles relative to frames when lists were made; unbound = none
+    Slots slots;       ///< those that passes over particles visit; none = all
     IndirectItems particles, particleChunks, cellChunks, oneGroup, others,
         patches;                  ///< of passes that run with a build
     IndirectItems searching;      ///< pairs of faces that search for points
@@ -111,6 +113,17 @@ void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 
 /// Appends the check of all members of frames, which decides whether the grid is built.
 void addListCheckOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved);
+
+/// Appends a pass over the particles that a build visits; the kernel may run over a list.
+template <typename Push>
+void addOverParticles(ProgramBuilder& program, const Grid& grid, const vk::ShaderCode& code,
+                      const std::vector<BufferId>& buffers, const Push& push,
+                      ProgramBuilder::Constants constants = {}) {
+    if (grid.slots.items == 0)
+        return program.dispatchIndirect(code, grid.particles, buffers, push, constants);
+    constants.emplace(RUNS_OVER_ID, RUNS_OVER_ITEMS);
+    program.dispatchListed(code, grid.particles, buffers, grid.slots.list, push, constants);
+}
 
 /// Appends, after the check: builds the grid of items at `positions`, if it is needed. Stores headings if
 /// items are particles; else the requesting code does. `points`: counters of motions (face_points.h), only

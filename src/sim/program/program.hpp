@@ -108,8 +108,7 @@ struct Pass {
     std::string label;
     std::uint32_t kernel = 0; ///< index into StepProgram::kernels (dispatch)
     std::uint32_t items = 0;  ///< invocations wanted (dispatch); the maximum if indirect
-    /// In binding order, without bindings of a feature that is off and without texel twins; then the
-    /// arguments of an indirect dispatch.
+    /// In binding order, without bindings that are off and texel twins; then the arguments if indirect.
     std::vector<BufferUse> uses;
     std::vector<std::byte> push;
     std::uint32_t value = 0;
@@ -137,13 +136,18 @@ inline std::span<const BufferUse> boundUses(const Pass& pass) {
     return std::span(pass.uses).first(pass.uses.size() - (pass.isIndirect ? 1 : 0));
 }
 
-/// Location of the group count that a kernel writes for a later dispatch: an element of a buffer of
-/// layout::DispatchArguments. With 0 groups the device skips the pass at almost no cost.
+/// Location of the group count that a kernel writes for a later dispatch: a layout::DispatchArguments.
 struct IndirectItems {
     BufferId arguments;
     std::uint32_t element = 0;
     std::uint32_t most = 0; ///< largest number of invocations that the arguments can ask for
     bool isOfLists = false; ///< 0 groups unless contact lists are rebuilt
+};
+
+/// A list of items, whole work groups, out of `all`; 0 items = there is none.
+struct Slots {
+    BufferId list{};
+    std::uint32_t items = 0, all = 0;
 };
 
 /// Replacement of a direct dispatch by an indirect one: its groups, and the list of groups that run.
@@ -152,8 +156,7 @@ struct IndirectForm {
     BufferId listed; ///< groups that run; invalid = all
 };
 
-/// Elements of a scene. A part of the state has one entry for each element of a kind, in the order of the
-/// program, and another program may have these elements at other indices.
+/// Elements of a scene. A part of the state has one entry for each element of a kind, in the program's order.
 enum class Elements : std::uint8_t {
     none,
     one, ///< the whole buffer, for the scene
@@ -507,8 +510,9 @@ public:
     using Indirection =
         std::function<IndirectForm(const vk::KernelInterface& interface, std::uint32_t items)>;
     void setIndirection(Indirection indirection) { indirection_ = std::move(indirection); }
-    /// Direct dispatches over `all` items then run over listed ones, whole work groups, where kernels may.
-    void setSlots(BufferId list, std::uint32_t items, std::uint32_t all) { slots_ = {list, items, all}; }
+    /// Direct dispatches over all slots then run over listed ones, where kernels may.
+    void setSlots(const Slots& slots) { slots_ = slots; }
+    const Slots& slots() const { return slots_; }
     /// Adds [index] to the label of the last pass, for passes that differ only in their range.
     void numberLast(std::uint32_t index);
     /// Registers a buffer of vec4 that is restored when a step with a non-finite state is undone.
@@ -576,7 +580,6 @@ private:
                         std::span<const std::byte> push, const Constants& constants);
     void dispatchBytes(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
                        std::span<const std::byte> push, const Constants& constants);
-
     void dispatchListedBytes(const vk::ShaderCode& code, std::uint32_t items,
                              std::span<const BufferId> buffers, BufferId listed,
                              std::span<const std::byte> push, Constants constants);
@@ -585,10 +588,7 @@ private:
     std::map<const vk::ShaderCode*, vk::KernelInterface> interfaces_;
     std::vector<BufferId> restoredOnUndo_, keptForRepeat_;
     Indirection indirection_;
-    struct {
-        BufferId list;
-        std::uint32_t items, all;
-    } slots_{};
+    Slots slots_;
     List list_ = List::step;
     When when_ = When::always;
     bool isReversed_ = false, usesTexels_ = true;
