@@ -97,13 +97,18 @@ sim::Scene smallOrgan() {
 
 constexpr std::array<sim::Vec3, 2> from{{{0, 1, -1}, {0, 1, 1}}}, to{{{0, -1, -1}, {0, -1, 1}}};
 
-// A cut of limited depth in a body at rest has no gap: its lip alone shows it. The cut runs over the top of a
-// ball, along x = 0.
-TEST(Cuts, AreSeenWhereTheyDoNotGape) {
+sim::Scene ball() {
     sim::Scene scene{.name = "ball", .gravity = {0, 0, 0}};
     mesh::MeshBody body{.name = "ball", .youngModulus = 1e5f, .density = 1050, .isCuttable = true};
     body.voxels.resolution = 12;
     mesh::addMesh(scene, mesh::generate("sphere", 32), body);
+    return scene;
+}
+
+// A cut of limited depth in a body at rest has no gap: its lip alone shows it. The cut runs over the top of a
+// ball, along x = 0.
+TEST(Cuts, AreSeenWhereTheyDoNotGape) {
+    const sim::Scene scene = ball();
     const float radius = 0.5f * sceneBounds(scene).sizes().y();
     const Vector3 center = sceneBounds(scene).center();
     for (const Quality& quality : {quick, reducedQuality()}) {
@@ -125,6 +130,43 @@ TEST(Cuts, AreSeenWhereTheyDoNotGape) {
             seen += darkest < 0.35 * (at(-0.15f, angle) + at(0.15f, angle)) ? 1 : 0;
         }
         EXPECT_GE(seen, 0.95 * places) << "darker by 30 % than beside it";
+    }
+}
+
+// A blade cuts from one side of a ball to a place beyond its middle, in planes that contain the eye and are
+// therefore seen as lines.
+TEST(Cuts, DarkenNothingBesideTheirLip) {
+    const sim::Scene scene = ball();
+    const float radius = 0.5f * sceneBounds(scene).sizes().y();
+    for (const float angle : {0.2f, 0.7f, 1.2f, 1.7f, 2.2f, 2.7f}) {
+        LayerShot shot(scene, {});
+        shot.camera.target = sceneBounds(scene).center();
+        shot.camera.distance *= 0.6f;
+        const Picture whole = shot.take();
+        const Vector3 ahead = rayThrough(shot.camera, {0, 0}).direction;
+        const Vector3 right = ahead.cross(Vector3::UnitY()).normalized(), up = right.cross(ahead);
+        const Vector3 way = std::cos(angle) * right + std::sin(angle) * up;
+        const auto edgeAt = [&](float place) { // of the blade, in radii from the middle
+            const Vector3 a = shot.camera.target + place * radius * way - ahead, b = a + 2 * ahead;
+            return std::array<sim::Vec3, 2>{{{a.x(), a.y(), a.z()}, {b.x(), b.y(), b.z()}}};
+        };
+        const std::array<sim::Vec3, 2> start = edgeAt(-1.5f), end = edgeAt(0.3f);
+        const Picture cut = shot.take(0, {.from = start, .to = end});
+        int near = 0, beside = 0;
+        for (std::uint32_t y = 0; y < whole.height; ++y)
+            for (std::uint32_t x = 0; x < whole.width; ++x) {
+                const auto sum = [&](const Picture& picture) {
+                    const std::uint8_t* at = &picture.pixels[4 * (std::size_t{y} * picture.width + x)];
+                    return at[0] + at[1] + at[2];
+                };
+                if (sum(cut) > 0.85 * sum(whole)) continue;
+                const Vector2 place(static_cast<float>(x) + 0.5f - 0.5f * static_cast<float>(whole.width),
+                                    0.5f * static_cast<float>(whole.height) - static_cast<float>(y) - 0.5f);
+                const float away = std::abs(std::cos(angle) * place.y() - std::sin(angle) * place.x());
+                ++(away < 4 ? near : beside);
+            }
+        EXPECT_GT(near, 100) << angle;
+        EXPECT_EQ(beside, 0) << "pixels at least 4 pixels away from a cut at an angle of " << angle;
     }
 }
 

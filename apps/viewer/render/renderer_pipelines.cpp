@@ -125,6 +125,7 @@ void Renderer::makeCuts(Additions& to) const {
                             .depth = solid};
     addLit(to, insidePipeline, request);
     request.name = "clipped";
+    request.vertex = &shaders::cutPiecesVert;
     request.fragment = &shaders::clippedFrag;
     addLit(to, clippedPipeline, request);
 }
@@ -211,7 +212,8 @@ void Renderer::makeGlass(Additions& to) const {
     add(skinGlassPipeline, "skin_glass", shaders::skinVert, shaders::skinGlassFrag,
         Input::positionsAndNormals);
     add(insideGlassPipeline, "inside_glass", shaders::cutVert, shaders::insideGlassFrag, Input::cuts);
-    add(clippedGlassPipeline, "clipped_glass", shaders::cutVert, shaders::clippedGlassFrag, Input::cuts);
+    add(clippedGlassPipeline, "clipped_glass", shaders::cutPiecesVert, shaders::clippedGlassFrag,
+        Input::cuts);
 }
 
 void Renderer::makeValues(Additions& to) const {

@@ -1,5 +1,5 @@
 #version 460
-// The surface of cuts as stored by the simulation: the inside, and pieces of skins beside it.
+// The surface of cuts as stored by the simulation: the inside, and, as PIECES, those of skins beside it.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 #include "common/cut_layout.h"
@@ -16,7 +16,11 @@ layout(location = 1) out vec3 worldNormal;
 layout(location = 3) in float valueIn;
 layout(location = 2) out float value;
 #else
-layout(location = 2) out vec4 inBody; // as rest, but w is larger by RIM on the cut: not at other corners of pieces
+layout(location = 2) out vec4 inBody; // as rest
+#endif
+#ifdef PIECES
+layout(location = 3) out vec3 corner; // 1 for one of a triangle's three vertices, which are its own
+layout(location = 4) out vec3 rim;    // the same on the cut, 0 at other vertices
 #endif
 
 void main() {
@@ -26,7 +30,11 @@ void main() {
     value = valueIn;
 #else
     inBody = rest;
-    if ((point & (SURFACE_SKIN | SURFACE_PARTICLE)) == 0u) inBody.w += RIM;
+#endif
+#ifdef PIECES
+    const int n = gl_VertexIndex % 3;
+    corner = vec3(n == 0, n == 1, n == 2);
+    rim = (point & (SURFACE_SKIN | SURFACE_PARTICLE)) == 0u ? corner : vec3(0.0);
 #endif
     gl_Position = frame.clipFromWorld * vec4(worldPosition, 1.0);
 }

@@ -14,7 +14,6 @@ struct alignas(16) mat4 {
 #endif
 
 #define SKIN_COLORS 16
-#define RIM 0.25 // added to the index of a skin on a cut (cut.vert)
 #define MAP_COLORS 17
 
 struct FrameParams {
