@@ -1,4 +1,5 @@
 // Tests of pins: pinned particles stay in place while the rest falls, and removed pins release them.
+#include "mesh/vector3.hpp"
 #include "played.hpp"
 #include "viewer/document/document.hpp"
 #include "viewer/input/inspector.hpp"
@@ -134,6 +135,36 @@ TEST(HeldMarks, AreOneDrawWhereGapsAreShortAndApartWhereTheyAreLong) {
     EXPECT_EQ(sim::holdOf(holds, 10)->name, "a") << "the first";
     EXPECT_EQ(sim::holdOf(holds, 99)->name, "b");
     EXPECT_EQ(sim::holdOf(holds, 12), nullptr);
+}
+
+TEST(HeldMarks, DoNotHoverBesideASkin) {
+    const OpenedScene opening = openText(R"([[mesh]]
+name = "ball"
+generate = "sphere"
+size = 0.2
+center = [0, 0, 0]
+resolution = 10
+[[hold]]
+bodies = ["ball"]
+shape = "half_space"
+normal = [-1, 0, 0]
+offset = 0.02)");
+    ASSERT_EQ(opening.loaded.holds.size(), 1u);
+    const sim::Scene& scene = opening.loaded.scene;
+    const std::vector<float>& radii = opening.light.marks.radii;
+    int touching = 0, beside = 0;
+    for (const std::uint32_t i : opening.loaded.holds[0].particles) {
+        const double away = mesh::toVector(scene.particles[i].position).norm() - 0.1; // from the skin
+        if (away < 0) {
+            EXPECT_GT(radii[i], 0) << "inside, particle " << i;
+        }
+        if (away > 0.005) {
+            EXPECT_EQ(radii[i], 0) << "beside the skin, particle " << i;
+        }
+        ++(radii[i] > 0 ? touching : beside);
+    }
+    EXPECT_GT(touching, 50);
+    EXPECT_GT(beside, 20);
 }
 
 // Pixels as blue as a pin, and their mean column.

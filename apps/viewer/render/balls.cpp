@@ -1,6 +1,8 @@
 // Uses fewer triangles per ball if there are many balls, which are then small in the picture.
 #include "viewer/render/balls.hpp"
 
+#include "mesh/triangle_tree.hpp"
+#include "mesh/vector3.hpp"
 #include "sinew/inverse_masses.hpp"
 #include "viewer/render/geometry.hpp"
 #include "viewer/render/mesh_buffer.hpp"
@@ -157,6 +159,37 @@ std::vector<std::uint32_t> fixedInMovingBodies(const sim::Scene& scene) {
     return all;
 }
 
+mesh::Vector3 restPlace(const sim::Scene& scene, const sim::CellEmbedding& cell) {
+    mesh::Vector3 place = mesh::Vector3::Zero();
+    for (std::size_t k = 0; k < cell.particles.size(); ++k)
+        place += double{cell.share(k)} * mesh::toVector(scene.particles[cell.particles[k]].position);
+    return place;
+}
+
+// The grid of a mesh body reaches up to a cell beyond its skin. Balls there would hover, unless they dip into
+// it.
+void removeBallsBesideSkins(const sim::Scene& scene, std::vector<float>& radii) {
+    for (const sim::Skin& skin : scene.skins) {
+        if (skin.cells.empty()) continue;
+        const std::uint32_t first = skin.cells[0].particles[0];
+        const auto body = std::ranges::find_if(scene.bodies, [&](const sim::Body& each) {
+            return first >= each.firstParticle && first - each.firstParticle < each.particleCount;
+        });
+        if (body == scene.bodies.end()) continue;
+        const auto begin = radii.begin() + body->firstParticle, end = begin + body->particleCount;
+        if (std::all_of(begin, end, [](float radius) { return radius == 0; })) continue;
+        std::vector<mesh::Vector3> places;
+        for (const sim::CellEmbedding& cell : skin.cells) places.push_back(restPlace(scene, cell));
+        const mesh::TriangleTree surface(places,
+                                         skin.wholeTriangles.empty() ? skin.triangles : skin.wholeTriangles);
+        for (auto radius = begin; radius < end; ++radius) {
+            if (*radius == 0) continue;
+            const mesh::Vector3 place = mesh::toVector(scene.particles[radius - radii.begin()].position);
+            if (surface.windingNumber(place) < 0.5 && surface.distance(place) > 0.5f * *radius) *radius = 0;
+        }
+    }
+}
+
 } // namespace
 
 BallList ballsOf(const sim::Scene& scene) {
@@ -180,6 +213,7 @@ BallList marksOf(const sim::Scene& scene, std::span<const sim::NamedHold> holds,
         for (const std::uint32_t end : {link.a, link.b})
             list.radii[end] = std::min(list.radii[end], 0.35f * link.restLength);
     }
+    removeBallsBesideSkins(scene, list.radii);
     for (std::uint32_t i = 0; i < list.radii.size(); ++i) {
         if (list.radii[i] == 0) continue;
         if (list.ranges.empty() || i - list.ranges.back().first >= list.ranges.back().count + longestGap)

@@ -26,8 +26,9 @@ BallList ballsOf(const sim::Scene& scene);
 BallList allBallsOf(const sim::Scene& scene);
 
 /// Marks of held particles, and of those of moving bodies that never move: balls of `radius` [m], smaller
-/// where two of them are linked, so that they stay apart. One draw covers a run of them; gaps of a few
-/// particles, whose balls have size 0, join two runs.
+/// where two of them are linked, so that they stay apart. Particles beside the skin of a mesh body have a
+/// mark only if it dips into the skin. One draw covers a run of them; gaps of a few particles, whose balls
+/// have size 0, join two runs.
 BallList marksOf(const sim::Scene& scene, std::span<const sim::NamedHold> holds, float radius);
 
 /// A triangle mesh of a ball of radius 1, counter-clockwise seen from outside: an icosahedron whose triangles
