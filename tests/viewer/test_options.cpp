@@ -32,6 +32,12 @@ TEST(Options, DefaultToAWindowWithTheBuiltInOrgan) {
     EXPECT_EQ(options.size.height, 720u);
 }
 
+TEST(Options, ThatAreMisspeltAreNamedAsTheyExist) {
+    EXPECT_NE(complaint({"cube.toml", "--headles"}).find(": did you mean --headless?"), std::string::npos);
+    EXPECT_NE(complaint({"--blade-dept=2"}).find(": did you mean --blade-depth?"), std::string::npos);
+    EXPECT_EQ(complaint({"--surprise"}).find("did you mean"), std::string::npos);
+}
+
 TEST(Options, HeadlessTakesEveryFrameByDefault) {
     const Options options = parse({"cube.toml", "--headless", "--frames", "7", "--out", "pictures"});
     for (std::uint64_t frame = 0; frame <= 7; ++frame) EXPECT_TRUE(options.wantsPicture(frame));

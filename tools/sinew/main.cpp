@@ -1,12 +1,11 @@
 // The command line: parses it, then runs the command under a guard that maps failures to exit codes.
 #include "app/guard.hpp"
 #include "app/thread_advice.hpp"
-#include "scenes/schema.hpp"
+#include "scenes/suggestion.hpp"
 #include "sinew/commands.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <string>
 
 namespace {
@@ -28,36 +27,13 @@ std::string commandName(const CLI::App& app) {
     return parsed.empty() ? "sinew" : "sinew " + parsed.front()->get_name();
 }
 
-/// ": did you mean X?" for the first argument that nothing takes, if a command or option is spelled much like
-/// it, else empty. CLI11 stops at an unknown command before it looks at options.
-std::string suggestion(const CLI::App& app) {
-    const auto parsed = app.get_subcommands();
-    const CLI::App& command = parsed.empty() ? app : *parsed.front();
-    for (const std::string& given : command.remaining(true)) {
-        std::string nearest;
-        std::size_t least = std::max<std::size_t>(given.size() / 3, 1); // edits
-        const auto consider = [&](const std::string& known) {
-            const std::size_t edits = scenes::editDistance(given.substr(0, 64), known);
-            if (edits < least || (edits == least && nearest.empty())) {
-                least = edits;
-                nearest = known;
-            }
-        };
-        for (const CLI::App* one : command.get_subcommands({})) consider(one->get_name());
-        for (const CLI::Option* option : command.get_options())
-            for (const std::string& name : option->get_lnames()) consider("--" + name);
-        if (!nearest.empty()) return ": did you mean " + nearest + "?";
-    }
-    return {};
-}
-
 /// The sentence for arguments that cannot be taken.
 std::string complaint(const CLI::App& app, const CLI::ParseError& error) {
-    if (!app.get_subcommands().empty()) return error.what() + suggestion(app);
+    if (!app.get_subcommands().empty()) return error.what() + scenes::suggestion(app);
     const auto given = app.remaining(true);
     if (!given.empty())
         return (given.front().starts_with('-') ? "no option \"" : "no command \"") + given.front() + "\"" +
-               suggestion(app);
+               scenes::suggestion(app);
     std::string names;
     for (const CLI::App* one : app.get_subcommands({}))
         names += (names.empty() ? "" : ", ") + one->get_name();

@@ -3,6 +3,7 @@
 
 #include "app/count_option.hpp"
 #include "app/guard.hpp"
+#include "scenes/suggestion.hpp"
 #include "sinew/ranges.hpp"
 #include "sinew/solver_names.hpp"
 #include "viewer/input/bindings.hpp"
@@ -177,7 +178,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0) refuse(error.what());
+        if (error.get_exit_code() != 0) refuse(error.what() + scenes::suggestion(app));
         app.exit(error); // --help, --version
         return std::nullopt;
     }
