@@ -78,7 +78,7 @@ meet() { # CALL KEYS...: CALL fails after these keys were pressed
     keys "$@" 2>/dev/null || true
     for _ in {1..300}; do [[ -s struck ]] && break; sleep 0.1; done
     [[ -s struck ]] || fail "$*: call $call was never struck"
-    sleep 1
+    for _ in {1..10}; do hasEnded && break; sleep 0.1; done # some calls end it, others cost a picture
     kill -0 "$running" 2>/dev/null && keys ctrl+q 2>/dev/null || true
     for _ in {1..600}; do kill -0 "$running" 2>/dev/null || break; sleep 0.1; done
     ! kill -0 "$running" 2>/dev/null || fail "$*: call $call ($(cat struck)): it does not end"

@@ -50,6 +50,7 @@ cutDown 320 100 420
 window_before=$window
 echo 1 >lost # also loses the next device; the one after it works
 await 30 test -s viewer.err
+lost=$EPOCHSECONDS
 await 30 lacksTitle pieces # it begins anew
 [[ $(wc -l <viewer.err) == 1 ]] || fail "not one line"
 input=$(sed -n 's/^warning: .*VK_ERROR_DEVICE_LOST.*: the scene restarts on .*: --replay \(.*\) replays the input$/\1/p' viewer.err)
@@ -61,7 +62,8 @@ awaitStill after.png
 [[ $(convert after.png -unique-colors -format '%w' info:) -gt 500 ]] || fail "nothing is drawn"
 keys space
 awaitTitle fps
-sleep 10     # betweenLosses of apps/viewer/interactive.cpp: a loss sooner ends the viewer
+isLater() { ((EPOCHSECONDS > lost + 10)); } # betweenLosses of apps/viewer/interactive.cpp: a loss sooner ends the viewer
+await 20 isLater
 echo 0 >lost # loses the device again; the next one works
 saysTwoLines() { (($(wc -l <viewer.err) == 2)); }
 await 30 saysTwoLines # it goes on a second time

@@ -3,7 +3,7 @@
 # precede others. Changes to the folder.
 screen=${screen:-1000x700}
 [[ -v options ]] || options=(--validation)
-for program in Xvfb xdotool import convert; do
+for program in Xvfb xdotool convert; do
     command -v "$program" >/dev/null || { echo "SKIPPED: $program is not installed (packages xvfb xdotool imagemagick)"; exit 77; }
 done
 rm -rf "$folder"
@@ -23,7 +23,7 @@ fail() { # writes to stderr, because stdout may be a value
 }
 
 exec 3<>"$folder/display"
-Xvfb -displayfd 3 -screen 0 "${screen}x24" -nolisten tcp -noreset >/dev/null 2>&1 &
+Xvfb -displayfd 3 -screen 0 "${screen}x24" -fbdir "$folder" -nolisten tcp -noreset >/dev/null 2>&1 &
 processes+=($!)
 for _ in {1..100}; do [[ -s display ]] && break; sleep 0.1; done
 [[ -s display ]] || fail "Xvfb did not start"
@@ -78,7 +78,8 @@ quit() { # quits by the key. xdotool fails if the window closes before it releas
     done
     fail "Ctrl + Q does not end it"
 }
-shoot() { import -silent -window root -crop "$extent+0+0" +repage "$1"; } # as large as the window, which is in the corner
+# Reads the screen where the server keeps it: a busy server takes seconds to answer a program that asks for it.
+shoot() { convert "xwd:$folder/Xvfb_screen0" -crop "$extent+0+0" +repage "$1"; } # as large as the window, which is in the corner
 awaitMotion() { # waits until the picture changes: steps are on their way
     shoot motion.png
     for _ in {1..600}; do
