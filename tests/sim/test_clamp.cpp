@@ -1,6 +1,8 @@
 // Tests of the sharp clamp (docs/clamp.md): its bound on random graphs and in the worst deformations found,
 // its bits, its motion against the true one, and its energy.
+#include "sim/compile/compile.hpp"
 #include "sim/motion_error.hpp"
+#include "sim/program/program.hpp"
 #include "sim/reference/reference.hpp"
 #include "sim/reference/trajectory.hpp"
 #include "sim/runner.hpp"
@@ -283,6 +285,20 @@ TEST(SharpClamp, IsRememberedByASavedState) {
     runner.run(3);
     other.run(3);
     EXPECT_EQ(other.stateHash(), runner.stateHash());
+}
+
+// The directions of links are not followed where they cannot matter.
+TEST(SharpClamp, LeavesAsItIsWhatTheSumDoesNotClamp) {
+    for (const Scene& scene : {heldBeam(), heldBeam(0.4f), hungSheet()}) {
+        const std::uint32_t exact = chooseSubsteps(scene, {.tolerance = 1e-4f}).substeps;
+        EXPECT_EQ(test::hashOfRun(scene, sharp(exact)), test::hashOfRun(scene, {.substeps = exact}));
+        EXPECT_EQ(describe(compile(scene, sharp(exact))), describe(compile(scene, {.substeps = exact})));
+        EXPECT_NE(test::hashOfRun(scene, sharp(exact / 2)), test::hashOfRun(scene, {.substeps = exact / 2}));
+    }
+    Scene loose; // without links there is nothing to clamp
+    loose.particles = {{.position = {0, 1, 0}, .inverseMass = 1, .radius = 0.1f},
+                       {.position = {0.5f, 1, 0}, .inverseMass = 1, .radius = 0.1f}};
+    EXPECT_EQ(describe(compile(loose, sharp(4))), describe(compile(loose, {.substeps = 4})));
 }
 
 TEST(SharpClamp, LeavesLevelsAsTheyAre) {

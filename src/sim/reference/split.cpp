@@ -105,6 +105,21 @@ struct Split {
                                     : infinite);
     }
 
+    // Whether a link or a cell at rest is softer than asked in a substep of this length.
+    bool clamps(const Problem& problem, double h) const {
+        for (std::size_t c = 0; c < problem.links.size(); ++c) {
+            const double time = std::min(clampTime[problem.links[c].a], clampTime[problem.links[c].b]);
+            if (stiffness[c] * h * h > share[c] * time) return true;
+        }
+        for (std::size_t c = 0; c < problem.cells.size(); ++c) {
+            const Cell& cell = problem.cells[c];
+            double time = infinite;
+            for (const std::uint32_t corner : cell.corners) time = std::min(time, clampTime[corner]);
+            if (cell.fill * 0.75 * cell.stiffness * cell.spacing * h * h > cellShare[c] * time) return true;
+        }
+        return false;
+    }
+
     // tau of each particle that the directions of links between ends at y allow, with `most` for 2 w tau
     // times what meets in a particle.
     std::vector<double> allowedTimes(const Problem& problem, const std::vector<Vector3d>& y,
@@ -231,9 +246,10 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
     const Problem problem(scene);
     const double h = dt / settings.substeps, theta = double{settings.theta}, omega = double{settings.omega};
     const double spare = 0.9 * 4 / (1 + 2 * theta) / omega - 1;
-    const bool isSharp = settings.hasSharpClamp && settings.levels == 0;
-    const Split split(scene, problem, omega, double{scene.dt} / settings.substeps, spare, // shares ignore dt
-                      isSharp);
+    const double hOfScene = double{scene.dt} / settings.substeps; // shares ignore dt
+    const Split bySum(scene, problem, omega, hOfScene, spare, false);
+    const bool isSharp = settings.hasSharpClamp && settings.levels == 0 && bySum.clamps(problem, hOfScene);
+    const Split split = isSharp ? Split(scene, problem, omega, hOfScene, spare, true) : bySum;
     const double bends = problem.bends.empty() ? 0 : std::min(0.9 * (4 / (1 + 2 * theta) - omega), omega / 2);
     const double most = problem.dampingTime > 0 ? omega : 0.95 * 4 / (1 + 2 * theta) - bends;
     if (isSharp && state.clampTimes.empty()) {

@@ -65,6 +65,10 @@ std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
     return shares;
 }
 
+bool isClampSharp(const Settings& settings) {
+    return settings.hasSharpClamp && settings.levels == 0 && settings.solver == Solver::split;
+}
+
 // The share of each corner of a full cell that its links take: a quarter of each of three edges, half of
 // three face diagonals, a whole body diagonal.
 double linksOfACorner(const Scene& scene, const Grid& grid, std::span<const float> shares) {
@@ -81,13 +85,19 @@ double dimensionsOf(const Settings& settings) {
     return isClampSharp(settings) ? 3 : 1;
 }
 
+// Stiffness of the volume of a full cell in its share's terms [N/m]: it meets its clamp with links of the
+// same.
+double volumeStiffness(const Grid& grid) {
+    return 0.75 * double{grid.volumeStiffness} * double{grid.restLength[0]};
+}
+
 std::vector<CellShares> cellShares(const Scene& scene, const Settings& settings,
                                    std::span<const float> inverseMass, std::span<const float> shares) {
     const double softening = softeningOf(scene, settings, inverseMass);
     std::vector<CellShares> result(scene.grids.size());
     for (std::size_t g = 0; g < scene.grids.size(); ++g) {
         const Grid& grid = scene.grids[g];
-        const double stiffness = 0.75 * double{grid.volumeStiffness} * double{grid.restLength[0]};
+        const double stiffness = volumeStiffness(grid);
         const double volume = stiffness / (1 + softening * stiffness);
         result[g].volume = static_cast<float>(volume);
         if (grid.recoveryPressure > 0)
@@ -128,6 +138,31 @@ std::vector<float> clampTimes(double most, std::span<const float> inverseMass, s
     return times;
 }
 
+// Whether some link or cell at rest is softer in a substep than asked.
+bool clamps(const Scene& scene, const Settings& settings, std::span<const float> inverseMass,
+            const Shares& shares) {
+    const double h = double{scene.dt} / settings.substeps;
+    for (std::size_t c = 0; c < scene.distances.size(); ++c) {
+        const DistanceConstraint& link = scene.distances[c];
+        if (!constraints::distance::canMove(link, inverseMass)) continue;
+        const double most =
+            double{shares.ofLinks[c]} * double{std::min(shares.times[link.a], shares.times[link.b])};
+        if (double{stiffnessOf(link.compliance)} * h * h > most) return true;
+    }
+    for (std::size_t g = 0; g < scene.grids.size(); ++g) {
+        const double stiffness = volumeStiffness(scene.grids[g]);
+        if (stiffness == 0) continue;
+        bool isSoft = false;
+        lattice::forEachCell(scene.grids[g], [&](const lattice::Cell& cell) {
+            float time = shares.times[cell.corners[0]];
+            for (const std::uint32_t corner : cell.corners) time = std::min(time, shares.times[corner]);
+            isSoft = isSoft || stiffness * h * h > double{shares.ofCells[g].volume} * double{time};
+        });
+        if (isSoft) return true;
+    }
+    return false;
+}
+
 } // namespace
 
 float stiffnessOf(float compliance) {
@@ -154,10 +189,6 @@ double omegaOfBends(const Settings& settings) {
     return std::min(0.9 * left, double{settings.omega} / 2);
 }
 
-bool isClampSharp(const Settings& settings) {
-    return settings.hasSharpClamp && settings.levels == 0 && settings.solver == Solver::split;
-}
-
 double mostOfLinks(const Scene& scene, const Settings& settings) {
     if (scene.dampingTime > 0)
         return double{settings.omega}; // dampers have the rest (substeps.hpp: dampingBudget)
@@ -169,7 +200,8 @@ Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const fl
     Shares shares{.ofLinks = shareStiffness(scene, settings, inverseMass)};
     shares.ofCells = cellShares(scene, settings, inverseMass, shares.ofLinks);
     const double omega{settings.omega};
-    if (!isClampSharp(settings)) {
+    shares.isSharp = isClampSharp(settings);
+    if (!shares.isSharp) {
         shares.times = clampTimes(omega, inverseMass, sumsOf(scene, shares.ofLinks, shares.ofCells));
         shares.startTimes = shares.times;
         return shares;
@@ -180,6 +212,16 @@ Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const fl
     std::ranges::transform(shares.startTimes, shares.times, shares.startTimes.begin(),
                            [](float start, float rest) { return std::min(start, rest); });
     return shares;
+}
+
+Shares sharesOfMotion(const Scene& scene, const Settings& settings, std::span<const float> inverseMass) {
+    if (isClampSharp(settings)) {
+        Settings withSum = settings;
+        withSum.hasSharpClamp = false;
+        Shares shares = sharesOf(scene, withSum, inverseMass);
+        if (!clamps(scene, withSum, inverseMass, shares)) return shares;
+    }
+    return sharesOf(scene, settings, inverseMass);
 }
 
 } // namespace sinew::sim::stiffness

@@ -63,15 +63,17 @@ struct Shares {
     /// With a sharp clamp, of the bodies at rest.
     std::vector<float> times;
     std::vector<float>
-        startTimes; ///< tau of the scene's own state: lower where a sharp clamp finds it deformed
+        startTimes;       ///< tau of the scene's own state: lower where a sharp clamp finds it deformed
+    bool isSharp = false; ///< whether tau follows from the directions of links
 };
 
-/// `settings.substeps` must be resolved; `inverseMass` is taken after fixed constraints.
+/// `settings.substeps` must be resolved; `inverseMass` is taken after fixed constraints. The clamp is sharp
+/// if the settings ask for it and have no levels: the bound of those holds for links of any direction.
 Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const float> inverseMass);
 
-/// Whether tau follows from the directions of links (docs/clamp.md). Coarse levels need the sum: their bound
-/// holds for links of any direction.
-bool isClampSharp(const Settings& settings);
+/// The shares with which `split` moves a scene: those of sharesOf(), or of the sum if the sum clamps no link
+/// and no cell. A sharp clamp has nothing to give there, and kernels need not follow directions.
+Shares sharesOfMotion(const Scene& scene, const Settings& settings, std::span<const float> inverseMass);
 
 /// The largest 2 w_i tau_i lambda_max(A_i) that a sharp clamp allows in a deformed state: what bends and
 /// dampers leave of the stability bound.
