@@ -77,13 +77,13 @@ TEST_F(Load, LetsBodiesSleepWhereTheSceneAsksForIt) {
     EXPECT_THROW(load("[solver]\nsleep = 1\n" + smallCloth), scenes::SceneError);
 }
 
-TEST_F(Load, ClampsSharplyWhereTheSceneOrTheUserAsksForIt) {
-    const std::string sharp = "[solver]\nsharp_clamp = true\n" + smallCloth;
-    EXPECT_FALSE(load(smallCloth).settings.hasSharpClamp);
-    EXPECT_TRUE(load(sharp).settings.hasSharpClamp);
-    EXPECT_FALSE(scenes::load(write("sharp.toml", sharp), {.hasSharpClamp = false}).settings.hasSharpClamp);
-    EXPECT_TRUE(
-        scenes::load(write("plain.toml", smallCloth), {.hasSharpClamp = true}).settings.hasSharpClamp);
+TEST_F(Load, ClampsSharplyUnlessTheSceneOrTheUserAsksForTheSum) {
+    const std::string sum = "[solver]\nsharp_clamp = false\n" + smallCloth;
+    EXPECT_TRUE(load(smallCloth).settings.hasSharpClamp);
+    EXPECT_FALSE(load(sum).settings.hasSharpClamp);
+    EXPECT_TRUE(scenes::load(write("sum.toml", sum), {.hasSharpClamp = true}).settings.hasSharpClamp);
+    EXPECT_FALSE(
+        scenes::load(write("plain.toml", smallCloth), {.hasSharpClamp = false}).settings.hasSharpClamp);
 }
 
 TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
@@ -414,15 +414,16 @@ TEST_F(Load, ChoosesSubstepsWhereTheFileDoesNotSay) {
     const std::string box = "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\n";
     for (const char* solver : {"", "[solver]\nsubsteps = \"auto\"\n"}) {
         const scenes::LoadedScene loaded = load(solver + box);
-        // With 1e5 Pa, 22.4 substeps would be exact.
-        EXPECT_EQ(loaded.settings.substeps, 22u);
+        // With 1e5 Pa, 16.8 substeps would be exact, with the clamp by the sum 22.4.
+        EXPECT_EQ(loaded.settings.substeps, 17u);
         EXPECT_EQ(loaded.substeps.reason, sim::SubstepReason::stiffness);
     }
     EXPECT_EQ(load("[solver]\nsubsteps = 9\n" + box).substeps.reason, sim::SubstepReason::asked);
     EXPECT_EQ(scenes::load(write("scene.toml", "[solver]\nsubsteps = 9\n" + box), {.substeps = 0})
                   .settings.substeps,
-              22u);
-    EXPECT_LT(load("[solver]\ntolerance = 0.5\n" + box).settings.substeps, 18u);
+              17u);
+    EXPECT_EQ(load("[solver]\nsharp_clamp = false\n" + box).settings.substeps, 22u);
+    EXPECT_LT(load("[solver]\ntolerance = 0.5\n" + box).settings.substeps, 13u);
     expectError("[solver]\nsubsteps = 0\n" + box,
                 "scene.toml:2: solver.substeps is 0: must be from 1 to 1000");
     expectError("[solver]\nsubsteps = 1000000000\n" + box,

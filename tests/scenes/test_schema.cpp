@@ -92,7 +92,9 @@ TEST(Schema, HasTheDefaultsOfTheStructs) {
     EXPECT_EQ(static_cast<float>(numberOf("solver", "weight")), settings.weight);
     EXPECT_EQ(static_cast<float>(numberOf("solver", "over_relaxation")), settings.overRelaxation);
     EXPECT_EQ(static_cast<float>(numberOf("solver", "warm_start")), settings.warmStart);
-    EXPECT_EQ(scenes::findKey("solver", "sharp_clamp")->fallback, settings.hasSharpClamp ? "true" : "false");
+    EXPECT_EQ(scenes::findKey("solver", "sharp_clamp")->fallback,
+              "true"); // a host asks for it: docs/clamp.md
+    EXPECT_FALSE(settings.hasSharpClamp);
     EXPECT_EQ(scenes::findKey("solver", "sleep")->fallback, settings.sleeps ? "true" : "false");
 }
 

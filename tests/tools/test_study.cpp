@@ -31,7 +31,8 @@ std::size_t count(const std::string& text, const std::string& part) {
 /// A trial that takes `ms` a frame with the error `error` in each of two frames; without an error it
 /// diverged.
 Trial trialOf(sim::Solver solver, double ms, std::optional<double> error) {
-    Trial trial{.settings = {.solver = solver}, .sweeps = 8, .barriers = 9, .isRun = true};
+    Trial trial{
+        .settings = {.solver = solver, .hasSharpClamp = true}, .sweeps = 8, .barriers = 9, .isRun = true};
     trial.isDiverged = !error;
     trial.frameRms.assign(2, error.value_or(0));
     trial.frameMax.assign(2, error.value_or(0));

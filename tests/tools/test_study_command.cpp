@@ -113,7 +113,7 @@ TEST_F(Study, GivesEverySolverTheSameMesh) {
     for (const char* solver : {"split", "jacobi", "gauss_seidel"})
         EXPECT_TRUE(solvers.contains(solver)) << solver;
     // The settings of the file itself give another scene, which only split supports, alone, with levels,
-    // and with the sharp clamp.
+    // and with the clamp by the sum.
     write("scene.toml", "name = \"tiny\"\n[[mesh]]\nname = \"ball\"\ngenerate = \"sphere\"\nsize = 0.2\n"
                         "resolution = 4\nyoung_modulus = 2e3\nrecovery = 1\n[[plane]]\noffset = -1\n");
     const Outcome asked = study();

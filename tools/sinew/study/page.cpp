@@ -94,7 +94,7 @@ std::string tuningText(const sim::Settings& s) {
     if (s.solver == sim::Solver::split)
         return fmt::format("theta {:g}", s.theta) +
                (s.levels > 0 ? fmt::format(", levels {}", s.levels) : "") +
-               (s.hasSharpClamp ? ", sharp clamp" : "");
+               (isWithSum(s) ? ", clamp by the sum" : "");
     if (s.solver == sim::Solver::gaussSeidel)
         return s.warmStart > 0 ? fmt::format("warm {:g}", s.warmStart) : "cold";
     return s.weight > 0 ? fmt::format("weight {:g}", s.weight) : fmt::format("omega {:g}", s.overRelaxation);

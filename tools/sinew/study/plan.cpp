@@ -54,7 +54,7 @@ const Tuning& tuningOf(const std::string& solver) {
          {1},
          {[](sim::Settings&) {}, [](sim::Settings& s) { s.theta = 0; },
           [](sim::Settings& s) { s.levels = 1; }, [](sim::Settings& s) { s.levels = 3; },
-          [](sim::Settings& s) { s.hasSharpClamp = true; }},
+          [](sim::Settings& s) { s.hasSharpClamp = false; }},
          true},
         {"gauss_seidel",
          {1, 2, 4, wholeFrame},
@@ -87,7 +87,7 @@ std::vector<SweepCount> sweepCounts(std::uint32_t points, std::uint32_t fewest, 
 
 constexpr const char* weighted = "jacobi_weighted";
 constexpr const char* withLevels = "split_levels";
-constexpr const char* sharp = "split_sharp";
+constexpr const char* withSum = "split_sum";
 
 std::string withName(const std::string& names, const std::string& name) {
     return names + (names.empty() ? "\"" : ", \"") + name + "\"";
@@ -120,10 +120,14 @@ StudyScene forEverySolver(StudyScene study) {
 
 } // namespace
 
+bool isWithSum(const sim::Settings& settings) {
+    return settings.solver == sim::Solver::split && settings.levels == 0 && !settings.hasSharpClamp;
+}
+
 std::string curveOf(const sim::Settings& settings) {
     if (settings.solver == sim::Solver::jacobi && settings.weight > 0) return weighted;
     if (settings.solver == sim::Solver::split && settings.levels > 0) return withLevels;
-    if (settings.solver == sim::Solver::split && settings.hasSharpClamp) return sharp;
+    if (isWithSum(settings)) return withSum;
     return sim::solverName(settings.solver);
 }
 
@@ -131,7 +135,7 @@ std::vector<std::string> curveNames() {
     std::vector<std::string> names = sim::solverNames();
     names.emplace_back(weighted);
     names.emplace_back(withLevels);
-    names.emplace_back(sharp);
+    names.emplace_back(withSum);
     return names;
 }
 
@@ -182,7 +186,7 @@ std::vector<sim::Settings> settingsAt(sim::Solver solver, std::uint32_t sweeps) 
     for (const std::uint32_t iterations : tuning.iterations) {
         if (iterations > 1 && iterations >= sweeps) continue; // one substep per frame, tried anyway
         for (const Variation vary : tuning.variations) {
-            sim::Settings settings{.solver = solver};
+            sim::Settings settings{.solver = solver, .hasSharpClamp = solver == sim::Solver::split};
             settings.iterations = iterations == wholeFrame ? sweeps : iterations;
             settings.substeps = sweeps / settings.iterations;
             vary(settings);

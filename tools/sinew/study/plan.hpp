@@ -50,9 +50,12 @@ std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std:
 
 /// The curve of some settings: a solver's name. `jacobi` as published averages a particle's corrections; with
 /// a weight instead it is another method, stable in fewer scenes, with a curve of its own, as `split` with
-/// coarse levels has.
+/// coarse levels has, and `split` with the clamp by the sum.
 std::string curveOf(const sim::Settings& settings);
 std::vector<std::string> curveNames();
+
+/// Whether links are clamped as if all were parallel, by the sum of their stiffness (docs/clamp.md).
+bool isWithSum(const sim::Settings& settings);
 
 /// All settings with this number of sweeps per frame: every split into substeps and iterations, and every
 /// tuning of the solver.

@@ -35,8 +35,9 @@ std::vector<sim::Settings> restSettings(const StudyScene& scene) {
         // Other solvers are compared only at the most substeps.
         for (const std::uint32_t substeps : {8u, 16u, 32u}) {
             if (solver != sim::Solver::split && substeps < 32) continue;
-            const sim::Settings settings =
-                settingsOfContacts(scene, {.solver = solver, .substeps = substeps});
+            const sim::Settings settings = settingsOfContacts(
+                scene,
+                {.solver = solver, .substeps = substeps, .hasSharpClamp = solver == sim::Solver::split});
             if (sim::validate(scene.loaded.scene, settings).empty()) list.push_back(settings);
         }
     }

@@ -48,8 +48,8 @@ std::vector<Trial> prepareAll(const StudyScene& scene, std::uint32_t points,
         sim::parseSolver(name, solver);
         std::string refusal;
         for (const sim::Settings& tried : settingsToTry(solver, std::min(points, scene.points), fewest)) {
-            if (tried.levels > 0 && scene.loaded.scene.grids.empty()) continue;        // it has no blocks
-            if (tried.hasSharpClamp && scene.loaded.scene.distances.empty()) continue; // it has no links
+            if (tried.levels > 0 && scene.loaded.scene.grids.empty()) continue;     // it has no blocks
+            if (isWithSum(tried) && scene.loaded.scene.distances.empty()) continue; // it has no links
             const sim::Settings settings = settingsOfContacts(scene, tried);
             const std::vector<std::string> complaints = sim::validate(scene.loaded.scene, settings);
             if (complaints.empty())
