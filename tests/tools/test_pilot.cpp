@@ -1,4 +1,4 @@
-// Tests of what `sinew run` chooses: substeps by --error, levels.
+// Tests of what `sinew run` chooses: substeps by --error, levels, the clamp.
 #include "tools/program.hpp"
 
 using namespace sinew;
@@ -11,12 +11,13 @@ namespace {
 class PilotRun : public test::Program {};
 
 const std::string bar = "[[box]]\nparticles = [8, 3, 3]\nspacing = 0.05\ncenter = [0, 0, 0]\n"
-                        "young_modulus = 1e6\nclamped = [\"low_x\"]\n";
+                        "young_modulus = 1e6\nclamped = [\"low_x\"]\n",
+                  bySum = "[solver]\nsharp_clamp = false\n";
 
 } // namespace
 
 TEST_F(PilotRun, EstimatesTheErrorOfItsSubstepsFromPilotRuns) {
-    write("beam.toml", bar);
+    write("beam.toml", bar + bySum); // with which 4 substeps lack most of the stiffness
     const std::vector<std::string> few{"beam.toml", "--frames", "10", "--substeps", "4"};
     EXPECT_TRUE(report(few)["error_estimate"].is_null());
     const auto estimate = [&](const std::string& substeps) {
@@ -76,4 +77,17 @@ TEST_F(PilotRun, TakesTheLevelsThatWin) {
     const json rest = report({"half.state", "--frames", "4"});
     EXPECT_EQ(rest["levels"], 2);
     EXPECT_EQ(rest["state_hash"], report({"beam.toml", "--frames", "8", "--levels", "2"})["state_hash"]);
+}
+
+TEST_F(PilotRun, TakesTheClampOfTheSceneUnlessAskedForAnother) {
+    const auto isSharp = [&](const std::string& keys, const std::vector<std::string>& options) {
+        write("beam.toml", bar + keys);
+        std::vector<std::string> arguments{"beam.toml", "--frames", "1"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return report(arguments)["sharp_clamp"].get<bool>();
+    };
+    EXPECT_TRUE(isSharp("", {}));
+    EXPECT_FALSE(isSharp(bySum, {}));
+    EXPECT_FALSE(isSharp("", {"--no-sharp-clamp"}));
+    EXPECT_TRUE(isSharp(bySum, {"--sharp-clamp"}));
 }

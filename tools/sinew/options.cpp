@@ -96,8 +96,9 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     app::addCountOrAuto(
         command, "--levels", overrides.levels, sim::ranges::levels, sim::autoLevels,
         "coarse levels of split, instead of the scene's; auto: as many as win at equal error");
-    command.add_flag(
-        "--sharp-clamp,!--no-sharp-clamp", overrides.hasSharpClamp,
+    command.add_flag_function( // add_flag would set an optional that nobody asks to set
+        "--sharp-clamp,!--no-sharp-clamp",
+        [&overrides](std::int64_t count) { overrides.hasSharpClamp = count > 0; },
         "clamp links of split by the directions in which they meet, instead of the scene's choice");
     command
         .add_option("--voxel", overrides.voxel,
