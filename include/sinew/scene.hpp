@@ -237,8 +237,8 @@ struct SINEW_API Body {
     /// of no body have the number 0.
     std::uint32_t arrival = 0;
     /// Starts outside of the world, and enters and leaves it by motions (MotionKind::spawn, despawn). Costs
-    /// memory, and little time while it is absent. Needs `split`, Settings::motions, and a body that moves,
-    /// may not be cut, and is linked to no other and to no anchor.
+    /// memory, and little time while it is absent. Needs `split`, Settings::motions, and a body that moves
+    /// and is linked to no other and to no anchor. One that was cut is whole when it enters or leaves.
     bool isAbsent = false;
 };
 

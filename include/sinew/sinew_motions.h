@@ -39,7 +39,7 @@ SINEW_C_API SinewMotion sinewDefaultMotion(void); // adds no velocity to all bod
 // Lets a body start outside of the world (isAbsent = 1), or in it (0, as at first). Room is reserved for it; motions spawn
 // and despawn it. While it is absent it takes memory, and little time. An absent body stands in one point,
 // SINEW_ABSENT_PLACE on all axes [m], and touches nothing. Simulations need SinewSettings::motions and the solver split, and refuse bodies that
-// are fixed, driven, attached, linked to others, or may be cut.
+// are fixed, driven, attached, or linked to others. One that was cut is whole when it is spawned or despawned.
 #define SINEW_ABSENT_PLACE 1e6f
 SINEW_C_API SinewResult sinewSetAbsent(SinewScene scene, uint32_t body, uint32_t isAbsent);
 

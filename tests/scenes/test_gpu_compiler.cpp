@@ -135,6 +135,12 @@ sim::Scene recovering(sim::Scene scene) {
     return scene;
 }
 
+// The scene with bodies that may be absent.
+sim::Scene comingAndGoing(sim::Scene scene) {
+    for (sim::Body& body : scene.bodies) body.isAbsent = true;
+    return scene;
+}
+
 // Loose balls that take recoils back.
 sim::Scene takingRecoils(sim::Scene scene) {
     scene.contacts.takesRecoils = true;
@@ -188,6 +194,10 @@ void addKernelsOfAllScenes(Collector& collector) {
             const bool hasEveryForm =
                 file.stem() == "beam" || file.stem() == "organ" || file.stem() == "cloth_study";
             if (sharp.hasSharpClamp && hasEveryForm) addForms(collector, loaded->scene, sharp);
+            sim::Settings pool = loaded->settings;
+            pool.motions = 1;
+            if (file.stem() == "organ" && pool.solver == sim::Solver::split)
+                collector.add(comingAndGoing(loaded->scene), pool);
             if (file.stem() == "clutter" && loaded->settings.solver == sim::Solver::split)
                 addForms(collector, takingRecoils(loaded->scene), loaded->settings);
             if (loaded->settings.solver != sim::Solver::split || loaded->scene.grids.empty()) continue;

@@ -22,7 +22,14 @@ struct BladeHead {
 struct CutWork {
     uint farthest; // bits of a float: the longest displacement of a particle since the last blade [m]
     uint cut;      // links
-    uint unused0, unused1;
+    uint restored; // links of bodies that came or went (Body::isAbsent), which are whole again
+    uint isChanged; // 1 = links of such a body may have changed
+};
+
+// A node of such a body before the step.
+struct ReplacedNode {
+    uint links;
+    uint hitsLow, hitsHigh; // LinkHits
 };
 
 // State of all cuts after a step.
@@ -33,7 +40,7 @@ struct CutCounts {
     uint missing;     // SurfaceState::missing
     uint debris, debrisParticles; // fragments: removed pieces, and their particles
     uint debrisMass;   // mass of fragments, in 1 / DEBRIS_MASS of all that may be cut
-    uint unused0;
+    uint isWritten;    // whether the newest of these steps has changed links
 };
 #define DEBRIS_MASS 4294967040.0 // the largest float below 2^32
 

@@ -1,5 +1,5 @@
 #version 460
-// Writes the group counts of the passes that find pieces, which run only if links were cut. The first round always
+// Writes the group counts of the passes that find pieces, which run only if links were cut or restored. The first round always
 // runs then, each later one if the round before requests it (union_pieces).
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
@@ -18,7 +18,7 @@ DispatchArguments ofGroups(uint count) { return DispatchArguments(count, 1u, 1u,
 void main() {
     const uint count = push.rounds * push.runs, i = itemIndex(count);
     if (i >= count) return;
-    const uint whole = min(work.cut, 1u), r = i % push.runs, round = i / push.runs;
+    const uint whole = min(work.cut | work.isChanged, 1u), r = i % push.runs, round = i / push.runs;
     const uint at = round / 2u * push.runs + r;
     const DispatchArguments ofRound = ofGroups(round == 0u ? whole * groups[r] : 0u);
     if ((round & 1u) == 0u) even[at] = ofRound;
@@ -30,6 +30,7 @@ void main() {
     arguments[3u * push.runs + r] = ofGroups(whole * ((listedCounts[r] + GROUP_SIZE - 1u) / GROUP_SIZE));
     if (i > 0u) return;
     counts.linksOfStep = work.cut;
-    counts.links += work.cut;
-    if (work.cut > 0u) counts.pieces = counts.debris = counts.debrisParticles = counts.debrisMass = 0u;
+    counts.links += work.cut - work.restored;
+    counts.isWritten = whole;
+    if (whole > 0u) counts.pieces = counts.debris = counts.debrisParticles = counts.debrisMass = 0u;
 }

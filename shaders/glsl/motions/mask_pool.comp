@@ -16,7 +16,10 @@ layout(std430, binding = 6) readonly buffer InitialTouching { float initialTouch
 layout(std430, binding = 7) writeonly buffer Touching { float touching[]; }; // by slot; below 0 = touches nothing
 layout(std430, binding = 8) readonly buffer InitialWatched { float initialWatched[]; };
 layout(std430, binding = 9) writeonly buffer Watched { float watched[]; }; // by slot; below 0 = not checked
+layout(constant_id = 4) const bool hasDebris = false; // fragments may have been removed
+layout(std430, binding = 10) readonly buffer Pieces { uint pieces[]; };
 layout(push_constant) uniform Push { PoolPush push; };
+#include "common/pieces.h"
 
 void main() {
     const uint item = itemIndex(push.count);
@@ -24,7 +27,9 @@ void main() {
     const PoolParticle one = particles[item];
     const uint change = changes[one.body], i = one.slot;
     if (change == POOL_SAME) return;
-    const bool isGone = change == POOL_GONE || change == POOL_LEFT;
+    // a body that returns has the fragments that were removed from it
+    const bool isGone = change == POOL_GONE || change == POOL_LEFT ||
+                        hasDebris && change == POOL_RETURNED && pieces[one.particle] == REMOVED_PIECE;
     if (hasRadii) radii[i] = isGone ? -1.0 : initialRadii[i];
     if (hasTouching) touching[i] = isGone ? -1.0 : initialTouching[i];
     if (hasWatched) watched[i] = isGone ? -1.0 : initialWatched[i];

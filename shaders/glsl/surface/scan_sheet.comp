@@ -37,7 +37,7 @@ void main() {
     const bool fits = total.x <= push.room && total.y <= push.vertexRoom;
     const uint missing = fits ? 0u : max(total.x, total.y);
     if (!fits) total = uvec2(0u);
-    const bool isWritten = cut.linksOfStep > 0u || state.missing > 0u; // pieces that did not fit before may fit now
+    const bool isWritten = cut.isWritten > 0u || state.missing > 0u; // pieces that did not fit before may fit now
     state = SheetState(total.x, total.y, missing);
     cut.missing = max(push.isFirst != 0u ? 0u : cut.missing, missing);
     draws[push.skin] = DrawArguments(3u * total.x, 1u, push.firstPiece, 0, 0u);

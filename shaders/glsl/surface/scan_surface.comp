@@ -42,7 +42,7 @@ void main() {
     const uint isCut = min(total.x, 1u); // skins are drawn as cut even without the surface
     total *= fits;
     // a surface that did not fit before may fit now; and rims also move in steps in which no link dies
-    const bool isWritten = counts.linksOfStep > 0u || state.missing > 0u || blade.quads > 0u;
+    const bool isWritten = counts.isWritten > 0u || state.missing > 0u || blade.quads > 0u;
     state = SurfaceState(total.x, total.y, total.z, fits == 0u ? needed : 0u);
     counts.missing = fits == 0u ? needed : 0u;
     draws[0] = DrawArguments(3u * total.y, 1u, 0u, 0, 0u);

@@ -187,8 +187,9 @@ std::vector<CutFilter> edgeFilters(ProgramBuilder& program, const edge_contacts:
         makeTopology(program, lists.grid.detected, {lists.edges});
         const BufferId uploaded = program.upload("cut.edges", edges);
         const layout::CutFacesPush push{static_cast<std::uint32_t>(edges.size()), run.sliceStride, 0};
+        const BufferId radii = program.initialOf("cut.edge_radii", lists.radii); // absent bodies change them
         filters.push_back({&k::disableCutEdges,
-                           {cutting.links, cutting.savedLinks, uploaded, lists.radii, lists.edges,
+                           {cutting.links, cutting.savedLinks, uploaded, radii, lists.edges,
                             lists.grid.bounds, cutting.particles, cutting.pieces},
                            push});
     }

@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "sim/cutting/cut_plan.hpp"
 #include "sim/cutting/debris.hpp"
+#include "sim/cutting/restoring.hpp"
 #include "sim/cutting/tearing.hpp"
 #include "sim/events/events.hpp"
 #include "sim/grabs/grab.hpp"
@@ -17,8 +18,9 @@ namespace {
 
 namespace k = kernels;
 
-constexpr std::uint32_t hasDebrisId = 1;  // constant_id in find_near_links.comp
-constexpr std::uint32_t keepsForceId = 1; // constant_id in cut_links.comp
+constexpr std::uint32_t hasDebrisId = 1;   // constant_id in find_near_links.comp
+constexpr std::uint32_t keepsForceId = 1;  // constant_id in cut_links.comp
+constexpr std::uint32_t mayBeAbsentId = 1; // constant_id in count_pieces.comp
 
 void addWholeCells(ProgramBuilder& program, const Cut& cut) {
     const CuttingBuffers& buffers = cut.buffers;
@@ -63,7 +65,6 @@ void addNear(ProgramBuilder& program, const Cut& cut) {
 // Cuts the links that the blade meets: first finds near nodes, and tests only these exactly.
 void addBlade(ProgramBuilder& program, const Cut& cut) {
     const CuttingBuffers& buffers = cut.buffers;
-    program.fill(buffers.dirty, 0);
     program.fill(cut.nearCounts, 0);
     addNear(program, cut);
     planLists(program, cut, cut.nearCounts, cut.nearArguments);
@@ -87,10 +88,14 @@ void addListing(ProgramBuilder& program, const Cut& cut) {
 }
 
 // Cuts links at the start of a step, and everything that follows before the substeps.
-void addBladePasses(ProgramBuilder& program, Cut& cut, const ParticleBuffers& particles) {
+void addBladePasses(Build& build, Cut& cut) {
+    ProgramBuilder& program = build.program;
+    const ParticleBuffers& particles = build.particles;
     const CuttingBuffers& buffers = cut.buffers;
     program.updateBlade(cut.blade, cut.points);
     program.fill(cut.work, 0);
+    program.fill(buffers.dirty, 0);
+    addRestoring(build, cut);
     program.copy(buffers.links, buffers.savedLinks); // an undone step restores these
     events::addPiecesCleared(program, particles);
     for (const Run& run : cut.runs)
@@ -116,10 +121,11 @@ void addBladePasses(ProgramBuilder& program, Cut& cut, const ParticleBuffers& pa
 // Appends a dispatch for every run, with the group counts in the arguments from `first` on.
 template <typename Items>
 void addIndirect(ProgramBuilder& program, const Cut& cut, const vk::ShaderCode& code, std::uint32_t first,
-                 std::initializer_list<BufferId> buffers, const Items& items) {
+                 std::initializer_list<BufferId> buffers, const Items& items,
+                 const ProgramBuilder::Constants& constants = {}) {
     for (std::uint32_t r = 0; r < cut.runs.size(); ++r)
         program.dispatchIndirect(code, {cut.arguments, first + r, items(cut.runs[r])}, buffers,
-                                 cut.runs[r].push);
+                                 cut.runs[r].push, constants);
 }
 
 // Updates sleep components and grab masses after a topology change.
@@ -173,7 +179,9 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuf
     addIndirect(program, cut, k::shortenPieces, 0, {cut.labels}, slots);
     for (std::uint32_t round = 0; round < cut.rounds; ++round) addRound(program, cut, round);
     addIndirect(program, cut, k::countPieces, runs,
-                {cut.labels, cut.particles, buffers.pieces, buffers.pieceSizes, buffers.counts}, chunksOf);
+                {cut.labels, cut.particles, buffers.pieces, buffers.pieceSizes, buffers.counts,
+                 boundIf(cut.replaced != BufferId{}, particles.positions)},
+                chunksOf, {{mayBeAbsentId, cut.replaced != BufferId{}}});
     addParting(program, cut, particles);
     addDebrisRemoval(program, cut, particles);
     for (std::uint32_t r = 0; r < runs; ++r)
@@ -190,8 +198,10 @@ void addSurfaces(ProgramBuilder& program, const Cut& cut) {
 }
 
 // Restores the links of an undone step, and updates what depends on the links.
-void addUpdates(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
+void addUpdates(Build& build, const Cut& cut) {
+    ProgramBuilder& program = build.program;
     const CuttingBuffers& buffers = cut.buffers;
+    addSkinRestoring(build, cut);
     if (cut.surface)
         surface::addSkinHits(program, *cut.surface, cut.bladePlaces, cut.placesBefore, cut.blade, cut.points);
     for (const Run& run : cut.runs)
@@ -199,8 +209,9 @@ void addUpdates(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                          {buffers.savedLinks, cut.bladePlaces, buffers.links, cut.placesBefore,
                           program.program().status, cut.work, cut.blade},
                          run.push);
+    addRestored(build, cut);
     addWholeCells(program, cut); // cells that an undone step has restored
-    addFindingPieces(program, cut, particles);
+    addFindingPieces(program, cut, build.particles);
     addSurfaces(program, cut);
 }
 
@@ -221,12 +232,11 @@ void addOpening(Build& build) {
     if (!cut) return;
     ProgramBuilder& program = build.program;
     program.beginPhase("cut");
-    program.only(When::cut, [&] { addBladePasses(program, *cut, build.particles); });
+    program.only(When::cut, [&] { addBladePasses(build, *cut); });
 }
 
 void addClosing(Build& build) {
-    if (const Cut* cut = build.find<Cut>())
-        build.program.only(When::cut, [&] { addUpdates(build.program, *cut, build.particles); });
+    if (const Cut* cut = build.find<Cut>()) build.program.only(When::cut, [&] { addUpdates(build, *cut); });
 }
 
 // A step with a blade that cut every link missing from the uncut bodies: all slots count as near it.

@@ -6,6 +6,7 @@
 #include "sim/grabs/grab.hpp"
 #include "sim/lattice/link_masks.hpp"
 #include "sim/lattice/pieces.hpp"
+#include "sim/motions/pool.hpp"
 #include "sim/sleep/sleep.hpp"
 #include "sim/surface/cut_surface.hpp"
 #include "sim/surface/sheet_pieces.hpp"
@@ -132,8 +133,18 @@ Initial readGrids(const Scene& scene, const Placed& placed, const StateLayout& l
     return initial;
 }
 
-void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t particles) {
-    const lattice::Pieces pieces = initial.pieces.finish(initial.particles, particles);
+// Pieces without those of bodies that are absent at first.
+std::uint32_t presentPieces(const Scene& scene, const lattice::Pieces& pieces) {
+    std::uint32_t count = pieces.count;
+    for (const Body& body : scene.bodies)
+        for (std::uint32_t i = body.firstParticle;
+             body.isAbsent && i < body.firstParticle + body.particleCount; ++i)
+            count -= pieces.sizes[i] > 0 ? 1 : 0;
+    return count;
+}
+
+void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, const Scene& scene) {
+    const lattice::Pieces pieces = initial.pieces.finish(initial.particles, scene.particles.size());
     const auto runs = static_cast<std::uint32_t>(cut.runs.size());
     std::vector<std::uint32_t> groups;
     for (const Run& run : cut.runs) groups.push_back(groupsOf(run.push.count));
@@ -150,14 +161,15 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
                                                             (cut.rounds / 2 + 1) * std::uint64_t{runs});
     cut.buffers.pieces = program.upload("pieces", pieces.ofParticles);
     cut.buffers.pieceSizes = program.upload("pieces.sizes", pieces.sizes);
-    cut.buffers.counts = program.upload("cut.counts", std::vector{layout::CutCounts{.links = 0,
-                                                                                    .linksOfStep = 0,
-                                                                                    .pieces = pieces.count,
-                                                                                    .missing = 0,
-                                                                                    .debris = 0,
-                                                                                    .debrisParticles = 0,
-                                                                                    .debrisMass = 0,
-                                                                                    .unused0 = 0}});
+    cut.buffers.counts =
+        program.upload("cut.counts", std::vector{layout::CutCounts{.links = 0,
+                                                                   .linksOfStep = 0,
+                                                                   .pieces = presentPieces(scene, pieces),
+                                                                   .missing = 0,
+                                                                   .debris = 0,
+                                                                   .debrisParticles = 0,
+                                                                   .debrisMass = 0,
+                                                                   .isWritten = 0}});
 }
 
 void addLists(ProgramBuilder& program, Cut& cut, std::size_t slots) {
@@ -233,8 +245,12 @@ Cut addBuffers(ProgramBuilder& program, const SceneModel& model, const ParticleB
     cut.blade = program.scratch<layout::BladeHead>("cut.blade", 1);
     cut.points = program.scratch<layout::vec4>("cut.points", 2 * ranges::mostBladePoints);
     cut.work = program.scratch<layout::CutWork>("cut.work", 1);
+    if (std::ranges::count(motions::restoredBodies(scene), true) > 0) {
+        cut.whole = program.initialOf("cut.whole_links", cut.buffers.links);
+        cut.replaced = program.scratch<layout::ReplacedNode>("cut.replaced", layout.count);
+    }
     if (keepsForce) addBladeForce(program, cut);
-    addPieces(program, cut, initial, scene.particles.size());
+    addPieces(program, cut, initial, scene);
     CuttingBuffers& buffers = cut.buffers;
     for (const Run& run : cut.runs)
         buffers.runs.push_back({run.push.first, run.push.count, run.push.rowStride, run.push.sliceStride});

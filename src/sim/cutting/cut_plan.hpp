@@ -34,6 +34,8 @@ struct Cut {
     std::array<BufferId, 2> roundArguments; // of even and of odd rounds, by run: no pass writes its own
     BufferId uncutBodies, weights;          // of pieces, if grabs may hold some
     BufferId debrisParticles;               // layout::DebrisParticle; if fragments are removed
+    BufferId whole, replaced; // by slot, if bodies that may be absent may be cut: links of the uncut bodies;
+                              // layout::ReplacedNode
     DebrisSkins debrisSkins;
     std::shared_ptr<surface::CutSurface> surface; // null if no skin is clipped
     std::shared_ptr<surface::SheetPieces> sheets; // null if there are none

@@ -22,9 +22,9 @@ static_assert(MOTION_ALL_BODIES == Motion::allBodies);
 // constant_ids of motions.glsl, apply_motions.comp and forget_contacts.comp
 constexpr std::uint32_t maySleepId = 1, hasDebrisId = 2, isCuttableId = 3, areEdgesId = 1, haveShapesId = 2;
 
-// Buffers that the host writes.
+// Buffers that the host writes; and by slot the body of the scene.
 struct Requests {
-    BufferId requests, arguments;
+    BufferId requests, arguments, bodies;
 };
 
 struct Motions {
@@ -56,7 +56,9 @@ std::vector<MotionBody> bodiesOf(const SceneModel& model) {
     const StateLayout& layout = model.layout;
     const auto count = static_cast<std::uint32_t>(layout.count);
     std::vector<MotionBody> bodies;
+    const std::vector<bool> restored = restoredBodies(model.scene);
     for (const Body& body : model.scene.bodies) {
+        const bool isRestored = restored[bodies.size()];
         MotionBody& one = bodies.emplace_back(MotionBody{.first = count});
         one.origin = body.particleCount > 0 ? layout.slot[body.firstParticle] : 0;
         for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i) {
@@ -65,6 +67,7 @@ std::vector<MotionBody> bodiesOf(const SceneModel& model) {
             one.isHeld = one.isHeld || !model.moves(i);
         }
         one.isAbsent = body.isAbsent;
+        one.isRestored = isRestored;
         if (body.isAbsent) one.center = centerOf(model, body);
     }
     bodies.push_back({.first = 0, .end = count, .origin = layout.slot.front()});
@@ -80,7 +83,9 @@ Requests requestsOf(Build& build) {
     ProgramBuilder& program = build.program;
     const Requests made{
         program.scratchOfStep<layout::MotionRequest>("motions.requests", build.model.settings.motions),
-        program.scratchOfStep<layout::DispatchArguments>("motions.arguments", MOTION_ARGUMENTS)};
+        program.scratchOfStep<layout::DispatchArguments>("motions.arguments", MOTION_ARGUMENTS),
+        program.upload("motions.bodies",
+                       bodiesOfSlots(build.model.scene, build.model.layout, MOTION_NO_BODY))};
     program.updateMotions(made.requests, made.arguments);
     return build.keep(made);
 }
@@ -98,7 +103,7 @@ Motions& addBuffers(Build& build) {
         .push = {slots, count, 0, bodies, model.settings.solver == Solver::split ? 1u : 0u},
         .requests = given.requests,
         .arguments = given.arguments,
-        .bodies = program.upload("motions.bodies", bodiesOfSlots(model.scene, model.layout, MOTION_NO_BODY)),
+        .bodies = given.bodies,
         .sums = program.scratchOfStep<layout::MotionSums>("motions.sums", std::size_t{count} * MOTION_CHUNKS),
         .frames = program.scratchOfStep<layout::MotionFrame>("motions.frames", count),
         .placed = program.scratchOfStep<std::uint32_t>("motions.placed", std::max(bodies, 1u)),
@@ -211,7 +216,9 @@ void add(Build& build) {
 }
 
 void addComing(Build& build) {
-    if (haveAbsent(build.model.scene)) addPool(build, requestsOf(build).requests);
+    if (!haveAbsent(build.model.scene)) return;
+    const Requests given = requestsOf(build);
+    addPool(build, given.requests, given.bodies);
 }
 
 void addForgetting(Build& build) {
@@ -235,7 +242,7 @@ void addForgetting(Build& build) {
                                   ofFaces ? contacts.faces : boundIf(ofEdges, contacts.edges)},
                                  push, {{areEdgesId, ofEdges}, {haveShapesId, ofFaces || ofEdges}});
     }
-    addPoolMasks(build, motions->bodies);
+    addPoolMasks(build);
 }
 
 void addPrevious(Build& build) {
@@ -304,6 +311,7 @@ const char* textOf(Fault fault) noexcept {
 
 std::size_t MotionRequests::advance(std::span<const Motion> motions) noexcept {
     requests_ = {};
+    undoCuts_ = false;
     std::size_t areFine = motions.size();
     bool arePoses = false, areVelocities = false;
     for (std::size_t m = 0; m < std::min<std::size_t>(count_, motions.size()); ++m) {
@@ -314,6 +322,8 @@ std::size_t MotionRequests::advance(std::span<const Motion> motions) noexcept {
         requests_[m] = onDevice(motions[m], *groups_);
         const bool isPose = places(motions[m].kind);
         arePoses = arePoses || isPose;
+        undoCuts_ = undoCuts_ ||
+                    (kindOf(motions[m].kind) >= MOTION_SPAWN && groups_->bodies[motions[m].body].isRestored);
         areVelocities = areVelocities || !isPose;
     }
     const auto set = [&](std::uint32_t element, bool runs, std::uint32_t groups) {

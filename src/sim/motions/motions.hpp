@@ -60,12 +60,15 @@ public:
     std::span<const layout::DispatchArguments> arguments() const noexcept {
         return std::span(arguments_).first(count_ > 0 ? MOTION_ARGUMENTS : 0);
     }
+    /// Whether a body that may be cut comes or goes: its cuts are undone, by the passes of a cut.
+    bool undoCuts() const noexcept { return undoCuts_; }
 
 private:
     std::uint32_t count_;
     const MotionGroups* groups_;
     std::array<layout::MotionRequest, MOST_MOTIONS> requests_{};
     std::array<layout::DispatchArguments, MOTION_ARGUMENTS> arguments_{};
+    bool undoCuts_ = false;
 };
 
 } // namespace sinew::sim::motions

@@ -27,11 +27,11 @@ static_assert(Motion::absentPlace == ABSENT_PLACE);
 constexpr std::uint32_t noBody = 0xffffffff;
 // constant_ids of move_pool.comp and mask_pool.comp
 constexpr std::uint32_t movesSleepersId = 1, mayBeGrabbedId = 2, hasRadiiId = 1, hasTouchingId = 2,
-                        hasWatchedId = 3;
+                        hasWatchedId = 3, leavesDebrisId = 4;
 
 struct Pool {
     layout::PoolPush push{};
-    BufferId particles, changes, absent, arguments;
+    BufferId particles, bodies, changes, absent, arguments; // bodies: by slot, of the scene
     std::vector<std::uint32_t> numbers;   // by slot: the body among those that may be absent
     std::shared_ptr<sleep::Sleep> listed; // groups that run, if nothing sleeps
     std::vector<BufferId> lists;          // arguments of dispatches over listed chunks
@@ -151,9 +151,6 @@ Reasons reasonsAgainst(const Scene& scene) {
         if (w[i] == 0 || isDriven[i]) reasons.add(i, "has a fixed or driven particle");
         if (scene.particles[i].keepsRest) reasons.add(i, "keeps rest distances at load (keepsRest)");
     }
-    for (const Grid& grid : scene.grids)
-        for (std::uint32_t n = 0; grid.isCuttable && n < grid.node.size(); ++n)
-            reasons.add(grid.firstParticle + n, "may be cut");
     forEachLink(scene,
                 [&](const auto& ends) { reasons.addUnlessOfOne(ends, "is linked to what is not of it"); });
     for (const Face& face : scene.faces)
@@ -179,7 +176,16 @@ bool haveAbsent(const Scene& scene) {
     return std::ranges::any_of(scene.bodies, &Body::isAbsent);
 }
 
-void addPool(Build& build, BufferId requests) {
+std::vector<bool> restoredBodies(const Scene& scene) {
+    std::vector<bool> restored(scene.bodies.size());
+    const std::vector<std::uint32_t> bodies = absentBodies(scene);
+    for (const Grid& grid : scene.grids)
+        if (grid.isCuttable && bodies[grid.firstParticle] != noBody)
+            restored[bodies[grid.firstParticle]] = true;
+    return restored;
+}
+
+void addPool(Build& build, BufferId requests, BufferId bodiesOfSlots) {
     const SceneModel& model = build.model;
     ProgramBuilder& program = build.program;
     const ParticleBuffers& particles = build.particles;
@@ -192,6 +198,7 @@ void addPool(Build& build, BufferId requests) {
                        .all = static_cast<std::uint32_t>(model.scene.bodies.size()),
                        .slots = static_cast<std::uint32_t>(model.layout.count)},
               .particles = program.upload("pool.particles", members),
+              .bodies = bodiesOfSlots,
               .changes = program.scratch<std::uint32_t>("pool.changes", model.scene.bodies.size()),
               .absent = program.scratch<std::uint32_t>("pool.absent", bodies.size()),
               .arguments = program.scratchOfStep<layout::DispatchArguments>("pool.arguments", POOL_ARGUMENTS),
@@ -215,11 +222,18 @@ void addPool(Build& build, BufferId requests) {
     build.keep(std::move(pool));
 }
 
-void addPoolMasks(Build& build, BufferId bodiesOfSlots) {
+std::optional<Changes> changesOf(const Build& build) {
+    const Pool* pool = build.find<Pool>();
+    return pool ? std::optional(Changes{pool->bodies, pool->changes}) : std::nullopt;
+}
+
+void addPoolMasks(Build& build) {
     const Pool* pool = build.find<Pool>();
     if (!pool) return;
     ProgramBuilder& program = build.program;
     const ContactBuffers& contacts = program.program().contacts;
+    const CuttingBuffers& cutting = program.program().cutting;
+    const bool hasDebris = cutting.debris > 0;
     for (const GridBuffers& grid :
          std::vector(program.program().grids)) { // copied: adding buffers may move it
         const bool isOfEdges = grid.name == "edges.grid", hasTouching = grid.touching != BufferId{},
@@ -232,14 +246,18 @@ void addPoolMasks(Build& build, BufferId bodiesOfSlots) {
              hasTouching ? program.initialOf(grid.name + ".touching.initial", grid.touching) : unbound,
              boundIf(hasTouching, grid.touching),
              hasWatched ? program.initialOf(grid.name + ".watched.initial", grid.watched) : unbound,
-             boundIf(hasWatched, grid.watched)},
-            pool->push, {{hasRadiiId, !isOfEdges}, {hasTouchingId, hasTouching}, {hasWatchedId, hasWatched}});
+             boundIf(hasWatched, grid.watched), boundIf(hasDebris, cutting.pieces)},
+            pool->push,
+            {{hasRadiiId, !isOfEdges},
+             {hasTouchingId, hasTouching},
+             {hasWatchedId, hasWatched},
+             {leavesDebrisId, hasDebris}});
         if (!isOfEdges) continue;
         layout::PoolPush push = pool->push;
         push.count = grid.count;
         program.dispatchIndirect(k::maskPoolEdges,
                                  {pool->arguments, POOL_EDGES, POOL_EDGE_GROUPS * GROUP_ITEMS},
-                                 {contacts.edges, bodiesOfSlots, pool->changes, initial, grid.radii}, push);
+                                 {contacts.edges, pool->bodies, pool->changes, initial, grid.radii}, push);
     }
 }
 

@@ -29,10 +29,18 @@ std::vector<float> withAbsent(const Scene& scene, std::vector<float> inverseMass
 
 /// Whether bodies of the scene may be absent; else the functions below add nothing.
 bool haveAbsent(const Scene& scene);
+/// By body of the scene: whether it may be absent and may be cut.
+std::vector<bool> restoredBodies(const Scene& scene);
 /// Appends the passes that move bodies.
-void addPool(Build& build, BufferId requests);
+void addPool(Build& build, BufferId requests, BufferId bodiesOfSlots);
+/// What happens to bodies in a step: by slot the body of the scene, by body POOL_SAME ... (layout.h).
+struct Changes {
+    BufferId bodies, changes;
+};
+/// None if no body may be absent.
+std::optional<Changes> changesOf(const Build& build);
 /// Appends the passes over grids of contacts, after these were added.
-void addPoolMasks(Build& build, BufferId bodiesOfSlots);
+void addPoolMasks(Build& build);
 /// Appends the pass that keeps absent bodies out of a list of chunks, of which `perGroup` are for a work
 /// group, and returns the groups of its dispatch. None if this stays as it is.
 std::optional<IndirectItems> addPoolChunks(Build& build, BufferId chunks, std::uint32_t perGroup,

@@ -300,10 +300,10 @@ struct FieldGroups {
 /// A body that the host moves: the slots between which its particles are.
 struct MotionBody {
     std::uint32_t first = 0, end = 0;
-    std::uint32_t origin = 0;      ///< slot of its first particle
-    bool isHeld = false;           ///< has a particle that never moves, or is driven
-    bool isAbsent = false;         ///< may be absent: Body::isAbsent
-    std::array<float, 3> center{}; ///< of its mass in the scene [m]; of one that may be absent
+    std::uint32_t origin = 0;                  ///< slot of its first particle
+    bool isHeld = false;                       ///< has a particle that never moves, or is driven
+    bool isAbsent = false, isRestored = false; ///< may be absent (Body::isAbsent); may be cut besides
+    std::array<float, 3> center{};             ///< of its mass in the scene [m]; of one that may be absent
 };
 
 /// Passes of motions (motions.hpp), and the bodies of the scene; the last one stands for all.

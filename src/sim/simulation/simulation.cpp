@@ -125,7 +125,7 @@ void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step
                         vk::Timestamps* timestamps) noexcept {
     const float dt = withinRange(step.dt);
     const bool isBlade = state_->blade.read(step, dt) && state_->mayBeCut();
-    const bool hasBlade = isBlade || state_->program.cutting.tears;
+    const bool mayCut = isBlade || state_->program.cutting.tears;
     state_->noteMisuse(step);
     state_->readSteps();
     state_->noteRepetition(step.frame);
@@ -148,6 +148,7 @@ void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step
         state_->misuse.note(
             Misuse::badMotion, step.frame, m,
             static_cast<std::uint64_t>(motions::faultOf(step.motions[m], state_->program.motions)));
+    const bool hasBlade = mayCut || state_->motions.undoCuts();
     const bool isCalm =
         step.repeats && !isAgain && !isBlade && state_->mayBeCalm(dt / static_cast<float>(state_->substeps));
     const std::uint32_t lists = (step.repeats ? LISTS_REPEATS : 0) | (isCalm ? LISTS_CALM : 0) |
@@ -167,7 +168,7 @@ void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step
     State::Unsettled& unsettled = state_->unsettled[state_->ring.slotOf(step.frame)];
     unsettled.isRecorded = true;
     state_->noteEnd(unsettled.end, pace);
-    state_->isUncut = state_->isUncut && !hasBlade;
+    state_->isUncut = state_->isUncut && !mayCut;
     vk::Commands commands(state_->device, parts.front());
     if (timestamps) timestamps->reset(commands);
     commands.beginStep();
