@@ -1,8 +1,9 @@
 // Prints the time of frames in which bodies of 1,000 particles enter or leave a world of 30,000 by motions
 // (Body::isAbsent), and the time of a step of that world beside bodies that are absent. One step a frame,
 // submitted and awaited, by the clock and by the time of all cores, which other programs do not lengthen as
-// much. Then the memory of the process in 10,000 rounds of a spawn and a despawn. With an argument particles
-// touch each other.
+// much. With the argument "touching" particles touch each other. With "rounds" it prints instead the memory
+// of the process, and counts on the device, in 10,000 rounds in which bodies come, touch, are cut and go.
+#include "sim/pool_rounds.hpp"
 #include "sinew/bodies.hpp"
 #include "sinew/simulation.hpp"
 #include "sinew/vk/loader.hpp"
@@ -14,6 +15,7 @@
 #include <ctime>
 #include <fstream>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -132,30 +134,33 @@ double residentMemory() {
     return static_cast<double>(resident) * 4096 / (1 << 20);
 }
 
-void printMemory(const vk::Device& device) {
-    Scene scene;
-    for (const float x : {0.0f, 1.0f, 2.0f}) addBlock(scene, {x, 0.01f, 0}, 9, 0.009f);
-    scene.bodies[1].isAbsent = scene.bodies[2].isAbsent = true;
-    scene.planes.push_back({.friction = 0.5f});
-    Host host(device, scene);
-    for (std::uint32_t cycle = 0; cycle <= 10000; ++cycle) {
-        if (cycle == 100 || cycle == 1000 || cycle == 10000)
-            std::printf("after %5u rounds: %.2f MiB\n", cycle, residentMemory());
-        for (const MotionKind kind : {MotionKind::spawn, MotionKind::despawn}) {
-            const Motion motion{.kind = kind, .body = 1 + cycle % 2};
-            host.play({&motion, 1});
-        }
+void printRounds(const vk::Device& device) {
+    vk::Queue queue(device);
+    test::PoolRounds rounds(device, queue);
+    std::uint64_t cut = 0;
+    for (std::uint32_t round = 1; round <= 10000; ++round) {
+        cut += rounds.play(round);
+        if (round != 100 && round != 1000 && round != 10000) continue;
+        const test::PoolCounts counts = rounds.counts();
+        std::printf("after %5u rounds: %.2f MiB; %u groups, %u groups of chunks, %u pieces, %u dead links, "
+                    "%u fragments; %llu links cut, %u steps undone\n",
+                    round, residentMemory(), counts.groups, counts.chunks, counts.pieces, counts.deadLinks,
+                    counts.fragments, static_cast<unsigned long long>(cut), rounds.stepsUndone());
     }
 }
 
 } // namespace
 
-int main(int argc, char**) {
-    const float radius = argc > 1 ? 0.009f : 0;
+int main(int argc, char** argv) {
+    const std::string_view what = argc > 1 ? argv[1] : "";
+    const float radius = what == "touching" ? 0.009f : 0;
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
     const vk::Loader loader;
     const vk::Device device = vk::Device::create(loader.getInstanceProcAddr(), {});
+    if (what == "rounds") {
+        printRounds(device);
+        return 0;
+    }
     printFrames(device, radius);
     printCosts(device, radius);
-    printMemory(device);
 }

@@ -3,6 +3,7 @@
 #include "mesh/generate.hpp"
 #include "mesh/to_scene.hpp"
 #include "sim/cutting/cut_body.hpp"
+#include "sim/pool_rounds.hpp"
 #include "sinew/bodies.hpp"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 namespace sinew::sim {
 namespace {
@@ -272,6 +274,22 @@ TEST(PoolCuts, SavedStatesKeepCuts) {
     other.run(2);
     EXPECT_EQ(other.stateHash(), without);
     EXPECT_TRUE(areEqual(drawnOf(other), empty));
+}
+
+// measure_pool plays 10,000 rounds, and looks at the memory of the process.
+TEST(PoolCuts, CountsDoNotDriftInRounds) {
+    test::PoolRounds rounds(test::device(), test::queue());
+    std::optional<test::PoolCounts> first;
+    std::uint32_t cut = 0;
+    for (std::uint32_t round = 0; round < 100; ++round) {
+        cut += rounds.play(round);
+        if (round % 20 != 3) continue; // the same bodies have just left
+        if (!first) first = rounds.counts();
+        ASSERT_EQ(rounds.counts(), *first) << round;
+    }
+    EXPECT_EQ(first->pieces + first->deadLinks + first->fragments, 0u);
+    EXPECT_GT(cut, 1000u);
+    EXPECT_EQ(rounds.stepsUndone(), 0u);
 }
 
 } // namespace sinew::sim
