@@ -17,6 +17,7 @@ namespace {
 namespace k = kernels;
 
 constexpr std::uint32_t hasWaysId = 14;  // constant_id in fall_asleep.comp
+constexpr std::uint32_t fallId = 15;     // constant_id in wake_islands.comp
 constexpr std::uint32_t mostPasses = 64; // passes that differ in kind or number of groups
 
 std::uint32_t groupsOf(std::uint32_t items, std::uint32_t groupSize) {
@@ -41,6 +42,16 @@ std::vector<float> weightsOf(const SceneModel& model) {
     for (std::size_t i = 0; i < isDriven.size(); ++i)
         weights[model.layout.slot[i]] = isDriven[i] ? SLEEP_DRIVEN : model.inverseMass[i];
     return weights;
+}
+
+// By slot 1 for a particle without links.
+std::vector<std::uint32_t> looseOf(const SceneModel& model) {
+    const std::vector<std::uint32_t>& components = model.components();
+    std::vector<std::uint32_t> sizes(components.size()), loose(model.layout.count);
+    for (const std::uint32_t component : components) ++sizes[component];
+    for (std::size_t i = 0; i < components.size(); ++i)
+        loose[model.layout.slot[i]] = sizes[components[i]] == 1 ? 1 : 0;
+    return loose;
 }
 
 IndirectItems itemsOf(Sleep& sleep, std::uint32_t kind, std::uint32_t items, std::uint32_t groupSize) {
@@ -71,20 +82,25 @@ void addListAwake(ProgramBuilder& program, const Sleep& sleep, const IndirectIte
                              sleep.push);
 }
 
-// Passes that wake the particles of marked islands, and then list the groups that run.
-void addWaking(ProgramBuilder& program, const Sleep& sleep, BufferId velocities, std::uint32_t all,
-               std::uint32_t one) {
+// Passes that wake the particles of marked islands, and then list the groups that run. `fall`: `particles`
+// are predicted, and loose ones get the gravity of the substep.
+void addWaking(ProgramBuilder& program, const Sleep& sleep, const ParticleBuffers& particles,
+               std::uint32_t all, std::uint32_t one, bool fall = false) {
+    ProgramBuilder::Constants constants;
+    if (fall) constants = remainderConstants(particles.layout);
+    constants[fallId] = fall;
     program.dispatchIndirect(k::wakeIslands, wakingItems(sleep, all, sleep.push.count),
-                             {sleep.weights, velocities, sleep.islands, sleep.marks, sleep.groups},
-                             sleep.push);
+                             {sleep.weights, particles.velocities, sleep.islands, sleep.marks, sleep.groups,
+                              boundIf(fall, particles.positions), boundIf(fall, sleep.loose), particles.step},
+                             sleep.push, constants);
     addListAwake(program, sleep, wakingItems(sleep, one, GROUP_ITEMS));
 }
 
 // Passes that wake islands marked in a substep.
-void addWakingTouched(ProgramBuilder& program, Sleep& sleep, BufferId velocities) {
+void addWakingTouched(ProgramBuilder& program, Sleep& sleep, const ParticleBuffers& predicted, bool fall) {
     program.dispatchIndirect(k::planWaking, itemsOf(sleep, SLEEP_MIXED_ALL, 1, GROUP_ITEMS),
                              {sleep.state, sleep.waking}, sleep.push);
-    addWaking(program, sleep, velocities, SLEEP_WAKING, SLEEP_WAKING_ONE);
+    addWaking(program, sleep, predicted, SLEEP_WAKING, SLEEP_WAKING_ONE, fall);
 }
 
 void makeIndirect(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) {
@@ -205,6 +221,8 @@ void add(Build& build) {
     sleep->limits = program.upload("sleep.limits", restLimits(model.scene, layout));
     sleep->rests = program.scratch<layout::vec4>("sleep.rests", count);
     sleep->components = program.upload("sleep.components", componentsOf(model));
+    if (const std::vector<std::uint32_t> loose = looseOf(model); std::ranges::count(loose, 1u) > 0)
+        sleep->loose = program.upload("sleep.loose", loose);
     sleep->islands = program.scratch<std::uint32_t>("sleep.islands", count);
     sleep->least = program.scratch<std::uint32_t>("sleep.least", count);
     sleep->marks = program.scratch<std::uint32_t>("sleep.marks", count);
@@ -241,7 +259,7 @@ void addOpening(Build& build) {
                               sleep.islands, sleep.marks, sleep.attachments, sleep.anchors, sleep.seenAnchors,
                               sleep.colliders, sleep.contactOffsets, sleep.ways, sleep.seenPoses},
                              sleep.push);
-    addWaking(program, sleep, particles.velocities, SLEEP_OPENING, SLEEP_OPENING_ONE);
+    addWaking(program, sleep, particles, SLEEP_OPENING, SLEEP_OPENING_ONE);
     makeIndirect(program, particles.sleep);
 }
 
@@ -261,7 +279,8 @@ void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
                               sleep.marks, sleep.state, sleep.pairs.contacts, sleep.pairs.lists,
                               predicted.step, sleep.listed},
                              sleep.push);
-    addWakingTouched(program, sleep, predicted.velocities);
+    // Not where faces and edges touch: their contacts, which would bear what falls, were found before.
+    addWakingTouched(program, sleep, predicted, sleep.loose != unbound && sleep.rows.empty());
 }
 
 void addRowTouches(ProgramBuilder& program, const ParticleBuffers& predicted, const SeenRows& rows) {
@@ -272,7 +291,7 @@ void addRowTouches(ProgramBuilder& program, const ParticleBuffers& predicted, co
     buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());
     program.dispatchIndirect(k::wakeRows, itemsOf(sleep, SLEEP_MIXED_ALL, sleep.push.count, GROUP_ITEMS),
                              buffers, sleep.push, rows.constants);
-    addWakingTouched(program, sleep, predicted.velocities);
+    addWakingTouched(program, sleep, predicted, false);
 }
 
 void addDetection(Build& build) {

@@ -20,6 +20,7 @@ struct SeenRows {
 struct Sleep {
     layout::SleepPush push{};
     BufferId state, weights, limits, rests, components, islands, least, marks;
+    BufferId loose = unbound; ///< by slot: 1 = a particle without links; unbound if all have some
     BufferId groups, listed, passes, arguments, waking;
     BufferId attachments, anchors, seenAnchors, colliders, contactOffsets, ways, seenPoses;
     /// Particles that touch: their lists, which candidates touch, with which positions, and the ways of
