@@ -86,9 +86,8 @@ struct SINEW_API ContactSettings {
     /// the face than the usual contact distance in front of it has no contact there.
     float recoverySpeed = 0.5f;
     /// Whether loose particles without restitution take back the speed at which pushes that part overlaps
-    /// throw them: columns stay down. Without effect where faces touch, particles are mostly linked, or any
-    /// pair of surfaces has a restitution; with sleep, a heap that wakes may move otherwise than one that
-    /// never slept.
+    /// throw them: columns stay down. Without effect where particles are mostly linked, or any pair of
+    /// surfaces has a restitution.
     bool takesRecoils = false;
     std::vector<Surface> surfaces{}; ///< surfaces that Particle::surface refers to, at most 64
 };

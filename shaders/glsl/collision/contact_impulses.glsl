@@ -60,13 +60,13 @@ vec3 impulseOf(uint i, Pair pair, Contact contact, float split) {
     float share = 1.0 / max(split, 1e-30); // two static particles: 0 times w = 0
     if (keepsForces && split <= 0.0) share = 0.0; // these exchange nothing
     const float lambda = depth * share;
+    receiveAlong(direction.n, lambda / step.h);
     vec3 impulse = lambda * direction.n;
     if (hasFriction) {
         const vec3 wayBefore = step.h * (BEFORE(i) - BEFORE(pair.other));
         const vec2 friction = frictionOf(i, pair.other);
         impulse -= held(pair.slot, direction.n, pair.way, wayBefore, friction.x * lambda, friction.y * lambda, share, pair.offset);
     }
-    receive(impulse / step.h);
     return impulse;
 }
 

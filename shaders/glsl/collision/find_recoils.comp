@@ -1,5 +1,5 @@
 #version 460
-// Recoils, first pass, at the end of a substep: lists the particles with few contacts of which one parts fast
+// Recoils, first pass, at the end of a substep: lists the fast particles with few contacts of which one parts fast
 // (sim/collision/recoils.hpp), and plans the second pass if there are any.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
@@ -32,7 +32,7 @@ bool partsFast(uint i, uint near, vec3 x, vec3 v) {
     }
     const vec4 fixedly = receivedAt(sectionElement(2u, i));
     const float speed = dot3(fixedly.xyz, v) - fixedly.w, least = leastRecoil(leastReach);
-    return isFast || mayRecoil(v) && speed > 0.0 && speed * speed > least * least * dot3(fixedly.xyz, fixedly.xyz);
+    return isFast || speed > 0.0 && speed * speed > least * least * dot3(fixedly.xyz, fixedly.xyz);
 }
 
 void main() {
@@ -41,7 +41,7 @@ void main() {
     const uint near = hasFew(touching.w, velocity.w) && velocity.w > 0.0 ? nearMasks[i] : 0u;
     bool isFast = false;
     // A loop: on a software device, code under a condition costs its time even if it does not run.
-    for (uint once = near != 0u && areFew(near) ? 1u : 0u; once != 0u; --once)
+    for (uint once = near != 0u && areFew(near) && mayRecoil(velocity.xyz) ? 1u : 0u; once != 0u; --once)
         isFast = partsFast(i, near, touching.xyz, velocity.xyz);
     degrees[i] = 0u;
     if (!isFast) return;

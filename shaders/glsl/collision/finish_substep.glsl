@@ -1,8 +1,13 @@
 // The end of a substep of `split` with contacts: boundary planes, and the stored state. Requires the names predicted,
-// nextPositions, nextVelocities and BEFORE of a kernel, PLANE_BINDING, and forces.glsl before it. RECEIVES: received.glsl, too.
+// nextPositions, nextVelocities and BEFORE of a kernel, PLANE_BINDING, and forces.glsl before it.
 #include "rigid/planes.glsl"
 layout(std140, binding = PLANE_BINDING) uniform Planes { PlaneCollider planes[MOST_PLANES]; };
 layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
+#ifdef RECEIVES
+vec3 fromPlanes = vec3(0.0), fromRebounds = vec3(0.0); // changes of v by planes without and with restitution
+uint lastPlane = 0u;                                   // that touched, of the former
+vec3 lastArm = vec3(0.0);
+#endif
 
 // Ends the substep of particle i, which contacts have moved from `found` by `correction` and given the velocity v;
 // `velocity` is the one before contacts, w its inverse mass; `last` is the fourth component of its position, stored
@@ -19,9 +24,13 @@ vec3 finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3
             if (projectOntoPlane(planes[p], offset, h, motion)) touched |= 1u << p;
             if ((touched & 1u << p) != 0u) addPlaneForce(planes[p], p, i, (motion.v - before) / w, motion.x);
 #ifdef RECEIVES
-            const vec3 impulse = (motion.v - before) / w;
-            if ((touched & 1u << p) != 0u && planes[p].restitution > 0.0) receive(impulse);
-            else if ((touched & 1u << p) != 0u) receiveFixed(impulse, vec3(0.0), rowElement(p, i), planeArm(planes[p], motion.x));
+            const bool isFixed = (touched & 1u << p) != 0u && planes[p].restitution <= 0.0;
+            fromPlanes += isFixed ? motion.v - before : vec3(0.0);
+            fromRebounds += isFixed ? vec3(0.0) : motion.v - before;
+            if (keepsForces && isFixed) {
+                lastPlane = p;
+                lastArm = planeArm(planes[p], motion.x);
+            }
 #endif
         }
 #ifdef HAS_REBOUND

@@ -47,6 +47,7 @@ void main() {
     const uvec2 list = lists[i];
     const vec4 self = TOUCHING(i), velocity = VELOCITY(i);
     const float w = velocity.w, h = step.h;
+    takeFromRows(i);
     vec3 sum = vec3(0.0), stopping = vec3(0.0);
     const bool isSwept = bounds.isSwept != 0u;
     for (uint word = 0u; word < wordsOf(list); ++word) {
@@ -62,6 +63,11 @@ void main() {
     addContactForce(i, (sum + stopping) / h);
     const vec3 correction = w * sum;
     const vec3 v = finish(i, self.xyz, predicted[i].w, velocity, correction, velocity.xyz + (correction + w * stopping) / h);
-    storeReceived(i);
-    planRecoils(v, push.count);
+    // A loop: on a software device, code under a condition costs its time even if it does not run.
+    for (uint once = keepsReceived && w > 0.0 && hasFew(self.w, w) ? 1u : 0u; once != 0u; --once) {
+        receive(fromRebounds / w);
+        receiveFixed(fromPlanes / w, vec3(0.0), rowElement(lastPlane, i), lastArm);
+        storeReceived(i, 0u);
+        planRecoils(v, push.count);
+    }
 }

@@ -39,7 +39,8 @@ void addPair(uint i, uint slot, Receipt own, vec3 x, vec4 velocity, inout uint d
     const vec2 here = along(own, n);
     const vec2 there = isStill ? vec2(here.x, 0.0) : along(receiptOf(j, other), n);
     const float most = min(min(here.x, there.x), max(here.y, there.y));
-    if (most > 0.0) recoils[RECOIL_CONTACTS * i + degree++] = Recoil(isStill ? RECOIL_STILL | j : j, most, 0u, 0u);
+    const float drift = isStill ? dot3(n, other.xyz) : 0.0;
+    if (most > 0.0) recoils[RECOIL_CONTACTS * i + degree++] = Recoil(n.x, n.y, n.z, most, isStill ? RECOIL_STILL | j : j, 0u, drift, 0u);
 }
 
 // Finds the contacts of particle i, and gives it its share.
@@ -50,9 +51,12 @@ void prepare(uint i, bool starts) {
     const uint first = lists[i].x;
     uint degree = 0u;
     for (uint at = nearMasks[i]; at != 0u; at &= at - 1u) addPair(i, first + findLSB(at), own, x, velocity, degree);
-    const float size = length3(receivedAt(sectionElement(2u, i)).xyz);
-    if (size > 0.0 && areFreeOf(state[i].w, state[i].w))
-        recoils[RECOIL_CONTACTS * i + degree++] = Recoil(RECOIL_FIXED, size, 0u, 0u);
+    const vec4 fixedly = receivedAt(sectionElement(2u, i));
+    const float size = length3(fixedly.xyz);
+    if (size > 0.0 && areFreeOf(state[i].w, state[i].w)) {
+        const vec3 n = fixedly.xyz / size;
+        recoils[RECOIL_CONTACTS * i + degree++] = Recoil(n.x, n.y, n.z, size, RECOIL_FIXED, 0u, fixedly.w / size, 0u);
+    }
     degrees[i] = RECOIL_LISTED | degree;
     const float share = float(degree) * velocity.w;
     even[i] = odd[i] = vec4(velocity.xyz, starts ? share : -share);
@@ -62,31 +66,10 @@ int packed(float f, float g) { return (int(f) & 0xffff) | int(g) << 16; }
 float first(int bits) { return float(bits << 16 >> 16); }
 float second(int bits) { return float(bits >> 16); }
 
-// A contact of particle i as it is now.
-struct Now {
-    vec3 n;
-    float speed; // at which the two part [m/s]
-    float share; // of the other
-    bool isReached;
-};
+vec3 normalOf(Recoil recoil) { return vec3(recoil.nX, recoil.nY, recoil.nZ); }
 
-Now nowOf(uint i, Recoil recoil, vec3 x, vec3 v, bool isOdd) {
-    if (recoil.other == RECOIL_FIXED) {
-        const vec4 fixedly = receivedAt(sectionElement(2u, i));
-        const vec3 n = fixedly.xyz / recoil.most;
-        return Now(n, dot3(n, v) - fixedly.w / recoil.most, 0.0, false);
-    }
-    const bool isStill = (recoil.other & RECOIL_STILL) != 0u;
-    const uint j = recoil.other & ~RECOIL_STILL;
-    const vec3 d = x - touchingAt(j).xyz, n = d / sqrt(max(dot3(d, d), 1e-30));
-    const vec4 other = isStill ? vec4(velocities[j].xyz, 0.0) : isOdd ? odd[j] : even[j];
-    return Now(n, dot3(n, v - other.xyz), abs(other.w), !isStill && other.w > 0.0 && degreeOf(j) != 0u);
-}
-
-// The impulse that a contact of particle i at x takes back [N s].
-vec3 takenBy(uint i, Recoil recoil, vec3 x) {
-    return first(int(recoil.taken)) * RECOIL_UNIT * recoil.most * nowOf(i, recoil, x, vec3(0.0), false).n;
-}
+// The impulse that a contact takes back [N s].
+vec3 takenBy(Recoil recoil) { return first(int(recoil.taken)) * RECOIL_UNIT * recoil.most * normalOf(recoil); }
 
 // Lists particle i, once.
 void reach(uint i) {
@@ -104,6 +87,8 @@ void reachPartners(uint i) {
 void addFixedForce(uint i, vec3 impulse) {
     if (!keepsForces || impulse == vec3(0.0)) return;
     const uvec4 row = receivedBits(sectionElement(3u, i));
-    forces[row.w].xyz += impulse;
-    forces[row.w + forceSlots].xyz += cross(uintBitsToFloat(row.xyz), impulse);
+    const uint element = row.w & ~isOfFace;
+    if (element != row.w) addContactForce(i, impulse);
+    forces[element].xyz += impulse;
+    forces[element + forceSlots].xyz += cross(uintBitsToFloat(row.xyz), impulse);
 }

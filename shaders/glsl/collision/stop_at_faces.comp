@@ -25,6 +25,7 @@ layout(std140, binding = 9) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { StopPush push; };
 #define STOPS
 #include "forces/forces.glsl"
+#include "forces/receive.glsl"
 uint stoppedBy; // the face of the last stop
 #include "collision/excluded.glsl"
 #include "collision/face_stop.glsl"
@@ -75,6 +76,25 @@ struct Given {
     vec3 change, x; // change of the velocity [m/s]; position [m]
 };
 
+// The velocity of face f where it is nearest to x.
+vec3 driftOf(uint f, vec3 x) {
+    const ContactFace face = faceAt(f);
+    const vec3 a = PREDICTED(face.a).xyz;
+    const vec3 b = nearestOf(x - a, triangleOf(PREDICTED(face.b).xyz - a, PREDICTED(face.c).xyz - a)).weights;
+    return b.x * PREDICTED_VELOCITY(face.a).xyz + b.y * PREDICTED_VELOCITY(face.b).xyz + b.z * PREDICTED_VELOCITY(face.c).xyz;
+}
+
+// Recoils: the particle has received the impulses of its stops.
+void receiveStops(uint i, Given given[mostStops + 1u], uint count, vec4 velocity) {
+    for (uint s = 0u; s < (keepsReceived ? count : 0u); ++s) {
+        const uvec2 row = keepsForces ? stopRows[given[s].face] : uvec2(0u);
+        const vec3 arm = keepsForces ? given[s].x - places[row.y].xyz : vec3(0.0);
+        receiveFixed(given[s].change / velocity.w, driftOf(given[s].face, given[s].x), rowElement(row.x, i) | isOfFace, arm);
+    }
+    addReceived(i);
+    planRecoils(velocity.xyz, receivedSlots);
+}
+
 void main() {
     const uint i = itemIndex(push.count);
     if (i == ~0u) return;
@@ -103,6 +123,7 @@ void main() {
         addContactForce(i, given[s].change / velocity.w);
         addStopForce(given[s].face, i, given[s].change / velocity.w, given[s].x);
     }
+    receiveStops(i, given, givenCount, vec4(v, velocity.w));
     velocities[i].xyz = v;
     const vec3 change = end - x + step.thetaH * (v - velocity.xyz);
     if (hasRemainders) {

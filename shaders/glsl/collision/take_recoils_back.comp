@@ -2,13 +2,12 @@
 // Recoils, second pass: solves for impulses f x most, -1 <= f <= 0, after which no contact parts that could take more
 // back (sim/collision/recoils.hpp). One work group. Projected Jacobi iterations with Nesterov's momentum: with D the sum
 // over both ends of contacts x inverse mass,
-//
 //   f' = clamp(g - n . (v_i - v_j) / (most D), -1, 0),   g' = f' + k / (k + 3) (f' - f),   v_i = v_i0 + w_i sum most g' n
 //
 // They begin at particles that part fast, and spread to partners of what has changed. Factors are whole numbers of
 // RECOIL_UNIT: what recoils do not reach keeps its bits, and iterations end when nothing changes.
 #extension GL_GOOGLE_include_directive : require
-#define GROUP_SIZE 32 // few take part, and a software device pays for each invocation at a barrier
+#define GROUP_SIZE 8 // few take part, and a software device pays for each invocation at a barrier
 #include "common/kernel.glsl"
 #include "common/contacts.glsl"
 #include "common/remainder.glsl"
@@ -46,27 +45,30 @@ void synchronize() {
 
 uint memberAt(uint m) { return members[push.count + m]; }
 
-// One iteration of particle i, which takes its velocity from one buffer to the other.
-void iterate(uint i, uint round) {
-    const bool isOdd = (round & 1u) != 0u;
+// One iteration of particle i, which takes its velocity from one buffer to the other; isOdd is known where it is called.
+void iterate(uint i, uint round, bool isOdd) {
     const vec4 own = isOdd ? odd[i] : even[i], velocity = velocities[i];
-    const vec3 x = touchingAt(i).xyz;
     const float momentum = float(round) / float(round + 3u);
     vec3 sum = vec3(0.0);
     bool hasChanged = false;
     for (uint c = 0u; c < degreeOf(i); ++c) {
         const uint at = RECOIL_CONTACTS * i + c;
         const Recoil recoil = recoils[at];
-        const Now now = nowOf(i, recoil, x, own.xyz, isOdd);
-        if (own.w < 0.0 && !now.isReached) continue;
+        const bool isStill = (recoil.other & RECOIL_STILL) != 0u;
+        const uint j = isStill ? i : recoil.other;
+        const vec4 other = isStill ? vec4(0.0) : isOdd ? odd[j] : even[j];
+        if (own.w < 0.0 && (other.w <= 0.0 || degreeOf(j) == 0u)) continue; // nobody has reached the two
+        const vec3 n = normalOf(recoil);
+        const float speed = dot3(n, own.xyz - other.xyz) - recoil.drift; // at which they part [m/s]
         const int before = int(recoil.taken);
-        const float way = now.speed / (recoil.most * (abs(own.w) + now.share) * RECOIL_UNIT);
+        const float way = speed / (recoil.most * (abs(own.w) + abs(other.w)) * RECOIL_UNIT);
         const float f = floor(clamp(second(before) - way, -1.0 / RECOIL_UNIT, 0.0) + 0.5);
-        const float g = floor(f + momentum * (f - first(before)) + 0.5);
+        const float change = f - first(before), ahead = (second(before) - f) * change > 0.0 ? 0.0 : momentum;
+        const float g = floor(f + ahead * change + 0.5);
         const int after = packed(f, g);
         hasChanged = hasChanged || after != before;
         recoils[at].taken = uint(after);
-        sum += g * RECOIL_UNIT * recoil.most * now.n;
+        sum += g * RECOIL_UNIT * recoil.most * n;
     }
     const bool isNew = hasChanged && own.w < 0.0;
     const vec4 motion = vec4(velocity.xyz + velocity.w * sum, isNew ? -own.w : own.w);
@@ -90,7 +92,7 @@ void addStillForces(uint i) {
                 const Recoil recoil = recoils[RECOIL_CONTACTS * k + d];
                 if (recoil.other != other) continue;
                 if (named == ~0u) named = k;
-                sum -= takenBy(k, recoil, touchingAt(k).xyz);
+                sum -= takenBy(recoil);
             }
         }
         if (named == i) addContactForce(still, sum);
@@ -98,11 +100,10 @@ void addStillForces(uint i) {
 }
 
 void end(uint i) {
-    const vec3 x = touchingAt(i).xyz;
     vec3 sum = vec3(0.0), fixedly = vec3(0.0);
     for (uint c = 0u; c < degreeOf(i); ++c) {
         const Recoil recoil = recoils[RECOIL_CONTACTS * i + c];
-        const vec3 impulse = takenBy(i, recoil, x);
+        const vec3 impulse = takenBy(recoil);
         if (recoil.other == RECOIL_FIXED) fixedly += impulse;
         else sum += impulse;
     }
@@ -140,7 +141,8 @@ void main() {
         synchronize();
         if (!hasChanged) break;
         if (gl_LocalInvocationID.x == 0u) changes[(round + 1u) & 1u] = 0u;
-        FOR_EACH(m, 0u, listed) iterate(memberAt(m), round);
+        if ((round & 1u) != 0u) FOR_EACH(m, 0u, listed) iterate(memberAt(m), round, true);
+        else FOR_EACH(m, 0u, listed) iterate(memberAt(m), round, false);
         synchronize();
     }
     FOR_EACH(m, 0u, prepared) end(memberAt(m));

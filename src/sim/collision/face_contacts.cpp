@@ -419,6 +419,8 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
     constexpr std::uint32_t onlyPassingId = 1; // constant_id in face_stop.glsl
     constants[onlyPassingId] = kind == StopKind::passing;
+    constants.merge(receivedConstants(state));
+    buffers.push_back(state.received);
     forces::bindTo(state, &forces::Forces::ofStops, buffers, constants);
     buffers.insert(buffers.end(), {boundIf(state.forces != nullptr, contacts.stopRows),
                                    boundIf(state.forces != nullptr, contacts.linkedPositions)});

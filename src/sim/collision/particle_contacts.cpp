@@ -29,9 +29,10 @@ bool hasFrictionTable(const Contacts& contacts) {
 
 constexpr std::uint32_t checksListsId = 3, hasReboundId = 13; // constant_id in finish_without_contacts.comp
 constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in gather_contacts.comp
-constexpr std::uint32_t keepsRestId = 5;   // also in count_contacts.comp and in those of bounces
-constexpr std::uint32_t hasMemoryId = 6;   // in gather_contacts.comp
-constexpr std::uint32_t hasSurfacesId = 7; // also in the kernels of bounces
+constexpr std::uint32_t keepsRestId = 5;    // also in count_contacts.comp and in those of bounces
+constexpr std::uint32_t hasMemoryId = 6;    // in gather_contacts.comp
+constexpr std::uint32_t hasSurfacesId = 7;  // also in the kernels of bounces
+constexpr std::uint32_t followsRowsId = 25; // in receive.glsl
 constexpr std::uint32_t canOpenId = 6, countsNearId = 7; // in count_contacts.comp
 
 // By state slot; below 0 = touches nothing.
@@ -231,6 +232,7 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
                       {hasReboundId, rebounds}});
     buffers.push_back(contacts.recoils.received);
     constants.merge(recoils::constants(contacts.recoils, next));
+    constants[followsRowsId] = contacts.recoils.followsRows;
     forces::bindTo(next, &forces::Forces::ofPlanes, buffers, constants);
     addOverContacts(program, contacts, k::gatherContacts, std::move(buffers), constants);
 }
@@ -319,7 +321,7 @@ Contacts add(ProgramBuilder& program, const SceneModel& model) {
     contacts.interlocks =
         interlocks::add(program, interlocks::find(scene, layout, model.linkedBodies(), overlaps),
                         layout.count, scene.contacts.recoverySpeed);
-    if (scene.contacts.takesRecoils && countsNear && !model.facesTouch())
+    if (scene.contacts.takesRecoils && countsNear)
         contacts.recoils = recoils::add(program, model, 2 * smallestRadius(radii));
     if (contacts.surfaces.hasRestitution) {
         contacts.bouncing = program.scratch<float>("contacts.bouncing", layout.count);
@@ -368,11 +370,11 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     program.dispatch(k::solveRebounds, contacts.push.count, shared, contacts.push, constants);
 }
 
-void addRecoils(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-                const ParticleBuffers& state, std::uint32_t substep) {
+void addRecoils(ProgramBuilder& program, const Contacts& contacts, BufferId linked,
+                const ParticleBuffers& predicted, const ParticleBuffers& state, std::uint32_t substep) {
     recoils::addPasses(program, contacts.recoils,
-                       {contacts.lists, contacts.touching, contacts.hasRecovery, predicted.velocities,
-                        contacts.before, predicted.positions},
+                       {contacts.lists, contacts.touching, contacts.hasRecovery, linked, contacts.before,
+                        predicted.positions},
                        state, substep);
 }
 

@@ -38,7 +38,7 @@ struct Contacts {
     BufferId marks; ///< contact_lists::linkedMarks; invalid in the same case
 
     std::optional<interlocks::Interlocks> interlocks; ///< only if hasRecovery
-    recoils::Recoils recoils;                         ///< only if the scene asks for them, without faces
+    recoils::Recoils recoils;                         ///< only if the scene takes them back
 
     bool isCuttable() const { return allExcluded != BufferId{}; }
     bool hasMemory() const { return lists.pooled.memory.has_value(); }
@@ -61,10 +61,10 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                 const ParticleBuffers& next);
 
-/// Appends what takes recoils back, after all else that moves particles in a substep. `predicted` and
-/// contacts.before are no longer needed.
-void addRecoils(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-                const ParticleBuffers& state, std::uint32_t substep);
+/// Appends what takes recoils back, after all else that moves particles in a substep. `linked`: velocities
+/// after links, before contacts. `predicted` and contacts.before are no longer needed.
+void addRecoils(ProgramBuilder& program, const Contacts& contacts, BufferId linked,
+                const ParticleBuffers& predicted, const ParticleBuffers& state, std::uint32_t substep);
 
 /// Appends the end of a step: saves the memory of friction, or restores it after an undone step.
 void addPublishing(ProgramBuilder& program, const Contacts& contacts);

@@ -1,6 +1,7 @@
 // Buffers of recoils, and their passes.
 #include "sim/collision/recoils.hpp"
 
+#include "collision/touched.h"
 #include "kernels.hpp"
 #include "sim/forces/forces.hpp"
 
@@ -37,6 +38,21 @@ ProgramBuilder::Constants constants(const Recoils& recoils, const ParticleBuffer
     ProgramBuilder::Constants constants = receivedConstants(particles);
     constants[leastReachId] = std::bit_cast<std::uint32_t>(recoils.leastReach);
     return constants;
+}
+
+void addRows(ProgramBuilder& program, const Recoils& recoils, const row_contacts::Rows& rows, BufferId places,
+             const ParticleBuffers& predicted, bool isFirst) {
+    if (!recoils.exist()) return;
+    if (isFirst) program.fill(recoils.received, 0);
+    ProgramBuilder::Constants receiving = receivedConstants(predicted);
+    std::vector<BufferId> buffers{
+        rows.lists.ranges, rows.directions,      rows.weights,        rows.impulses,  rows.lists.contacts,
+        rows.shapes,       predicted.velocities, predicted.positions, predicted.step, recoils.received};
+    forces::bindTo(predicted, rows.kind->forces, buffers, receiving);
+    const bool keepsForces = predicted.forces != nullptr;
+    buffers.insert(buffers.end(), {boundIf(keepsForces, rows.forceRows[0]), boundIf(keepsForces, places)});
+    row_contacts::addOverTouched(program, rows, TOUCHED_PARTICLES, k::receiveRows, std::move(buffers),
+                                 std::move(receiving));
 }
 
 void addPasses(ProgramBuilder& program, const Recoils& recoils, const Found& found,

@@ -5,6 +5,7 @@
 // At the end of a substep each contact may take back impulses, up to what both of its particles received
 // along its line, while it parts. Iterations approach the impulses of least kinetic energy:
 //
+//   receive_rows        what faces gave, before contacts between particles; where some are static or driven
 //   find_recoils        particles that part fast; runs only while something is as fast
 //   take_recoils_back   one work group: iterations, from these particles on; runs only if there are any
 //
@@ -15,13 +16,15 @@
 #pragma once
 
 #include "sim/collision/contact_lists.hpp"
+#include "sim/collision/row_contacts.hpp"
 #include "sim/model/scene_model.hpp"
 
 namespace sinew::sim::collision::recoils {
 
 struct Recoils {
     float leastReach = 0;        ///< smallest distance at which two particles touch [m]
-    BufferId received = unbound; ///< what gather_contacts and solve_colliders keep (received.glsl)
+    BufferId received = unbound; ///< what passes that give impulses keep (received.glsl)
+    bool followsRows = false;    ///< whether addRows() is called in each substep
     BufferId contacts;           ///< layout::Recoil, RECOIL_CONTACTS a slot
     BufferId members, degrees;   ///< slots of particles; by slot: contacts
     BufferId near = unbound;     ///< by slot: candidates that touch or count in shares, a bit each
@@ -29,11 +32,16 @@ struct Recoils {
     bool exist() const { return received != unbound; }
 };
 
-/// For a scene whose contacts count nearly touching pairs (Contacts::countsNear), without faces.
+/// For a scene whose contacts count nearly touching pairs (Contacts::countsNear).
 Recoils add(ProgramBuilder& program, const SceneModel& model, float leastReach);
 
 /// Constants of the kernel that finds impulses between particles.
 ProgramBuilder::Constants constants(const Recoils& recoils, const ParticleBuffers& particles);
+
+/// Appends the pass that keeps what `rows` of faces gave, after they were applied; `places` as in
+/// face_contacts::Contacts::linkedPositions.
+void addRows(ProgramBuilder& program, const Recoils& recoils, const row_contacts::Rows& rows, BufferId places,
+             const ParticleBuffers& predicted, bool isFirst);
 
 /// Contacts between particles in this substep.
 struct Found {

@@ -53,6 +53,7 @@ Touching contactsOf(Build& build) {
         touching.edges = edges::add(program, model, meeting, build.particles, *touching.faces);
     if (model.particlesTouch()) {
         touching.pairs = collision::particle_contacts::add(program, model);
+        touching.pairs->recoils.followsRows = touching.receivesRows();
         return touching;
     }
     const std::vector<std::uint32_t> slots = slotsInOrder(model.layout);
@@ -75,6 +76,9 @@ void Touching::addPasses(ProgramBuilder& program, const ParticleBuffers& predict
                          const ParticleBuffers& next, bool isFirst) const {
     if (faces) collision::face_contacts::addPasses(program, *faces, predicted, isFirst);
     if (edges) collision::edge_contacts::addPasses(program, *edges, predicted, isFirst);
+    if (receivesRows())
+        collision::recoils::addRows(program, pairs->recoils, faces->rows, faces->linkedPositions, predicted,
+                                    isFirst);
     if (pairs)
         collision::particle_contacts::addPasses(program, *pairs, predicted, next, isFirst);
     else
@@ -107,7 +111,9 @@ void Touching::addStops(ProgramBuilder& program, const ParticleBuffers& predicte
 
 void Touching::addRecoils(ProgramBuilder& program, const ParticleBuffers& predicted,
                           const ParticleBuffers& state, std::uint32_t substep) const {
-    if (pairs) collision::particle_contacts::addRecoils(program, *pairs, predicted, state, substep);
+    if (!pairs) return;
+    const BufferId linked = receivesRows() ? faces->linkedVelocities : predicted.velocities;
+    collision::particle_contacts::addRecoils(program, *pairs, linked, predicted, state, substep);
 }
 
 Touching& addTouching(Build& build) {

@@ -38,6 +38,8 @@ struct Touching {
     /// Appends what takes recoils back, after all else that moves particles in a substep.
     void addRecoils(ProgramBuilder& program, const ParticleBuffers& predicted, const ParticleBuffers& state,
                     std::uint32_t substep) const;
+    /// Whether recoils regard what static and driven faces give.
+    bool receivesRows() const { return pairs && pairs->recoils.exist() && faces && faces->hasStops(); }
     /// Whether a particle may end a substep at another position than its velocity gives.
     bool moveUnseen() const {
         return pairs || (faces && (faces->hasStops() || faces->zones.exist() || faces->separations.exist()));
