@@ -1,12 +1,12 @@
 #version 460
 // Ends a step for contact lists. The lists of an undone step may lack pairs: the positions for which they were made
-// are set far away, so that they are rebuilt at once. hasMemory: contact memory is saved, or restored if the step is
+// are set far away, and they are rebuilt at once. hasMemory: contact memory is saved, or restored if the step is
 // undone.
 #extension GL_GOOGLE_include_directive : require
 #include "common/kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Status { StatusWords status; };
-layout(std430, binding = 1) writeonly buffer Detected { vec4 detected[]; }; // one per particle: position when lists were made
+layout(std430, binding = 1) buffer Detected { vec4 detected[]; }; // one per particle: position when lists were made
 layout(std430, binding = 2) buffer Bounds { GridBounds bounds; };
 layout(constant_id = 1) const bool hasMemory = false;
 layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };
@@ -30,7 +30,8 @@ layout(push_constant) uniform Push { CountPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     const bool stays = isFinished(status);
-    if (!stays && i < detected.length()) detected[i] = vec4(1e18);
+    if (!stays && i < detected.length()) detected[i] = vec4(vec3(1e18), min(detected[i].w, 1e18)); // FRAME_NONE stays
+    if (!stays && i == 0u) atomicMax(bounds.moved, floatBitsToUint(1e-30));
     if (i == 0u && status.candidates > 0u && bounds.lacksLists == 0u) bounds.lacking = status.candidates; // else less may be enough
     if (i == 0u) bounds.lacksLists = status.lacksLists;
     if (!hasMemory || i >= push.count) return;

@@ -19,6 +19,7 @@
 // Items of a kernel that may run over a list.
 #define RUNS_OVER_ALL 0
 #define RUNS_OVER_GROUPS 1 // listed work groups
-#define RUNS_OVER_ITEMS 2  // listed items, one an invocation
+#define RUNS_OVER_ITEMS 2  // listed items, one an invocation; whole work groups
+#define RUNS_OVER_COUNTED 3 // listed items of which the device knows the number (isPadding)
 
 #endif

@@ -33,7 +33,7 @@ uint listedGroup() {
     return runsOver == RUNS_OVER_GROUPS ? listedItems[place] : place;
 }
 uint itemIndex(uint count) {
-    if (runsOver == RUNS_OVER_ITEMS) return listedItems[placeOfAll()];
+    if (runsOver >= RUNS_OVER_ITEMS) return listedItems[placeOfAll()];
     if (runsOver == RUNS_OVER_ALL) {
         const uint i = gl_GlobalInvocationID.x;
         return isReversed && i < count ? count - 1u - i : i;
@@ -42,7 +42,7 @@ uint itemIndex(uint count) {
     return listedGroup() * GROUP_SIZE + lane;
 }
 // Whether the item is padding of a list of which the device knows the length.
-bool isPadding(uint length) { return runsOver == RUNS_OVER_ITEMS && placeOfAll() >= length; }
+bool isPadding(uint length) { return runsOver == RUNS_OVER_COUNTED && placeOfAll() >= length; }
 #elif defined RUNS_OVER_SLOTS
 // Runs over slots of the state that hold a particle, not over padding; ~0 after the last.
 layout(std430, binding = LAST_BINDING) readonly buffer Slots { uint slots[]; };

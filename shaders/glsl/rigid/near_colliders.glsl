@@ -10,7 +10,7 @@ const uint nearWords = (colliderCount + 31u) / 32u;
 // substep [m], the stamp of the step, a bit for each collider.
 uint nearRecord(uint i) {
 #ifdef MAY_RUN_LISTED
-    return (runsOver == RUNS_OVER_ITEMS ? i / GROUP_SIZE : listedGroup()) * (NEAR_HEAD + nearWords);
+    return (runsOver >= RUNS_OVER_ITEMS ? i / GROUP_SIZE : listedGroup()) * (NEAR_HEAD + nearWords);
 #else
     const uint place = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
     return place * (NEAR_HEAD + nearWords);

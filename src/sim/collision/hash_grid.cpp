@@ -86,8 +86,11 @@ Grid add(ProgramBuilder& program, const Request& request) {
     const float most = largestInGrid(request.radii);
     const float edge = std::max(2 * most + request.margin, request.edge);
     // Initial positions so far away that the first check finds every particle strayed.
-    const std::vector<layout::vec4> nowhere(request.particles > 0 ? request.particles : count,
-                                            {1e18f, 1e18f, 1e18f, 0});
+    std::vector<layout::vec4> nowhere(request.particles > 0 ? request.particles : count,
+                                      {1e18f, 1e18f, 1e18f, 0});
+    const std::span<const float> checked = request.watched.empty() ? request.radii : request.watched;
+    for (std::size_t i = 0; request.particles == 0 && i < count; ++i)
+        if (checked[i] < 0) nowhere[i].w = FRAME_NONE; // a build may not visit it
     const std::string name = request.name;
     Grid grid{
         .push = {.count = static_cast<std::uint32_t>(count),
@@ -108,7 +111,7 @@ Grid add(ProgramBuilder& program, const Request& request) {
         .sorted = program.scratch<layout::vec4>(name + ".sorted", count),
         .detected = program.upload(name + ".detected", nowhere),
         .slots = request.slots};
-    grid.particles = {grid.arguments, GRID_PARTICLES, grid.push.count, true};
+    grid.particles = {grid.arguments, GRID_PARTICLES, grid.push.items, true};
     grid.particleChunks = {grid.arguments, GRID_PARTICLE_CHUNKS, (grid.push.count - 1) / GRID_CHUNK + 1,
                            true};
     grid.cellChunks = {grid.arguments, GRID_CELL_CHUNKS, cells / GRID_CHUNK, true};
@@ -120,8 +123,8 @@ Grid add(ProgramBuilder& program, const Request& request) {
     grid.searching = {making, MAKING_FACES, request.searching, true};
     grid.owners = {making, MAKING_OWNERS, grid.push.count, true};
     grid.linked = {making, MAKING_LINKS, std::max(grid.push.count, request.linked), true};
-    grid.swept = {grid.arguments, GRID_SWEPT, grid.push.count, true};
-    grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.count, true};
+    grid.swept = {grid.arguments, GRID_SWEPT, grid.push.items, true};
+    grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.items, true};
     const BufferId touching = program.scratch<layout::DispatchArguments>(name + ".touching", 3);
     grid.touching = {touching, 0, grid.push.count};
     grid.touchingParticles = {touching, 1, static_cast<std::uint32_t>(std::max(count, request.particles))};

@@ -161,7 +161,7 @@ void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk
         program.dispatch(code, contacts.push.count, buffers, contacts.push, constants);
         return;
     }
-    constants.emplace(RUNS_OVER_ID, RUNS_OVER_ITEMS);
+    constants.emplace(RUNS_OVER_ID, RUNS_OVER_COUNTED);
     program.dispatchListed(code, contacts.lists.grid.touching, buffers, contacts.lists.touching,
                            contacts.push, constants);
 }

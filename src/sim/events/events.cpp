@@ -180,7 +180,7 @@ void addPairs(ProgramBuilder& program, const ParticleBuffers& predicted, const S
                                         pairs.touching, pairs.bounds};
     if (pairs.items)
         program.dispatchListed(k::notePairs, *pairs.items, buffers, pairs.listed, events->push,
-                               {{RUNS_OVER_ID, RUNS_OVER_ITEMS}});
+                               {{RUNS_OVER_ID, RUNS_OVER_COUNTED}});
     else
         program.dispatch(k::notePairs, events->push.count, buffers, events->push);
 }

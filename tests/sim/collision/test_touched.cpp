@@ -149,6 +149,22 @@ TEST(Touched, ParticlesWithACandidateAreListedOnce) {
     EXPECT_GE(candidates, 100u);
 }
 
+// Slots without a particle stray from nowhere, also where passes run over awake work groups.
+TEST(Touched, EmptySlotsMakeNoLists) {
+    Scene scene;
+    for (const float x : {0.0f, 0.6f})
+        addLattice(scene, {.origin = {x, 0, 0},
+                           .cells = {3, 3, 3},
+                           .spacing = 0.1f,
+                           .youngModulus = 1e5f,
+                           .radius = 0.05f});
+    for (const bool sleeps : {false, true}) {
+        test::Runner runner(scene, {.substeps = 16, .sleeps = sleeps});
+        ASSERT_EQ(runner.run(10).nonFinite, 0u);
+        EXPECT_LE(read<layout::GridBounds>(runner, "grid.bounds").front().builds, 3u) << sleeps;
+    }
+}
+
 // Few candidates of edges are listed, among them all that touch, and their ends.
 TEST(Touched, HasEachContactBetweenEdgesAndItsEndsOnce) {
     const Scene scene = test::clothOnBox(0.15f);
