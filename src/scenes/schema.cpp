@@ -83,7 +83,7 @@ constexpr Key keys[] = {
     {"solver", "omega", Kind::number, "", ranges::omega, "2", "split: stiffness clamp, below 4 / (1 + 2 theta)"},
     {"solver", "theta", Kind::number, "", ranges::theta, "0.1", "split: 0 conserves energy, larger values damp vibrations"},
     {"solver", "levels", Kind::countOrAuto, "", ranges::levels, "0", "split: coarse levels of bodies on grids, which carry the stiffness that a substep is too long for. \"auto\": as many as win at equal error"},
-    {"solver", "sharp_clamp", Kind::flag, "", {}, "true", "split: links are clamped by the directions in which they meet; false: as if all were parallel, which takes 1.7 times the substeps in solids and 1.4 times in sheets for the same error. Without effect where there are levels"},
+    {"solver", "sharp_clamp", Kind::flag, "", {}, "true", "split: links are clamped by the directions in which they meet; false: as if all were parallel, which takes 1.7 times the substeps in solids and 1.4 times in sheets for the same error. Without effect where there are levels or internal damping"},
     {"solver", "weight", Kind::number, "", ranges::weight, "0", "jacobi: factor on a particle's summed corrections; 0 = 1 / their number"},
     {"solver", "over_relaxation", Kind::number, "", ranges::overRelaxation, "1", "jacobi: second factor on that sum"},
     {"solver", "warm_start", Kind::number, "", ranges::warmStart, "0.9", "gauss_seidel: largest share of the multipliers of the last substep with which a substep starts; 0 = cold"},

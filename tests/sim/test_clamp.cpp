@@ -309,6 +309,22 @@ TEST(SharpClamp, LeavesLevelsAsTheyAre) {
     EXPECT_EQ(test::hashOfRun(scene, settings), hash);
 }
 
+// Dampers take what the sum leaves of the bound for stability.
+TEST(SharpClamp, LeavesInternalDampingAsItIs) {
+    for (const float dampingTime : {0.001f, 0.1f}) {
+        Scene scene = heldBeam();
+        scene.dampingTime = dampingTime;
+        for (const std::uint32_t substeps : {5u, 11u}) {
+            EXPECT_EQ(test::hashOfRun(scene, sharp(substeps)),
+                      test::hashOfRun(scene, {.substeps = substeps}));
+            EXPECT_EQ(describe(compile(scene, sharp(substeps))),
+                      describe(compile(scene, {.substeps = substeps})));
+        }
+        EXPECT_EQ(chooseSubsteps(scene, {.hasSharpClamp = true}).substeps,
+                  chooseSubsteps(scene, {}).substeps);
+    }
+}
+
 double kineticEnergy(const Scene& scene, const std::vector<Vector3d>& v) {
     double sum = 0;
     const std::vector<float> w = inverseMasses(scene);

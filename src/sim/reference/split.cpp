@@ -248,10 +248,11 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
     const double spare = 0.9 * 4 / (1 + 2 * theta) / omega - 1;
     const double hOfScene = double{scene.dt} / settings.substeps; // shares ignore dt
     const Split bySum(scene, problem, omega, hOfScene, spare, false);
-    const bool isSharp = settings.hasSharpClamp && settings.levels == 0 && bySum.clamps(problem, hOfScene);
+    const bool isSharp = settings.hasSharpClamp && settings.levels == 0 && problem.dampingTime == 0 &&
+                         bySum.clamps(problem, hOfScene);
     const Split split = isSharp ? Split(scene, problem, omega, hOfScene, spare, true) : bySum;
     const double bends = problem.bends.empty() ? 0 : std::min(0.9 * (4 / (1 + 2 * theta) - omega), omega / 2);
-    const double most = problem.dampingTime > 0 ? omega : 0.95 * 4 / (1 + 2 * theta) - bends;
+    const double most = 0.95 * 4 / (1 + 2 * theta) - bends;
     if (isSharp && state.clampTimes.empty()) {
         std::vector<Vector3d> start;
         for (const Particle& particle : scene.particles) start.push_back(toEigen(particle.position));

@@ -65,8 +65,11 @@ std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
     return shares;
 }
 
-bool isClampSharp(const Settings& settings) {
-    return settings.hasSharpClamp && settings.levels == 0 && settings.solver == Solver::split;
+// Dampers take what the sum leaves of the stability bound (dampingBudget): links that a sharp clamp leaves
+// stiffer would take it twice once their directions line up.
+bool isClampSharp(const Scene& scene, const Settings& settings) {
+    return settings.hasSharpClamp && settings.levels == 0 && scene.dampingTime == 0 &&
+           settings.solver == Solver::split;
 }
 
 // The share of each corner of a full cell that its links take: a quarter of each of three edges, half of
@@ -81,8 +84,8 @@ double linksOfACorner(const Scene& scene, const Grid& grid, std::span<const floa
 
 // The part of what meets in a particle that it bears in every direction: the largest eigenvalue of links is
 // at least a third of their sum.
-double dimensionsOf(const Settings& settings) {
-    return isClampSharp(settings) ? 3 : 1;
+double dimensionsOf(const Scene& scene, const Settings& settings) {
+    return isClampSharp(scene, settings) ? 3 : 1;
 }
 
 // Stiffness of the volume of a full cell in its share's terms [N/m]: it meets its clamp with links of the
@@ -101,9 +104,9 @@ std::vector<CellShares> cellShares(const Scene& scene, const Settings& settings,
         const double volume = stiffness / (1 + softening * stiffness);
         result[g].volume = static_cast<float>(volume);
         if (grid.recoveryPressure > 0)
-            result[g].recovery =
-                static_cast<float>(recoveryBudget(settings) *
-                                   (linksOfACorner(scene, grid, shares) / dimensionsOf(settings) + volume));
+            result[g].recovery = static_cast<float>(
+                recoveryBudget(settings) *
+                (linksOfACorner(scene, grid, shares) / dimensionsOf(scene, settings) + volume));
     }
     return result;
 }
@@ -190,8 +193,6 @@ double omegaOfBends(const Settings& settings) {
 }
 
 double mostOfLinks(const Scene& scene, const Settings& settings) {
-    if (scene.dampingTime > 0)
-        return double{settings.omega}; // dampers have the rest (substeps.hpp: dampingBudget)
     const double bends = scene.bends.empty() ? 0 : omegaOfBends(settings);
     return 0.95 * ranges::omegaBound(double{settings.theta}) - bends;
 }
@@ -200,7 +201,7 @@ Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const fl
     Shares shares{.ofLinks = shareStiffness(scene, settings, inverseMass)};
     shares.ofCells = cellShares(scene, settings, inverseMass, shares.ofLinks);
     const double omega{settings.omega};
-    shares.isSharp = isClampSharp(settings);
+    shares.isSharp = isClampSharp(scene, settings);
     if (!shares.isSharp) {
         shares.times = clampTimes(omega, inverseMass, sumsOf(scene, shares.ofLinks, shares.ofCells));
         shares.startTimes = shares.times;
@@ -215,7 +216,7 @@ Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const fl
 }
 
 Shares sharesOfMotion(const Scene& scene, const Settings& settings, std::span<const float> inverseMass) {
-    if (isClampSharp(settings)) {
+    if (isClampSharp(scene, settings)) {
         Settings withSum = settings;
         withSum.hasSharpClamp = false;
         Shares shares = sharesOf(scene, withSum, inverseMass);

@@ -68,7 +68,8 @@ struct Shares {
 };
 
 /// `settings.substeps` must be resolved; `inverseMass` is taken after fixed constraints. The clamp is sharp
-/// if the settings ask for it and have no levels: the bound of those holds for links of any direction.
+/// if the settings ask for it, without levels, whose bound holds for links of any direction, and internal
+/// damping.
 Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const float> inverseMass);
 
 /// The shares with which `split` moves a scene: those of sharesOf(), or of the sum if the sum clamps no link
