@@ -61,6 +61,16 @@ TEST_F(PilotRun, TakesTheSubstepsThatReachAnError) {
                    "cannot reach an error");
 }
 
+// A clamp by the sum leaves other links than the scene's: a state of one is none of the other.
+TEST_F(PilotRun, GoesOnWithTheClampOfTheSavedRun) {
+    write("beam.toml", bar);
+    for (const char* clamp : {"--sharp-clamp", "--no-sharp-clamp"}) {
+        report({"beam.toml", "--frames", "5", "--substeps", "4", "--save", "beam.state", clamp});
+        EXPECT_EQ(report({"beam.state", "--frames", "5"})["state_hash"],
+                  report({"beam.toml", "--frames", "10", "--substeps", "4", clamp})["state_hash"]);
+    }
+}
+
 // Reports and saved states have the number.
 TEST_F(PilotRun, TakesTheLevelsThatWin) {
     write(

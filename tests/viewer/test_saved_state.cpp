@@ -175,17 +175,18 @@ TEST_F(SavedState, KeepsWhereItWasSeenFrom) {
     EXPECT_NE(refusal().find("its contents do not match its version"), std::string::npos) << refusal();
 }
 
-// Version 4 ended with the levels, version 3 with the view, version 2 before it.
+// Version 5 ended with the substep of clamps, version 4 with the levels, version 3 with the view, version 2
+// before it.
 TEST_F(SavedState, OfTheVersionsBeforeIsSeenAsItsScene) {
     Played played(scene);
     played.take(3);
     save(played);
     std::ifstream stream(file, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(stream), {}};
-    const std::string title = "sinew state 5\n";
+    const std::string title = "sinew state 6\n";
     ASSERT_TRUE(text.starts_with(title));
     text = text.substr(title.size(), text.size() - title.size() - sizeof(std::uint64_t));
-    for (const char* before : {"sinew state 4\n", "sinew state 3\n", "sinew state 2\n"}) {
+    for (const char* before : {"sinew state 5\n", "sinew state 4\n", "sinew state 3\n", "sinew state 2\n"}) {
         text.resize(text.size() - sizeof(std::uint32_t));
         const std::uint64_t hash = sim::fnv1a(std::as_bytes(std::span(text)));
         std::string whole = before + text;
