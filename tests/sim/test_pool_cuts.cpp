@@ -64,7 +64,7 @@ Scene poolScene(bool areAbsent, float tearStrain = 0) {
 }
 
 Settings settingsFor(bool sleeps) {
-    return {.substeps = 12, .sleeps = sleeps, .grabs = 1, .motions = 4};
+    return {.substeps = 6, .sleeps = sleeps, .grabs = 1, .motions = 4};
 }
 
 std::vector<Motion> motions(MotionKind kind) {
