@@ -24,12 +24,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "state files are little endian");
 
-// By version, from `firstVersion` on: each appends to the one before a view, levels, the substep of
-// clamps, and the kind of clamp.
+// By version, from `firstVersion` on: each appends to the one before a view, levels, the substep of clamps,
+// and what became the default of scenes: the sharp clamp, recoils.
 constexpr std::string_view titles[] = {"sinew state 2\n", "sinew state 3\n", "sinew state 4\n",
                                        "sinew state 5\n", "sinew state 6\n"};
-constexpr std::size_t firstVersion = 2, withView = 3, withLevels = 4, withClamps = 5, withSharpness = 6;
-static_assert(withSharpness == firstVersion + std::size(titles) - 1);
+constexpr std::size_t firstVersion = 2, withView = 3, withLevels = 4, withClamps = 5, withDefaults = 6;
+static_assert(withDefaults == firstVersion + std::size(titles) - 1);
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
     throw Failure(badInput, "cannot read a state: " + file.string() + ": " + why);
@@ -197,10 +197,11 @@ void writeRun(const std::filesystem::path& file, const SavedRun& run) {
     writer(run.settings.levels);
     writer(run.host.longestH);
     writer(std::uint32_t{run.settings.hasSharpClamp});
+    writer(std::uint32_t{run.takesRecoils});
     const std::vector<std::byte> bytes = writer.take();
     const std::uint64_t hash = sim::fnv1a(bytes);
     mesh::writeWhole(file, [&](std::ostream& stream) {
-        stream << titles[withSharpness - firstVersion];
+        stream << titles[withDefaults - firstVersion];
         stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         stream.write(reinterpret_cast<const char*>(&hash), sizeof(hash));
     });
@@ -230,9 +231,13 @@ SavedRun readRun(const std::filesystem::path& file) {
     if (version >= withView) readView(run, reader);
     if (version >= withLevels) reader(run.settings.levels);
     if (version >= withClamps) reader(run.host.longestH);
-    std::uint32_t isSharp = 0; // before, scenes had the clamp by the sum
-    if (version >= withSharpness) reader(isSharp);
+    std::uint32_t isSharp = 0, takesRecoils = 0;
+    if (version >= withDefaults) {
+        reader(isSharp);
+        reader(takesRecoils);
+    }
     run.settings.hasSharpClamp = isSharp != 0;
+    run.takesRecoils = takesRecoils != 0;
     if (!reader.isWhole() || (run.view && !isView(*run.view)) ||
         run.settings.solver > sim::Solver::gaussSeidel)
         refuse(file, "its contents do not match its version");

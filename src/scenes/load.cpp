@@ -104,6 +104,7 @@ void apply(const Overrides& overrides, LoadedScene& loaded) {
     if (overrides.iterations) settings.iterations = *overrides.iterations;
     if (overrides.levels) settings.levels = *overrides.levels;
     if (overrides.hasSharpClamp) settings.hasSharpClamp = *overrides.hasSharpClamp;
+    if (overrides.takesRecoils) loaded.scene.contacts.takesRecoils = *overrides.takesRecoils;
     if (overrides.dt) loaded.scene.dt = *overrides.dt;
     settings.isReversed = overrides.isReversed;
 }

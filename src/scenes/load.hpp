@@ -77,6 +77,7 @@ struct Overrides {
     std::optional<std::uint32_t> iterations;
     std::optional<std::uint32_t> levels; ///< coarse levels of `split`; sim::autoLevels = chosen
     std::optional<bool> hasSharpClamp;   ///< Settings::hasSharpClamp
+    std::optional<bool> takesRecoils;    ///< ContactSettings::takesRecoils
     std::optional<float> dt;
     std::optional<float> voxel; ///< cell edge of mesh bodies [m]
     bool isReversed = false;

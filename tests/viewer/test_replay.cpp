@@ -334,6 +334,7 @@ TEST(InputFile, BringsEveryBitBack) {
                          .solver = "jacobi",
                          .substeps = 7,
                          .hasSharpClamp = true,
+                         .takesRecoils = true,
                          .room = 64,
                          .surface = 5000,
                          .forms = sim::Forms{.usesTexels = false, .columns = 1, .chunk = 3},

@@ -134,6 +134,7 @@ Start loadStart(const SceneOptions& options) {
     if (!overrides.substeps) overrides.substeps = run.settings.substeps;
     if (!overrides.levels) overrides.levels = run.settings.levels;
     if (!overrides.hasSharpClamp) overrides.hasSharpClamp = run.settings.hasSharpClamp;
+    overrides.takesRecoils = run.takesRecoils;
     start.loaded = run.scene.starts_with('/') ? scenes::load(run.scene, overrides)
                                               : scenes::loadBuiltIn(run.scene, overrides);
     sayNews(start.loaded);

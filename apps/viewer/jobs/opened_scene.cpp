@@ -25,7 +25,7 @@ Camera seenAgain(Camera camera, const app::SavedView& view) {
     return camera;
 }
 
-// Options for a saved state: its scene, solver, substeps, levels and clamp.
+// Options for a saved state: its scene, solver, substeps, levels, clamp and recoils.
 Options withScene(Options options, const app::SavedRun& run) {
     options.scene.clear();
     (run.scene.starts_with('/') ? options.scene : options.builtIn) = run.scene;
@@ -33,6 +33,7 @@ Options withScene(Options options, const app::SavedRun& run) {
     if (!options.overrides.substeps) options.overrides.substeps = run.settings.substeps;
     if (!options.overrides.levels) options.overrides.levels = run.settings.levels;
     if (!options.overrides.hasSharpClamp) options.overrides.hasSharpClamp = run.settings.hasSharpClamp;
+    options.overrides.takesRecoils = run.takesRecoils;
     return options;
 }
 

@@ -97,6 +97,7 @@ Options withReplay(Options options, const InputFile& file) {
     if (!options.overrides.substeps && file.substeps > 0) options.overrides.substeps = file.substeps;
     if (!options.overrides.hasSharpClamp && file.substeps > 0)
         options.overrides.hasSharpClamp = file.hasSharpClamp;
+    if (file.substeps > 0) options.overrides.takesRecoils = file.takesRecoils;
     if (!options.hasFrames) options.frames = file.steps();
     return options;
 }

@@ -11,8 +11,7 @@
 //
 // Particles with more than three contacts with others take no part: inside a heap, shares take recoils away.
 // Only scenes that ask for it (ContactSettings::takesRecoils), of mostly loose particles without restitution
-// between them, and without faces, have these passes. Faces keep nothing of what they give: a moving mesh
-// that pressed a row of balls threw one at 2.3 times its speed in place of 2.
+// between them, have these passes. Faces that give way, those of cloth and bodies, take nothing back.
 #pragma once
 
 #include "sim/collision/contact_lists.hpp"
