@@ -88,7 +88,7 @@ bool areAway(const std::vector<Vector3d>& x) {
         x, [](const Vector3d& one) { return one == Vector3d::Constant(double{Motion::absentPlace}); });
 }
 
-constexpr Settings settings{.substeps = 8, .sleeps = false, .motions = 8};
+constexpr Settings settings{.substeps = 16, .sleeps = false, .motions = 8};
 
 Settings with(bool sleeps) {
     Settings result = settings;
@@ -165,7 +165,7 @@ TEST(Pool, ALateBodyFallsAsAnEarlyOne) {
         late.step(Step{});
     }
     std::printf("late against early: %.1e m\n", most);
-    EXPECT_LT(most, 1e-5); // 160 substeps with a rounding of 2.4e-7 each
+    EXPECT_LT(most, 1e-5); // 320 substeps with a rounding of 2.4e-7 each
 }
 
 // Bodies that sleep go with the step that is told to, also if nothing in the world is awake, and with any
@@ -183,7 +183,7 @@ TEST(Pool, SleepersGoAtOnce) {
                     scene.particles[i].velocity = {0, 1, 0};
             }
             Settings odd = with(true);
-            odd.substeps = 7;
+            odd.substeps = 15;
             test::Runner runner(scene, odd);
             const std::vector<Motion> in = spawns({0}), out{despawn(0)};
             const auto step = [&](const std::vector<Motion>& motions) {

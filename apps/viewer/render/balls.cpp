@@ -185,7 +185,8 @@ void removeBallsBesideSkins(const sim::Scene& scene, std::vector<float>& radii) 
         for (auto radius = begin; radius < end; ++radius) {
             if (*radius == 0) continue;
             const mesh::Vector3 place = mesh::toVector(scene.particles[radius - radii.begin()].position);
-            if (std::abs(surface.windingNumber(place)) < 0.5 && surface.distance(place) > 0.5f * *radius) *radius = 0;
+            if (std::abs(surface.windingNumber(place)) < 0.5 && surface.distance(place) > 0.5f * *radius)
+                *radius = 0;
         }
     }
 }
