@@ -5,6 +5,7 @@
 #include "sim/cutting/cut_body.hpp"
 #include "sim/pool_rounds.hpp"
 #include "sinew/bodies.hpp"
+#include "sinew/events.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace sinew::sim {
 namespace {
@@ -214,6 +216,29 @@ TEST(PoolCuts, PiecesGoWithTheirBody) {
     }
     EXPECT_GT(there, 0u);
     EXPECT_EQ(cut(runner, stroke(0)).linksCut, cut(alone, stroke(0)).linksCut);
+}
+
+// A body begins each life in one piece: pieces of the one before are no event of the next, and none is lost.
+TEST(PoolCuts, EventsAreThoseOfOneLife) {
+    Settings settings = settingsFor(false);
+    settings.events = bitOf(EventKind::pieces);
+    Runner runner(poolScene(true), settings);
+    const auto eventsOf = [&](const Status& status) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> found; // body, pieces
+        for (const Event& event : runner.simulation().events(status.frame).list)
+            if (event.body != 0) found.emplace_back(event.body, event.count); // body 0 stays
+        return found;
+    };
+    const auto in = motions(MotionKind::spawn), out = motions(MotionKind::despawn);
+    runner.step(Step{.motions = in});
+    const auto first = eventsOf(cut(runner, stroke(0)));
+    EXPECT_FALSE(first.empty());
+    for (const bool goes : {true, false}) { // then it is placed anew
+        if (goes) EXPECT_TRUE(eventsOf(runner.step(Step{.motions = out})).empty());
+        EXPECT_TRUE(eventsOf(runner.step(Step{.motions = in})).empty());
+        EXPECT_EQ(eventsOf(cut(runner, stroke(0))), first) << goes;
+    }
+    EXPECT_EQ(eventsOf(cut(runner, stroke(0), in)), first) << "in the step of the spawn";
 }
 
 // Links of the solver's state and all that follows from them are as before an undone step, after it.

@@ -17,6 +17,9 @@ layout(std430, binding = 7) writeonly buffer Found { uint found[]; };
 layout(constant_id = 1) const bool maySleep = false;
 layout(constant_id = 2) const bool haveContacts = false;
 layout(constant_id = 3) const bool mayBeCut = false;
+layout(constant_id = 4) const bool mayComeBack = false; // bodies of the pool come whole
+layout(std430, binding = 8) readonly buffer Changes { uint changes[]; }; // POOL_...
+layout(std430, binding = 9) readonly buffer WholePieces { uint wholePieces[]; };
 layout(push_constant) uniform Push { EventPush push; };
 
 bool isListed(uint kind) { return (push.kinds >> kind & 1u) != 0u; }
@@ -53,7 +56,9 @@ bool hasSlept(uint body) {
 }
 
 bool hasParted(uint body) {
-    if (!mayBeCut || (noted[body].cut | noted[body].torn) == 0u) return false;
+    if (!mayBeCut) return false;
+    if (mayComeBack && changes[body] >= POOL_GONE) piecesBefore[body] = wholePieces[body];
+    if ((noted[body].cut | noted[body].torn) == 0u) return false;
     const uint before = piecesBefore[body];
     piecesBefore[body] = pieces[body];
     return pieces[body] != before;

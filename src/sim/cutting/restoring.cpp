@@ -2,6 +2,7 @@
 #include "sim/cutting/restoring.hpp"
 
 #include "kernels.hpp"
+#include "sim/events/events.hpp"
 #include "sim/motions/pool.hpp"
 #include "sim/sleep/sleep.hpp"
 #include "sim/surface/cut_surface.hpp"
@@ -24,6 +25,7 @@ std::optional<motions::Changes> changesOf(const Build& build, const Cut& cut) {
 void addRestoring(Build& build, const Cut& cut) {
     const auto changes = changesOf(build, cut);
     if (!changes) return;
+    if (build.particles.events) build.particles.events->changes = changes->changes;
     ProgramBuilder& program = build.program;
     const CuttingBuffers& cutting = cut.buffers;
     const auto& sleep = build.particles.sleep;

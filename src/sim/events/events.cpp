@@ -25,8 +25,8 @@ static_assert(static_cast<int>(EventKind::contactBegins) == EVENT_CONTACT_BEGINS
               static_cast<int>(EventKind::lacksRoom) == EVENT_KINDS);
 
 // constant_ids of the kernels of events, and of colliders.glsl
-constexpr std::uint32_t maySleepId = 1, haveContactsId = 2, mayBeCutId = 3, tearsId = 1, planeCountId = 1,
-                        colliderCountId = 2, hostColliderCountId = 4, isOpenId = 5;
+constexpr std::uint32_t maySleepId = 1, haveContactsId = 2, mayBeCutId = 3, mayComeBackId = 4, tearsId = 1,
+                        planeCountId = 1, colliderCountId = 2, hostColliderCountId = 4, isOpenId = 5;
 
 std::uint32_t partnersOf(const Scene& scene, const Settings& settings) {
     return static_cast<std::uint32_t>(scene.bodies.size() + scene.planes.size() + scene.colliders.size()) +
@@ -206,6 +206,7 @@ void addCutBuffers(ProgramBuilder& program, const ParticleBuffers& particles) {
     events.mayBeCut = true;
     events.pieces = program.scratch<std::uint32_t>("events.pieces", events.push.bodies);
     events.piecesBefore = program.upload("events.pieces_before", pieces);
+    events.wholePieces = program.upload("events.whole_pieces", pieces);
     program.addToState(events.piecesBefore, events.piecesBefore);
     program.program().cutting.topology.push_back(events.piecesBefore);
     if (program.program().cutting.tears)
@@ -262,12 +263,15 @@ void addListing(Build& build) {
     push.count = events.contactWords() / 2 + events.bodyWords();
     ProgramBuilder::Constants constants = constantsOf(events);
     constants.insert({maySleepId, events.maySleep});
+    const bool mayComeBack = events.mayBeCut && events.changes != unbound;
+    constants.insert({mayComeBackId, mayComeBack});
     const BufferId contacts = boundIf(events.haveContacts, events.contacts);
     const BufferId pieces = boundIf(events.mayBeCut, events.pieces);
     program.dispatch(k::findEvents, push.count,
                      {contacts, boundIf(events.haveContacts, events.touching), events.noted,
                       boundIf(events.maySleep, events.slept), pieces,
-                      boundIf(events.mayBeCut, events.piecesBefore), status, events.found},
+                      boundIf(events.mayBeCut, events.piecesBefore), status, events.found,
+                      boundIf(mayComeBack, events.changes), boundIf(mayComeBack, events.wholePieces)},
                      push, constants);
     push.count = events.contactWords() + Events::otherKinds * events.bodyWords();
     program.dispatch(k::listEvents, GROUP_ITEMS,

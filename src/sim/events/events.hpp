@@ -27,7 +27,9 @@ struct Events {
     BufferId slept;                ///< by body: state
     BufferId cutLinks;             ///< by slot: links after the blade, if others may tear
     BufferId pieces, piecesBefore; ///< by body: of this step, where links died; state
-    BufferId found, list;          ///< sets; layout::EventEntry
+    BufferId wholePieces;          ///< by body: uncut
+    BufferId changes = unbound; ///< by body: POOL_...; unbound if none comes back whole (cutting/restoring)
+    BufferId found, list;       ///< sets; layout::EventEntry
     /// Words of the sets of contacts, of those that begin and of those that end, and of one of bodies.
     std::uint32_t contactWords() const { return haveContacts ? 2 * push.bodies * push.rowWords : 0; }
     std::uint32_t bodyWords() const { return (push.bodies + 31) / 32; }
