@@ -234,7 +234,9 @@ TEST(PoolCuts, EventsAreThoseOfOneLife) {
     const auto first = eventsOf(cut(runner, stroke(0)));
     EXPECT_FALSE(first.empty());
     for (const bool goes : {true, false}) { // then it is placed anew
-        if (goes) EXPECT_TRUE(eventsOf(runner.step(Step{.motions = out})).empty());
+        if (goes) {
+            EXPECT_TRUE(eventsOf(runner.step(Step{.motions = out})).empty());
+        }
         EXPECT_TRUE(eventsOf(runner.step(Step{.motions = in})).empty());
         EXPECT_EQ(eventsOf(cut(runner, stroke(0))), first) << goes;
     }
