@@ -224,7 +224,7 @@ constexpr Key keys[] = {
     {"contacts", "static_friction", Kind::number, "", ranges::friction, "", "static coefficient; equal to friction if missing or smaller"},
     {"contacts", "restitution", Kind::number, "", ranges::restitution, "0", "0 = no rebound, 1 = elastic"},
     {"contacts", "recovery_speed", Kind::number, "m/s", ranges::recoverySpeed, "0.5", "speed at which overlaps that exist at load part: of particles, faces, edges; limits no other contact"},
-    {"contacts", "take_recoils_back", Kind::flag, "", {}, "true", "loose balls without restitution stay down: pushes that part overlaps become no speed"},
+    {"contacts", "take_recoils_back", Kind::flag, "", {}, "false", "loose balls without restitution stay down: pushes that part overlaps become no speed"},
     {"contacts", "rest_contact", Kind::text, "", {}, "\"part\"", "contacts and overlaps that exist at load: \"part\" with recovery_speed, \"keep\" their distance as a rest distance; a pair keeps it if either body does"},
     {"contacts", "margin", Kind::number, "median radii", ranges::contactMargin, "0.5", "extra distance up to which pairs are listed as candidates; changes the speed, not the result"},
     {"contacts", "room", Kind::count, "candidates", ranges::contactRoom, "8", "initial capacity of the lists for a particle, a point or an edge, on average, less by default where it would take more than 128 MiB; a single one may have far more; programs enlarge it when needed, as far as the device can bind"},
