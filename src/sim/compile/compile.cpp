@@ -145,9 +145,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     build.particles = addParticles(program, model, solver, start);
     built.statePositions = build.particles.positions;
     built.stateVelocities = build.particles.velocities;
-    if (const std::vector<std::uint32_t> slots = compactSlots(layout); !slots.empty())
-        program.setSlots({program.upload("state.compact_slots", slots),
-                          static_cast<std::uint32_t>(slots.size()), built.slotCount});
+    program.setSlots(compactSlots(layout), built.slotCount);
     build.add(&Feature::buffers);
     program.beginPhase("begin");
     program.updateParameters(built.parameters);

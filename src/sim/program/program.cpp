@@ -139,6 +139,17 @@ void ProgramBuilder::append(Pass pass) {
     program_[list_].push_back(std::move(pass));
 }
 
+void ProgramBuilder::setSlots(std::vector<std::uint32_t> slots, std::uint32_t all) {
+    if (slots.empty()) return;
+    slots_ = {.items = static_cast<std::uint32_t>(slots.size()), .all = all};
+    slotList_ = std::move(slots);
+}
+
+const Slots& ProgramBuilder::slots() {
+    if (slots_.items > 0 && slots_.list == BufferId{}) slots_.list = upload("state.compact_slots", slotList_);
+    return slots_;
+}
+
 void ProgramBuilder::dispatchDirect(const vk::ShaderCode& code, std::uint32_t items,
                                     std::span<const BufferId> buffers, std::span<const std::byte> push,
                                     const Constants& constants) {
@@ -147,7 +158,7 @@ void ProgramBuilder::dispatchDirect(const vk::ShaderCode& code, std::uint32_t it
             return dispatchBytes(code, items, buffers, push, constants);
         Constants overItems = constants;
         overItems[runsOverId] = RUNS_OVER_ITEMS;
-        return dispatchListedBytes(code, slots_.items, buffers, slots_.list, push, overItems);
+        return dispatchListedBytes(code, slots_.items, buffers, slots().list, push, overItems);
     }
     const IndirectForm form = indirection_(interfaceOf(code), items);
     if (form.listed != BufferId{})

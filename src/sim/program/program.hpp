@@ -382,9 +382,11 @@ public:
     using Indirection =
         std::function<IndirectForm(const vk::KernelInterface& interface, std::uint32_t items)>;
     void setIndirection(Indirection indirection) { indirection_ = std::move(indirection); }
-    /// Direct dispatches over all slots then run over listed ones, where kernels may.
-    void setSlots(const Slots& slots) { slots_ = slots; }
-    const Slots& slots() const { return slots_; }
+    /// Direct dispatches over `all` slots of the state then run over these, whole work groups, where kernels
+    /// may. Empty = over all.
+    void setSlots(std::vector<std::uint32_t> slots, std::uint32_t all);
+    /// The same list, for dispatches that are not direct; it is uploaded once something asks for it.
+    const Slots& slots();
     /// Adds [index] to the label of the last pass, for passes that differ only in their range.
     void numberLast(std::uint32_t index);
     /// Registers a buffer of vec4 that a solver carries from step to step: restored when a step with a
@@ -461,6 +463,7 @@ private:
     std::map<const vk::ShaderCode*, vk::KernelInterface> interfaces_;
     std::vector<BufferId> restoredOnUndo_, keptForRepeat_;
     Indirection indirection_;
+    std::vector<std::uint32_t> slotList_;
     Slots slots_;
     List list_ = List::step;
     When when_ = When::always;
