@@ -3,7 +3,7 @@
 // its expected position than the slack; these contacts cover the whole path of a substep. plan_grid decides what
 // follows.
 #extension GL_GOOGLE_include_directive : require
-#define RUNS_OVER_SLOTS
+#define VISITS_SLOTS
 #include "common/kernel.glsl"
 #include "common/math.glsl"
 

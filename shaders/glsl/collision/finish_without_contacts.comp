@@ -3,7 +3,7 @@
 // does. Groups with candidates are then solved by count_contacts and gather_contacts, which end the substep for them
 // again.
 #extension GL_GOOGLE_include_directive : require
-#define RUNS_OVER_SLOTS
+#define VISITS_SLOTS
 #include "common/kernel.glsl"
 #include "collision/hash_grid.glsl"
 #include "common/remainder.glsl"

@@ -6,7 +6,7 @@
 // in this substep. All other particles stay unchanged to the bit.
 // After impact zones it runs once more, and then stops only paths through a face.
 #extension GL_GOOGLE_include_directive : require
-#define RUNS_OVER_SLOTS
+#define VISITS_SLOTS
 #include "common/kernel.glsl"
 #include "common/remainder.glsl"
 #include "common/triangle.glsl"

@@ -43,7 +43,7 @@ uint itemIndex(uint count) {
 }
 // Whether the item is padding of a list of which the device knows the length.
 bool isPadding(uint length) { return runsOver == RUNS_OVER_COUNTED && placeOfAll() >= length; }
-#elif defined RUNS_OVER_SLOTS
+#elif defined VISITS_SLOTS
 // Runs over slots of the state that hold a particle, not over padding; ~0 after the last.
 layout(std430, binding = LAST_BINDING) readonly buffer Slots { uint slots[]; };
 uint itemIndex(uint count) {

@@ -2,7 +2,7 @@
 // Ends a substep of `split` after contacts with faces and between edges, where particles do not touch each other:
 // projects onto boundary planes, one after another, and stores the state.
 #extension GL_GOOGLE_include_directive : require
-#define RUNS_OVER_SLOTS
+#define VISITS_SLOTS
 #include "common/kernel.glsl"
 #include "common/remainder.glsl"
 
