@@ -89,6 +89,24 @@ Groups groupsOf(test::Runner& runner) {
     return groups;
 }
 
+// A heap at rest, and last a ball of five times the mass of one of it, which falls onto it from 1.6 m.
+Scene heapBelowABall() {
+    Settings never = sleeping;
+    never.sleeps = false;
+    Scene scene = heap(4);
+    test::Runner settled(scene, never);
+    settled.run(200);
+    const auto x = settled.positions();
+    double top = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        scene.particles[i].position = test::toFloats(x[i]);
+        scene.particles[i].velocity = {};
+        top = std::max(top, x[i].y());
+    }
+    scene.particles.push_back(ballAt({0.01f, static_cast<float>(top) + 1.6f, 0.005f}, {}, 5));
+    return scene;
+}
+
 } // namespace
 
 TEST(Sleep, ComesOverAHeapThatThenStaysWhereItIsBitForBit) {
@@ -219,21 +237,14 @@ TEST(Sleep, OfACloudThatIsStruckEndsInTheBitsOfOneThatNeverSlept) {
     }
 }
 
-// A ball of five times the mass of a heap's balls falls from 1.6 m and scatters the sleeping heap.
+// The ball scatters the sleeping heap.
 TEST(Sleep, EndsWhenABallFallsOntoAHeapWhichThenMovesAsIfItHadNeverSlept) {
     Settings never = sleeping;
     never.sleeps = false;
-    Scene scene = heap(4);
-    test::Runner settled(scene, never);
-    settled.run(200);
-    const auto x = settled.positions();
-    double top = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        scene.particles[i].position = test::toFloats(x[i]);
-        scene.particles[i].velocity = {};
-        top = std::max(top, x[i].y());
-    }
-    scene.particles.push_back(ballAt({0.01f, static_cast<float>(top) + 1.6f, 0.005f}, {}, 5));
+    const Scene scene = heapBelowABall();
+    std::vector<Vector3d> x;
+    for (const Particle& particle : scene.particles) x.push_back(test::toVector(particle.position));
+    x.pop_back();
     test::Runner slept(scene, sleeping), awake(scene, never);
     std::uint32_t sleepers = 0;
     int since = -1; // number of steps awake
@@ -266,17 +277,8 @@ TEST(Sleep, EndsWhenABallFallsOntoAHeapWhichThenMovesAsIfItHadNeverSlept) {
 // g h = 0.0102 m/s.
 TEST(Sleep, EndsWithTheGravityOfTheSubstepInWhichAHeapWakes) {
     const Settings never{.substeps = 1}, sleeps{.substeps = 1, .sleeps = true};
-    Scene scene = heap(4);
-    test::Runner settled(scene, {.substeps = 16});
-    settled.run(200);
-    const auto x = settled.positions();
-    double top = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        scene.particles[i].position = test::toFloats(x[i]);
-        scene.particles[i].velocity = {};
-        top = std::max(top, x[i].y());
-    }
-    scene.particles.push_back(ballAt({0.01f, static_cast<float>(top) + 1.6f, 0.005f}, {}, 5));
+    Scene scene = heapBelowABall();
+    const std::size_t ofHeap = scene.particles.size() - 1;
     scene.dt /= 16;
     for (const bool takesRecoils : {false, true}) {
         scene.contacts.takesRecoils = takesRecoils;
@@ -287,8 +289,8 @@ TEST(Sleep, EndsWithTheGravityOfTheSubstepInWhichAHeapWakes) {
         for (int substep = 0; substep < 700 && since < 32; ++substep) {
             const std::uint32_t sleepers = slept.run(1).sleeping;
             awake.run(1);
-            slumbered = slumbered || sleepers == x.size();
-            if (!slumbered || sleepers == x.size()) continue;
+            slumbered = slumbered || sleepers == ofHeap;
+            if (!slumbered || sleepers == ofHeap) continue;
             ++since;
             apart = std::max(apart, farthest(slept.velocities(), awake.velocities()));
         }

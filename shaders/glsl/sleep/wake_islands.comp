@@ -14,10 +14,12 @@ layout(std430, binding = 2) readonly buffer Islands { uint islands[]; };
 layout(std430, binding = 3) readonly buffer Marks { uint marks[]; };
 layout(std430, binding = 4) buffer Groups { uint groups[]; }; // one per work group of particles: bit 0 = any awake
 layout(constant_id = 15) const bool fall = false; // loose particles that wake get the gravity of the substep
+layout(constant_id = 16) const bool isFirst = false; // substep of the step
 layout(std430, binding = 5) buffer Predicted { vec4 predicted[]; }; // remainder.glsl
 layout(std430, binding = 6) readonly buffer Loose { uint loose[]; }; // 1 = a particle without links
 layout(std140, binding = 7) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { SleepPush push; };
+#include "common/link_impulse.glsl"
 
 void fallBy(uint i, vec3 way) {
     const Sum moved = exactSum(predicted[i].xyz, way);
@@ -31,7 +33,7 @@ void main() {
     if (!isDriven && !isAsleep(weights[i], velocities[i]) || marks[islands[i]] == 0u) return;
     if (!isDriven) velocities[i].w = weights[i];
     if (fall && !isDriven && loose[i] != 0u) {
-        const vec3 v = step.velocityFactor * step.h * step.gravity.xyz;
+        const vec3 v = step.velocityFactor * (substepOf(isFirst).kick * step.gravity.xyz);
         velocities[i].xyz = v;
         fallBy(i, step.h * v);
     }

@@ -16,9 +16,9 @@ namespace {
 
 namespace k = kernels;
 
-constexpr std::uint32_t hasWaysId = 14;  // constant_id in fall_asleep.comp
-constexpr std::uint32_t fallId = 15;     // constant_id in wake_islands.comp
-constexpr std::uint32_t mostPasses = 64; // passes that differ in kind or number of groups
+constexpr std::uint32_t hasWaysId = 14;              // constant_id in fall_asleep.comp
+constexpr std::uint32_t fallId = 15, isFirstId = 16; // constant_ids in wake_islands.comp
+constexpr std::uint32_t mostPasses = 64;             // passes that differ in kind or number of groups
 
 std::uint32_t groupsOf(std::uint32_t items, std::uint32_t groupSize) {
     return (items - 1) / groupSize + 1;
@@ -89,6 +89,7 @@ void addWaking(ProgramBuilder& program, const Sleep& sleep, const ParticleBuffer
     ProgramBuilder::Constants constants;
     if (fall) constants = remainderConstants(particles.layout);
     constants[fallId] = fall;
+    if (fall) constants[isFirstId] = !program.isAfterFirstSubstep();
     program.dispatchIndirect(k::wakeIslands, wakingItems(sleep, all, sleep.push.count),
                              {sleep.weights, particles.velocities, sleep.islands, sleep.marks, sleep.groups,
                               boundIf(fall, particles.positions), boundIf(fall, sleep.loose), particles.step},
@@ -221,7 +222,9 @@ void add(Build& build) {
     sleep->limits = program.upload("sleep.limits", restLimits(model.scene, layout));
     sleep->rests = program.scratch<layout::vec4>("sleep.rests", count);
     sleep->components = program.upload("sleep.components", componentsOf(model));
-    if (const std::vector<std::uint32_t> loose = looseOf(model); std::ranges::count(loose, 1u) > 0)
+    // not where fields may bear what falls: they act on what is awake as a substep begins
+    if (const std::vector<std::uint32_t> loose = looseOf(model);
+        model.settings.fields == 0 && std::ranges::count(loose, 1u) > 0)
         sleep->loose = program.upload("sleep.loose", loose);
     sleep->islands = program.scratch<std::uint32_t>("sleep.islands", count);
     sleep->least = program.scratch<std::uint32_t>("sleep.least", count);
