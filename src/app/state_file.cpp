@@ -28,8 +28,8 @@ static_assert(std::endian::native == std::endian::little, "state files are littl
 // and what became the default of scenes: the sharp clamp, recoils.
 constexpr std::string_view titles[] = {"sinew state 2\n", "sinew state 3\n", "sinew state 4\n",
                                        "sinew state 5\n", "sinew state 6\n"};
-constexpr std::size_t firstVersion = 2, withView = 3, withLevels = 4, withClamps = 5, withDefaults = 6;
-static_assert(withDefaults == firstVersion + std::size(titles) - 1);
+constexpr std::size_t firstVersion = 2, withView = 3, withLevels = 4, withClamps = 5, withSharpness = 6;
+static_assert(withSharpness == firstVersion + std::size(titles) - 1);
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
     throw Failure(badInput, "cannot read a state: " + file.string() + ": " + why);
@@ -153,7 +153,7 @@ SavedRun saveRun(const vk::Device& device, const sim::Simulation& simulation, co
     queue.waitIdle();
     const vk::Buffer copy = bufferFor(device, simulation.stateSize(), vk::MemoryKind::readback);
     const VkCommandBuffer commands = queue.begin();
-    SavedRun run{.settings = settings, .key = simulation.stateKey()};
+    SavedRun run{.settings = settings, .key = simulation.stateKey(), .hasSharpClamp = settings.hasSharpClamp};
     run.settings.forms = sim::completed(run.settings.forms, sim::kindOf(device)); // on other kinds as well
     run.host = simulation.recordSaveState(commands, copy.view());
     run.host.hostColliders.clear();
@@ -196,12 +196,11 @@ void writeRun(const std::filesystem::path& file, const SavedRun& run) {
     if (run.view) visitView(*run.view, writer);
     writer(run.settings.levels);
     writer(run.host.longestH);
-    writer(std::uint32_t{run.settings.hasSharpClamp});
-    writer(std::uint32_t{run.takesRecoils});
+    writer(std::uint32_t{*run.hasSharpClamp});
     const std::vector<std::byte> bytes = writer.take();
     const std::uint64_t hash = sim::fnv1a(bytes);
     mesh::writeWhole(file, [&](std::ostream& stream) {
-        stream << titles[withDefaults - firstVersion];
+        stream << titles[withSharpness - firstVersion];
         stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         stream.write(reinterpret_cast<const char*>(&hash), sizeof(hash));
     });
@@ -231,13 +230,11 @@ SavedRun readRun(const std::filesystem::path& file) {
     if (version >= withView) readView(run, reader);
     if (version >= withLevels) reader(run.settings.levels);
     if (version >= withClamps) reader(run.host.longestH);
-    std::uint32_t isSharp = 0, takesRecoils = 0;
-    if (version >= withDefaults) {
+    if (version >= withSharpness) {
+        std::uint32_t isSharp = 0;
         reader(isSharp);
-        reader(takesRecoils);
+        run.hasSharpClamp = isSharp != 0;
     }
-    run.settings.hasSharpClamp = isSharp != 0;
-    run.takesRecoils = takesRecoils != 0;
     if (!reader.isWhole() || (run.view && !isView(*run.view)) ||
         run.settings.solver > sim::Solver::gaussSeidel)
         refuse(file, "its contents do not match its version");

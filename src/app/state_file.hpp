@@ -21,13 +21,13 @@ struct SavedView {
 
 /// What is saved: how to come to an equal simulation, and its state.
 struct SavedRun {
-    std::string scene;         ///< file, absolute; or the name of a built-in one
-    sim::Settings settings;    ///< solver, substeps, rooms and completed forms alone
-    std::uint64_t key = 0;     ///< sim::Simulation::stateKey()
-    std::uint64_t played = 0;  ///< steps of the time in which blades cut by themselves
-    sim::Material material;    ///< that the scene was turned to
-    sim::Vec3 gravity;         ///< likewise [m/s^2]
-    bool takesRecoils = false; ///< ContactSettings::takesRecoils of the scene
+    std::string scene;                 ///< file, absolute; or the name of a built-in one
+    sim::Settings settings;            ///< solver, substeps, rooms and completed forms alone
+    std::uint64_t key = 0;             ///< sim::Simulation::stateKey()
+    std::uint64_t played = 0;          ///< steps of the time in which blades cut by themselves
+    sim::Material material;            ///< that the scene was turned to
+    sim::Vec3 gravity;                 ///< likewise [m/s^2]
+    std::optional<bool> hasSharpClamp; ///< of `settings`; empty: not known, as in files of older versions
     sim::SavedState host;
     std::vector<std::byte> bytes;  ///< sim::Simulation::stateSize()
     std::optional<SavedView> view; ///< nothing: not known, as in files of older versions

@@ -104,7 +104,6 @@ void apply(const Overrides& overrides, LoadedScene& loaded) {
     if (overrides.iterations) settings.iterations = *overrides.iterations;
     if (overrides.levels) settings.levels = *overrides.levels;
     if (overrides.hasSharpClamp) settings.hasSharpClamp = *overrides.hasSharpClamp;
-    if (overrides.takesRecoils) loaded.scene.contacts.takesRecoils = *overrides.takesRecoils;
     if (overrides.dt) loaded.scene.dt = *overrides.dt;
     settings.isReversed = overrides.isReversed;
 }
@@ -326,7 +325,9 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     loaded.scene.dt = top.number("dt");
     loaded.scene.damping = top.number("damping");
     loaded.scene.dampingTime = top.number("damping_time");
-    readSettings(loaded, top.child("solver"), source.file);
+    const Section solver = top.child("solver");
+    readSettings(loaded, solver, source.file);
+    if (!solver.has("sharp_clamp")) loaded.settings.hasSharpClamp = overrides.isSharpByDefault;
     readContacts(loaded, top.child("contacts"));
     loaded.settings.keepsForces = top.child("report").flag("forces");
     loaded.scene.debris = top.count("debris");

@@ -77,10 +77,17 @@ struct Overrides {
     std::optional<std::uint32_t> iterations;
     std::optional<std::uint32_t> levels; ///< coarse levels of `split`; sim::autoLevels = chosen
     std::optional<bool> hasSharpClamp;   ///< Settings::hasSharpClamp
-    std::optional<bool> takesRecoils;    ///< ContactSettings::takesRecoils
+    bool isSharpByDefault = true;        ///< the same, where neither that nor the file says it
     std::optional<float> dt;
     std::optional<float> voxel; ///< cell edge of mesh bodies [m]
     bool isReversed = false;
+
+    /// Takes the clamp of a saved run, unless another one is asked for. Empty: the run is from before the
+    /// sharp clamp was the default of scenes.
+    void takeClamp(std::optional<bool> isSharp) {
+        if (!hasSharpClamp) hasSharpClamp = isSharp;
+        isSharpByDefault = isSharp.has_value();
+    }
 };
 
 /// `argument` is a scene file (TOML) or a mesh file (anything importMesh reads), which is dropped by the

@@ -334,7 +334,6 @@ TEST(InputFile, BringsEveryBitBack) {
                          .solver = "jacobi",
                          .substeps = 7,
                          .hasSharpClamp = true,
-                         .takesRecoils = true,
                          .room = 64,
                          .surface = 5000,
                          .forms = sim::Forms{.usesTexels = false, .columns = 1, .chunk = 3},

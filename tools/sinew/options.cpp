@@ -133,8 +133,7 @@ Start loadStart(const SceneOptions& options) {
     if (!overrides.solver) overrides.solver = sim::solverName(run.settings.solver);
     if (!overrides.substeps) overrides.substeps = run.settings.substeps;
     if (!overrides.levels) overrides.levels = run.settings.levels;
-    if (!overrides.hasSharpClamp) overrides.hasSharpClamp = run.settings.hasSharpClamp;
-    overrides.takesRecoils = run.takesRecoils;
+    overrides.takeClamp(run.hasSharpClamp);
     start.loaded = run.scene.starts_with('/') ? scenes::load(run.scene, overrides)
                                               : scenes::loadBuiltIn(run.scene, overrides);
     sayNews(start.loaded);

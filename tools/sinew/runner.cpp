@@ -65,7 +65,6 @@ void Runner::restart() {
 app::SavedRun Runner::save() {
     app::SavedRun run = app::saveRun(session_.device, *simulation_, settings_, session_.queue);
     run.played = played_ + done_;
-    run.takesRecoils = scene_.contacts.takesRecoils;
     return run;
 }
 

@@ -45,7 +45,6 @@ app::SavedRun Document::save(const vk::Device& device, vk::Queue& queue) const {
     run.played = played_;
     run.material = material_;
     run.gravity = gravity_;
-    run.takesRecoils = scene_.contacts.takesRecoils;
     return run;
 }
 

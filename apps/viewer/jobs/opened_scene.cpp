@@ -25,15 +25,14 @@ Camera seenAgain(Camera camera, const app::SavedView& view) {
     return camera;
 }
 
-// Options for a saved state: its scene, solver, substeps, levels, clamp and recoils.
+// Options for a saved state: its scene, solver, substeps, levels and clamp.
 Options withScene(Options options, const app::SavedRun& run) {
     options.scene.clear();
     (run.scene.starts_with('/') ? options.scene : options.builtIn) = run.scene;
     if (!options.overrides.solver) options.overrides.solver = sim::solverName(run.settings.solver);
     if (!options.overrides.substeps) options.overrides.substeps = run.settings.substeps;
     if (!options.overrides.levels) options.overrides.levels = run.settings.levels;
-    if (!options.overrides.hasSharpClamp) options.overrides.hasSharpClamp = run.settings.hasSharpClamp;
-    options.overrides.takesRecoils = run.takesRecoils;
+    options.overrides.takeClamp(run.hasSharpClamp);
     return options;
 }
 

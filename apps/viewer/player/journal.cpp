@@ -64,7 +64,6 @@ InputFile Journal::inputFile() const {
             .solver = sim::solverName(begun_.solver),
             .substeps = begun_.substeps,
             .hasSharpClamp = player_.document.settings().hasSharpClamp,
-            .takesRecoils = player_.document.scene().contacts.takesRecoils,
             .room = player_.document.contactRoom().room,
             .surface = player_.document.settings().cutSurfaceRoom,
             .forms =
