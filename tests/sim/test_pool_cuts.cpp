@@ -85,7 +85,7 @@ Sweep stroke(int which) {
     }
 }
 
-// What is drawn: places and normals of the corners of all triangles.
+// The drawn triangles: places and normals of their corners.
 std::vector<layout::SkinVertex> drawnOf(Runner& runner) {
     runner.skin();
     const Simulation& simulation = runner.simulation();

@@ -1,6 +1,6 @@
 #version 460
 // Recoils: keeps what points receive from faces in a substep (received.glsl), before contacts between particles add to it.
-// What static and driven faces give counts along their normal, and with the velocity of their nearest point.
+// Impulses of static and driven faces count along the normal, and with the velocity of the nearest point.
 #extension GL_GOOGLE_include_directive : require
 #define RUNS_LISTED
 #include "common/kernel.glsl"

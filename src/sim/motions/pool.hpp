@@ -33,7 +33,8 @@ bool haveAbsent(const Scene& scene);
 std::vector<bool> restoredBodies(const Scene& scene);
 /// Appends the passes that move bodies.
 void addPool(Build& build, BufferId requests, BufferId bodiesOfSlots);
-/// What happens to bodies in a step: by slot the body of the scene, by body POOL_SAME ... (layout.h).
+/// Buffers that say which bodies come and go in a step: by slot the body of the scene, by body POOL_SAME ...
+/// (motion_layout.h).
 struct Changes {
     BufferId bodies, changes;
 };

@@ -33,7 +33,7 @@ Scene column(std::uint32_t count, float height) {
     return scene;
 }
 
-// Of the first `count` particles.
+// Mean height of the first `count` particles [m].
 double meanHeight(const test::Runner& runner, std::size_t count) {
     const std::vector<Vector3d> x = runner.positions();
     double sum = 0;
