@@ -200,6 +200,8 @@ void addKernelsOfAllScenes(Collector& collector) {
                 collector.add(comingAndGoing(loaded->scene), pool);
             if (file.stem() == "clutter" && loaded->settings.solver == sim::Solver::split)
                 addForms(collector, takingRecoils(loaded->scene), loaded->settings);
+            if (file.stem() == "stirrer" && loaded->settings.solver == sim::Solver::split) // with faces
+                collector.add(takingRecoils(loaded->scene), loaded->settings);
             if (loaded->settings.solver != sim::Solver::split || loaded->scene.grids.empty()) continue;
             addForms(collector, recovering(loaded->scene), loaded->settings);
             addForms(collector, withDebris(loaded->scene, false), loaded->settings);
