@@ -32,18 +32,18 @@ layout(constant_id = 6) const bool canOpen = false; // a cut can let pairs touch
 layout(constant_id = 7) const bool countsNear = true;
 #define MARKS_BINDING 9
 #include "collision/linked_marks.glsl"
-// Recoils: candidates that touch, count or meet on the way, a bit each in the order of the list; all bits of a list that is
-// longer. Equal at both ends of a pair.
-layout(std430, binding = 10) writeonly buffer NearMasks { uint nearMasks[]; };
+// Recoils: candidates that touch, count or meet on the way (few_contacts.glsl). Equal at both ends of a pair.
+layout(std430, binding = 10) writeonly buffer Near { uvec2 near[]; };
 #include "forces/received.glsl"
 layout(push_constant) uniform Push { ContactPush push; };
 
 #include "collision/contact_reach.glsl"
+#include "common/few_contacts.glsl"
 
-uint nearMask = 0u, firstSlot;
+uint nearMask = 0u, firstSlot; // of 32 candidates
 
 void addNear(uint slot) {
-    if (keepsReceived) nearMask |= 1u << min(slot - firstSlot, 31u);
+    if (keepsReceived) nearMask |= 1u << slot - firstSlot;
 }
 
 void addWeight(uint slot, float weight, inout float weights) {
@@ -80,7 +80,7 @@ void main() {
     if (isPadding(bounds.listed)) return;
     const uvec2 list = lists[i];
     const uint end = list.x + list.y;
-    firstSlot = list.x;
+    uvec2 few = uvec2(0u);
     // Loops of which some are empty: on a software device, code under a condition costs its time even if it does not
     // run.
     const bool isSwept = bounds.isSwept != 0u;
@@ -101,12 +101,14 @@ void main() {
     for (uint word = 0u; word < wordsOf(list); ++word) {
         const uint from = list.x + 32u * word, to = min(from + 32u, end);
         uint hit = 0u;
+        nearMask = 0u;
+        firstSlot = from;
         for (uint slot = from; slot < (isSwept ? from : to); ++slot)
             hit |= uint(touchesAtEnd(slot, x, velocity.xyz, weights)) << slot - from;
         for (uint slot = from; slot < (isSwept ? to : from); ++slot)
             hit |= uint(touchesOnWay(slot, start, velocity.xyz, first, weights)) << slot - from;
         contactCount += float(bitCount(hit));
-        nearMask |= hit;
+        if (keepsReceived) addPlaces(few, nearMask | hit, 32u * word);
         const uint place = hitWord(push.count, i, list, word);
         hits[place] = uvec2(hit, hits[place].x & ~hit);
     }
@@ -115,6 +117,6 @@ void main() {
         if (first < 1.0) x -= (1.0 - first) * step.h * (velocity.xyz - drive); // stays at the point of impact
     }
     clearReceivedGroups();
-    if (keepsReceived) nearMasks[i] = list.y > 32u ? ~0u : nearMask;
+    if (keepsReceived) near[i] = few;
     touching[i] = vec4(x, (contactCount + weights) * velocity.w);
 }

@@ -13,18 +13,19 @@ layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(std430, binding = 5) writeonly buffer Members { uint members[]; };
 layout(std430, binding = 6) writeonly buffer Degrees { uint degrees[]; };
 layout(std430, binding = 7) buffer Arguments { DispatchArguments arguments[]; }; // by substep; unused0: number of members
-layout(std430, binding = 8) readonly buffer NearMasks { uint nearMasks[]; };     // count_contacts
+layout(std430, binding = 8) readonly buffer Near { uvec2 near[]; };              // count_contacts
 #include "forces/received_sections.glsl"
 FETCHED_UVEC4(9, Received, receivedBits) // received.glsl
 vec4 receivedAt(uint element) { return uintBitsToFloat(receivedBits(element)); }
 layout(push_constant) uniform Push { RecoilPush push; };
 #include "forces/recoil_speed.glsl"
+#include "common/few_contacts.glsl"
 
-bool partsFast(uint i, uint near, vec3 x, vec3 v) {
+bool partsFast(uint i, uvec2 few, vec3 x, vec3 v) {
     bool isFast = false;
     const uint first = lists[i].x;
-    for (uint at = near; at != 0u; at &= at - 1u) {
-        const uvec2 candidate = contactAt(first + findLSB(at));
+    for (uint n = 0u; n < countOf(few); ++n) {
+        const uvec2 candidate = contactAt(first + placeOf(few, n));
         const vec3 d = x - touchingAt(candidate.x).xyz;
         const float speed = dot3(d, v - velocityAt(candidate.x).xyz); // x |d|
         const float least = leastRecoil(uintBitsToFloat(candidate.y));
@@ -38,11 +39,11 @@ bool partsFast(uint i, uint near, vec3 x, vec3 v) {
 void main() {
     const uint i = itemIndex(push.count);
     const vec4 velocity = velocityAt(i), touching = touchingAt(i);
-    const uint near = hasFew(touching.w, velocity.w) && velocity.w > 0.0 ? nearMasks[i] : 0u;
+    const uvec2 few = hasFew(touching.w, velocity.w) && velocity.w > 0.0 ? near[i] : uvec2(0u);
     bool isFast = false;
     // A loop: on a software device, code under a condition costs its time even if it does not run.
-    for (uint once = near != 0u && areFew(near) && mayRecoil(velocity.xyz) ? 1u : 0u; once != 0u; --once)
-        isFast = partsFast(i, near, touching.xyz, velocity.xyz);
+    for (uint once = countOf(few) != 0u && areFew(few) && mayRecoil(velocity.xyz) ? 1u : 0u; once != 0u; --once)
+        isFast = partsFast(i, few, touching.xyz, velocity.xyz);
     degrees[i] = 0u;
     if (!isFast) return;
     members[atomicAdd(arguments[push.substep].unused0, 1u)] = i;

@@ -2,6 +2,7 @@
 // that kernel. A pair is a contact if it touches or counts in shares, both have received impulses along its line, and
 // one of them from both sides: else a ball that falls between two others could not part them. Both ends of a pair
 // compute equal bits.
+#include "common/few_contacts.glsl"
 
 // 0 of a particle that is not prepared.
 uint degreeOf(uint i) { return degrees[i] & ~RECOIL_LISTED; }
@@ -33,7 +34,7 @@ void addPair(uint i, uint slot, Receipt own, vec3 x, vec4 velocity, inout uint d
     const vec4 touching = touchingAt(j), other = velocities[j];
     const float reach = reachOf(slot, uintBitsToFloat(candidate.y));
     const bool isStill = other.w == 0.0;
-    const bool takesPart = isStill || hasFew(touching.w, other.w) && areFew(nearMasks[j]);
+    const bool takesPart = isStill || hasFew(touching.w, other.w) && areFew(near[j]);
     if (!areFreeOf(state[i].w, state[j].w) || !takesPart || reach <= 0.0) return;
     const vec3 d = x - touching.xyz, n = d / sqrt(max(dot3(d, d), 1e-30));
     const vec2 here = along(own, n);
@@ -50,7 +51,9 @@ void prepare(uint i, bool starts) {
     const vec3 x = touchingAt(i).xyz;
     const uint first = lists[i].x;
     uint degree = 0u;
-    for (uint at = nearMasks[i]; at != 0u; at &= at - 1u) addPair(i, first + findLSB(at), own, x, velocity, degree);
+    const uvec2 few = near[i];
+    for (uint n = 0u; n < min(countOf(few), RECOIL_CONTACTS - 1u); ++n)
+        addPair(i, first + placeOf(few, n), own, x, velocity, degree);
     const vec4 fixedly = receivedAt(sectionElement(2u, i));
     const float size = length3(fixedly.xyz);
     if (size > 0.0 && areFreeOf(state[i].w, state[i].w)) {

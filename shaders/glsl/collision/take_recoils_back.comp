@@ -27,7 +27,7 @@ FETCHED_UVEC4(10, Received, receivedBits)
 vec4 receivedAt(uint element) { return uintBitsToFloat(receivedBits(element)); }
 FETCHED_UVEC2(11, Contacts, contactAt)
 layout(std430, binding = 12) readonly buffer Lists { uvec2 lists[]; };
-layout(std430, binding = 13) readonly buffer NearMasks { uint nearMasks[]; };
+layout(std430, binding = 13) readonly buffer Near { uvec2 near[]; };
 layout(constant_id = 4) const bool hasRecovery = false;
 layout(std430, binding = 14) readonly buffer Slips { vec4 slips[]; }; // w: remaining overlap, below 0 = keeps its rest distance
 FETCHED_VEC4(15, Linked, linkedAt)                                    // velocities before contacts

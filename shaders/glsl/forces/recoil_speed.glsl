@@ -12,6 +12,5 @@ float leastRecoil(float reach) {
 layout(constant_id = 24) const float leastReach = 0.0; // of any pair of the scene [m]
 bool mayRecoil(vec3 v) { return 2.0 * length3(v) > leastRecoil(leastReach); }
 
-// Whether a particle has few contacts: as its shares count them, and candidates that touch or count.
+// Whether a particle has few contacts, as its shares count them.
 bool hasFew(float contacts, float w) { return contacts <= RECOIL_PAIRS * w; }
-bool areFew(uint near) { return uint(bitCount(near)) < RECOIL_CONTACTS; }

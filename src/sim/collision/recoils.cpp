@@ -5,6 +5,7 @@
 #include "kernels.hpp"
 #include "sim/forces/forces.hpp"
 
+#include <array>
 #include <bit>
 #include <vector>
 
@@ -29,7 +30,7 @@ Recoils add(ProgramBuilder& program, const SceneModel& model, float leastReach) 
                                                               std::uint64_t{RECOIL_CONTACTS} * slots),
             .members = program.scratchOfStep<std::uint32_t>("recoils.members", 2 * std::uint64_t{slots}),
             .degrees = program.scratchOfStep<std::uint32_t>("recoils.degrees", slots),
-            .near = program.scratchOfStep<std::uint32_t>("recoils.near", slots),
+            .near = program.scratchOfStep<std::array<std::uint32_t, 2>>("recoils.near", slots),
             .arguments = program.scratchOfStep<layout::DispatchArguments>("recoils.arguments",
                                                                           model.settings.substeps)};
 }

@@ -26,7 +26,7 @@ struct Recoils {
     bool followsRows = false;    ///< whether addRows() is called in each substep
     BufferId contacts;           ///< layout::Recoil, RECOIL_CONTACTS a slot
     BufferId members, degrees;   ///< slots of particles; by slot: contacts
-    BufferId near = unbound;     ///< by slot: candidates that touch or count in shares, a bit each
+    BufferId near = unbound;     ///< by slot: candidates that touch or count in shares (few_contacts.glsl)
     BufferId arguments;          ///< of the second pass, by substep; unused0: number of members
     bool exist() const { return received != unbound; }
 };

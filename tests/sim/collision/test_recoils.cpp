@@ -296,6 +296,29 @@ TEST(Recoils, ChangeNothingThatTheyDoNotReach) {
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i], b[i]) << i;
 }
 
+// A heap in which some lists have more than 32 candidates with the widest margin.
+TEST(Recoils, DependOnNoMargin) {
+    Scene scene{.name = "heap"};
+    scene.contacts.takesRecoils = true;
+    scene.planes = {{.normal = {0, 1, 0}}};
+    for (const float x : {-1.0f, 1.0f}) {
+        scene.planes.push_back({.normal = {x, 0, 0}, .offset = -0.08f});
+        scene.planes.push_back({.normal = {0, 0, x}, .offset = -0.08f});
+    }
+    for (int i = 0; i < 128; ++i)
+        scene.particles.push_back(ball(
+            {0.043f * static_cast<float>(i % 4) - 0.062f + 0.0003f * static_cast<float>(i % 7),
+             0.1f + 0.041f * static_cast<float>(i / 16), 0.042f * static_cast<float>(i / 4 % 4) - 0.06f}));
+    Settings settings{.solver = Solver::split, .substeps = 16, .contactMargin = 0.25f, .contactRoom = 200};
+    const std::uint64_t hash = test::hashOfRun(scene, settings, 40);
+    for (const float margin : {0.5f, 1.0f, 2.5f}) {
+        settings.contactMargin = margin;
+        EXPECT_EQ(test::hashOfRun(scene, settings, 40), hash) << "margin " << margin;
+    }
+    scene.contacts.takesRecoils = false;
+    EXPECT_NE(test::hashOfRun(scene, settings, 40), hash) << "nothing recoils";
+}
+
 TEST(Recoils, ArePartOfNoSavedState) {
     Scene scene = column(6, 0.2f);
     scene.planes = {{.normal = {0, 1, 0}}};
