@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tools/predict_table.sh [SCENE...]: the table of docs/performance.md, "A model of GPUs", made anew: predicted ms a step (calm;
+# tools/predict_table.sh [SCENE...]: the table of docs/performance/model.md made anew: predicted ms a step (calm;
 # with lists) of shipped scenes on the cards of tools/sinew/predict/cards.csv, and the longest pass with what bounds it.
 set -euo pipefail
 cd "$(dirname "$0")/.."

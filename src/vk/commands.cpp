@@ -1,5 +1,5 @@
 // All pipeline stages and access masks of the core. Synchronisation 1, since Vulkan 1.2 has no other without
-// an optional feature (docs/performance.md, "Barriers", says what it would change); global memory barriers,
+// an optional feature (docs/performance/drivers.md has what it would change); global memory barriers,
 // since a planned barrier covers several buffers.
 #include "sinew/vk/commands.hpp"
 

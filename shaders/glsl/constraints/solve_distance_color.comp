@@ -35,7 +35,7 @@ layout(push_constant) uniform Push { ColorPush push; };
 
 // The multiplier that starts the next substep. If a constraint is too stiff for a substep the pull lags behind the
 // motion: a share above (1 + alpha / w) / 2 gains energy at any order of the colors, and a smaller one at unlucky
-// orders (docs/performance.md). The kept multiplier may move the ends by a twentieth of their distance at most, for
+// orders (docs/performance/solvers.md). The kept multiplier may move the ends by a twentieth of their distance at most, for
 // heavy ends of light chains.
 float kept(float lambda, float w, float alpha, float restLength) {
     const float share = min(push.warmStart, 0.3 + 0.6 * alpha / w);

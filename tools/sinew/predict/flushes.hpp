@@ -15,7 +15,7 @@ struct Flush {
 };
 
 /// Mesa's rules for a global memory barrier, of RADV for GPUs of AMD up to GFX10.3, and of ANV for those of
-/// Intel from Tiger Lake on (docs/performance.md, "Barriers", has the sources).
+/// Intel from Tiger Lake on (docs/performance/drivers.md, "Barriers", has the sources).
 std::span<const Flush> radvFlushes();
 std::span<const Flush> anvFlushes();
 
