@@ -59,6 +59,20 @@ def testSentences():
     expect(len(found("See [here](nowhere.md).\n")) == 1 and not found("See [here](glossary.md).\n"), "links")
 
 
-for test in (testFirstWordsOfComments, testComments, testCitations, testSentences):
+def testSizes():
+    def found(text, **options):
+        return list(check_docs.sizeComplaints("docs/page.md", text, **options))
+
+    wide = "a " * check_docs.MOST_COLUMNS
+    expect(len(found(wide + "\n")) == 1 and not found("A blade cuts.\n"), "a wide line")
+    expect(not found(f"```\n{wide}\n```\n"), "code may be wide")
+    expect(len(found(f"| {wide} |\n")) == 1, "a wide row of a page that explains")
+    expect(not found(f"| {wide} |\n", hasWideTables=True), "a wide row of a page of figures")
+    expect(len(found(wide + "\n", hasWideTables=True)) == 1, "wide text of a page of figures")
+    expect(len(found("a\n" * 3, mostLines=2)) == 1 and not found("a\n" * 2, mostLines=2), "a long page")
+    expect("docs/performance.md" in check_docs.FIGURES and len(check_docs.FIGURES) > 10, "the records are pages of figures")
+
+
+for test in (testFirstWordsOfComments, testComments, testCitations, testSentences, testSizes):
     test()
 print("check_docs: each rule can fail")
