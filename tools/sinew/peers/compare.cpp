@@ -75,15 +75,19 @@ RunError errorOf(const Searched& searched, const sim::Settings& settings) {
 }
 
 /// In the order of the search, with shares of its time: what one leaves is for the next ones.
-constexpr std::pair<const char*, double> searchOrder[] = {
-    {"verlet", 1}, {"split", 3}, {"bullet", 3}, {"gauss_seidel", 2}, {"jacobi", 2}};
+constexpr std::pair<const char*, double> searchOrder[] = {{"verlet", 1}, {"split", 3},        {"bullet", 3},
+                                                          {"jolt", 2},   {"gauss_seidel", 2}, {"jacobi", 2}};
 
 std::vector<Searched> searchAll(Contest& contest, const sim::Scene& scene, study::Scale scale,
                                 Clock::time_point end) {
     std::vector<Searched> result;
+    const std::vector<Row> rows = contest.rows();
+    std::vector<std::pair<const char*, double>> order;
+    for (const auto& entry : searchOrder)
+        if (std::ranges::find(rows, entry.first, &Row::program) != rows.end()) order.push_back(entry);
     double shares = 0;
-    for (const auto& [program, share] : searchOrder) shares += share;
-    for (const auto& [program, share] : searchOrder) {
+    for (const auto& [program, share] : order) shares += share;
+    for (const auto& [program, share] : order) {
         const double left = std::chrono::duration<double>(end - Clock::now()).count();
         fmt::print(stderr, "{}: searching {}\n", scene.name, program);
         result.push_back(searchFor(contest, program, scale, after(left * share / shares)));
@@ -130,7 +134,7 @@ const Entry* fastest(const std::vector<Entry>& entries, const Row& row, double t
 
 Json settingsJson(const std::string& program, const sim::Settings& settings) {
     Json json{{"substeps", settings.substeps}, {"iterations", settings.iterations}};
-    if (program == "bullet" || program == "verlet") return json;
+    if (program == "bullet" || program == "verlet" || program == "jolt") return json;
     json["theta"] = settings.theta;
     json["levels"] = settings.levels;
     json["sharp_clamp"] = settings.hasSharpClamp;

@@ -3,6 +3,7 @@
 #include "app/guard.hpp"
 #include "sim/compile/compile.hpp"
 #include "sinew/bullet_body.hpp"
+#include "sinew/cpu_program.hpp"
 #include "sinew/gpu_tune.hpp"
 #include "sinew/native/verlet.hpp"
 #include "sinew/statistics.hpp"
@@ -22,6 +23,10 @@ using OnFrame = std::function<bool(const study::Positions&)>;
 
 study::Positions positionsOf(const BulletBody& body) {
     return body.positions();
+}
+
+study::Positions positionsOf(const CpuProgram& program) {
+    return program.positions();
 }
 
 study::Positions positionsOf(const native::Verlet<float>& verlet) {
@@ -60,6 +65,10 @@ std::vector<Row> Contest::rows() const {
     std::vector<Row> rows{{"verlet", 1}};
     if (threads_ > 1) rows.push_back({"verlet", threads_});
     rows.push_back({"bullet", 1});
+    if (const bool hasJolt = makeJoltBody(scene_, 1, 1) != nullptr; hasJolt) {
+        rows.push_back({"jolt", 1});
+        if (threads_ > 1) rows.push_back({"jolt", threads_});
+    }
     const bool isSoftware = session_.device.description().type == "software";
     for (const std::string& name : sim::solverNames()) {
         if (single_) rows.push_back({name, 1});
@@ -69,7 +78,7 @@ std::vector<Row> Contest::rows() const {
 }
 
 std::vector<Variant> Contest::variantsOf(const std::string& program) const {
-    if (program == "verlet") return {{}};
+    if (program == "verlet" || program == "jolt") return {{}};
     if (program == "bullet") return {{}, {{}, 2}, {{}, 4}, {{}, 1, true}};
     sim::Solver solver{};
     sim::parseSolver(program, solver);
@@ -131,6 +140,8 @@ std::optional<RunError> Contest::errorOf(const std::string& program, const sim::
     if (program == "bullet") {
         BulletBody body(scene_, settings.substeps, settings.iterations);
         runCpu(body, frames, add);
+    } else if (program == "jolt") {
+        runCpu(*makeJoltBody(scene_, settings.substeps, threads_), frames, add);
     } else if (program == "verlet") {
         native::Verlet<float> verlet(scene_, settings.substeps, threads_);
         runCpu(verlet, frames, add);
@@ -152,6 +163,8 @@ std::vector<double> Contest::time(const Row& row, const sim::Settings& settings)
         BulletBody body(scene_, settings.substeps, settings.iterations);
         return runCpu(body, frames, {});
     }
+    if (row.program == "jolt")
+        return runCpu(*makeJoltBody(scene_, settings.substeps, row.threads), frames, {});
     if (row.program == "verlet") {
         native::Verlet<float> verlet(scene_, settings.substeps, row.threads);
         return runCpu(verlet, frames, {});

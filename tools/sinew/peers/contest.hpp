@@ -10,7 +10,7 @@ namespace sinew::tools::peers {
 
 /// One program with a number of threads: a row of the table.
 struct Row {
-    std::string program;       ///< "verlet", "bullet", or one of our solvers
+    std::string program;       ///< "verlet", "bullet", "jolt", or one of our solvers
     std::uint32_t threads = 1; ///< 0: of a device that is not software
 };
 

@@ -1,0 +1,10 @@
+// For a build without Jolt.
+#include "sinew/cpu_program.hpp"
+
+namespace sinew::tools {
+
+std::unique_ptr<CpuProgram> makeJoltBody(const sim::Scene&, std::uint32_t, std::uint32_t) {
+    return nullptr;
+}
+
+} // namespace sinew::tools
