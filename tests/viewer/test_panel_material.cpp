@@ -146,6 +146,61 @@ TEST_F(MaterialTest, TakesAUnitThatIsTypedAndRefusesWhatIsNoModulus) {
     }
 }
 
+TEST_F(MaterialTest, TakesANumberWhenAPressElsewhereEndsTyping) {
+    const std::optional<Vector2> field = stiffnessField();
+    ASSERT_TRUE(field);
+    const auto press = [&](const Vector2& at) {
+        PanelInput input{.pointer = at};
+        picture(input);
+        input.isDown[0] = true;
+        input.presses[0] = 1;
+        const std::optional<Knobs> knobs = picture(input).knobs;
+        picture({.pointer = at});
+        return knobs;
+    };
+    const Vector2 onNothing(1200, 715);
+    for (const Vector2& at : {onNothing, Vector2(1210, field->y() - 30), Vector2(1210, field->y() + 30)}) {
+        settle();
+        click(*field);
+        ASSERT_TRUE(panels.takesKeys());
+        type(*field, "7.5");
+        const std::optional<Knobs> knobs = press(at);
+        ASSERT_TRUE(knobs) << at.transpose();
+        EXPECT_FLOAT_EQ(youngModulusOf(scene, *knobs).value(), 7.5e3f) << at.transpose();
+        picture({.pointer = at, .keys = {{GLFW_KEY_ESCAPE, true}, {GLFW_KEY_ESCAPE, false}}});
+        settle();
+    }
+    settle();
+    click(*field);
+    type(*field, "7.5");
+    panels.closeAll(); // as a press in the scene does
+    const std::optional<Knobs> knobs = picture({.pointer = {400, 300}}).knobs;
+    ASSERT_TRUE(knobs);
+    EXPECT_FLOAT_EQ(youngModulusOf(scene, *knobs).value(), 7.5e3f);
+    EXPECT_FALSE(picture().knobs) << "once";
+}
+
+TEST_F(MaterialTest, TakesNoNumberThatWasNotTypedOrThatEscGaveUp) {
+    const std::optional<Vector2> field = stiffnessField();
+    ASSERT_TRUE(field);
+    facts.knobs.stiffness = 3; // changed by something else while the field has the keys
+    panels.closeAll();
+    EXPECT_FALSE(picture().knobs);
+    for (const bool isEsc : {true, false}) {
+        settle();
+        click(*field);
+        type(*field, isEsc ? "7.5" : "soft");
+        std::optional<Knobs> knobs;
+        if (isEsc)
+            knobs = picture({.pointer = *field, .keys = {{GLFW_KEY_ESCAPE, true}, {GLFW_KEY_ESCAPE, false}}})
+                        .knobs;
+        EXPECT_FALSE(knobs);
+        panels.closeAll();
+        EXPECT_FALSE(picture().knobs) << isEsc;
+        EXPECT_FALSE(picture().knobs) << isEsc;
+    }
+}
+
 // A second click would else select a word, such as the unit, and the number would stay beside what is typed.
 TEST_F(MaterialTest, ReplacesTheWholeNumberAfterADoubleClick) {
     const std::optional<Vector2> field = stiffnessField();

@@ -1,4 +1,5 @@
 // Comparison of two solvers: time of a step, and error.
+#include "viewer/ui/panel_numbers.hpp"
 #include "viewer/ui/panel_parts.hpp"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ void lineOf(const std::string& name, std::size_t color, const Curve& ms, const C
                                              figure(", max %.1f %%", 100.0 * double{largest.newest()}));
 }
 
-void shapeKnobs(const SceneFacts& scene, const BesideKnobs& knobs, Wishes& wishes) {
+void shapeKnobs(const SceneFacts& scene, const BesideKnobs& knobs, TypedNumber& typed, Wishes& wishes) {
     BesideKnobs turned = knobs;
     const auto solver = static_cast<std::size_t>(knobs.solver);
     ImGui::SetNextItemWidth(0.55f * contentWidth());
@@ -64,21 +65,21 @@ void shapeKnobs(const SceneFacts& scene, const BesideKnobs& knobs, Wishes& wishe
         ImGui::EndCombo();
     }
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(-1);
-    ImGui::InputInt("##beside_substeps", &turned.substeps, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::PushID("beside substeps");
+    substeps(typed, turned.substeps, ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX());
+    ImGui::PopID();
     tip("substeps; 0 = as many as the scene needs");
-    turned.substeps = std::clamp(turned.substeps, 0, mostSubsteps);
     if (turned != knobs) wishes.beside = turned;
 }
 
 } // namespace
 
-void beside(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
+void beside(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wishes& wishes) {
     const BesideFacts& other = facts.beside;
     button(Action::beside, wishes, contentWidth(), other.isOn,
            other.isMaking ? "Compare: preparing ..." : nullptr);
     if (!other.isOn) return;
-    shapeKnobs(scene, other.knobs, wishes);
+    shapeKnobs(scene, other.knobs, typed, wishes);
     if (other.names[1].empty()) return;
     const Curve left = sumOfPhases(facts.phases), right = sumOfPhases(other.phases);
     lineOf(other.names[0], 0, left, facts.strainRms, facts.strainMax);

@@ -1,17 +1,13 @@
 // Material and parameters of the scene, and of its solver: sliders with numbers that can be typed.
 #include "viewer/ui/knob_keys.hpp"
-#include "viewer/ui/number_text.hpp"
+#include "viewer/ui/panel_numbers.hpp"
 #include "viewer/ui/panel_parts.hpp"
 #include "viewer/ui/presets.hpp"
 
-#include <imgui_internal.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <string_view>
 
 namespace sinew::viewer::parts {
 
@@ -29,49 +25,8 @@ void knob(const char* name) {
     ImGui::SetNextItemWidth((1 - nameShare) * contentWidth());
 }
 
-struct Range {
-    float low = 0, high = 1;
-    ImGuiSliderFlags flags = ImGuiSliderFlags_None;
-    const char* highest = nullptr; // what the upper end is called
-};
-
-// How the number of a slider is written; numbers that are typed are in `unit`.
-struct Format {
-    const char* text;
-    const char* unit;
-};
-
-// The number of a slider, which is typed after a click: red as long as it cannot be read. True if Enter has
-// changed the value.
-bool number(float& value, const Range& range, const Format& format) {
-    const auto read = [&](const char* typed) {
-        return range.highest != nullptr && std::string_view(typed) == range.highest
-                   ? std::optional(range.high)
-                   : numberOf(typed, format.unit);
-    };
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), format.text, double{value});
-    const std::string before = text.data();
-    const ImGuiID id = ImGui::GetID("##number");
-    ImGuiStorage& kept = *ImGui::GetStateStorage();
-    const bool isRed = kept.GetBool(id);
-    if (isRed) ImGui::PushStyleColor(ImGuiCol_Text, bad());
-    const bool isEntered =
-        ImGui::InputText("##number", text.data(), text.size(),
-                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-    if (isRed) ImGui::PopStyleColor();
-    const bool isTyped = ImGui::IsItemActive();
-    if (isTyped && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) // Dear ImGui selects a word
-        ImGui::GetInputTextState(id)->SelectAll();
-    const std::optional<float> now = read(text.data());
-    kept.SetBool(id, isTyped && !now);
-    if (!isEntered || !now || before == text.data()) return false;
-    value = *now;
-    return true;
-}
-
 // A slider without a text, and its number beside it. True if the value has changed.
-bool slider(const char* name, float& value, const Range& range, const Format& format,
+bool slider(TypedNumber& typed, const char* name, float& value, const Range& range, const Format& format,
             const std::string& text) {
     knob(name);
     ImGui::PushID(name);
@@ -81,8 +36,8 @@ bool slider(const char* name, float& value, const Range& range, const Format& fo
     tip(text);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX());
-    isTurned |= number(value, range, format);
-    tip("click to type a number, with a unit or without; Enter sets it");
+    isTurned |= number(typed, value, range, format);
+    tip("click to type a number, with a unit or without; Enter or a click elsewhere sets it, Esc does not");
     ImGui::PopID();
     return isTurned;
 }
@@ -144,7 +99,7 @@ bool presets(const SceneFacts& scene, Knobs& turned) {
 }
 
 // In kPa if the modulus is known, else relative to the scene file, which is in the middle of the slider.
-bool stiffness(const SceneFacts& scene, Knobs& turned) {
+bool stiffness(TypedNumber& typed, const SceneFacts& scene, Knobs& turned) {
     const bool isOne = turned.body >= 0 && static_cast<std::size_t>(turned.body) < turned.bodies.size();
     float& factor = isOne ? turned.bodies[static_cast<std::size_t>(turned.body)] : turned.stiffness;
     const std::optional<float> modulus = youngModulusOf(scene, turned);
@@ -154,39 +109,39 @@ bool stiffness(const SceneFacts& scene, Knobs& turned) {
                           : shown >= 1000 ? Format{"%.0f kPa", "kPa"}
                                           : Format{"%.3g kPa", "kPa"};
     const bool isTurned = slider(
-        "stiffness", shown, {0.01f * unit, 100 * unit, ImGuiSliderFlags_Logarithmic}, format,
+        typed, "stiffness", shown, {0.01f * unit, 100 * unit, ImGuiSliderFlags_Logarithmic}, format,
         modulus ? "Young's modulus; acts at once" : "stiffness relative to the scene file; acts at once");
     if (isTurned) factor = shown / unit;
     return isTurned;
 }
 
-bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
+bool materialKnobs(TypedNumber& typed, const SceneFacts& scene, Knobs& turned) {
     bool isTurned = presets(scene, turned);
-    isTurned |= stiffness(scene, turned);
+    isTurned |= stiffness(typed, scene, turned);
     if (scene.bodies.size() > 1) {
         knob("  of");
         const int before = turned.body;
         bodyCombo(scene, turned.body);
         isTurned |= turned.body != before;
     }
-    isTurned |= slider("damping", turned.damping, {0, 20}, {"%.2f 1/s", "1/s"},
+    isTurned |= slider(typed, "damping", turned.damping, {0, 20}, {"%.2f 1/s", "1/s"},
                        "damping of all motion; acts at once");
-    isTurned |= slider("friction", turned.friction, {0, 2}, {"%.2f", ""},
+    isTurned |= slider(typed, "friction", turned.friction, {0, 2}, {"%.2f", ""},
                        "friction of planes, colliders and bodies; acts at once");
     if (isTurned) limitMaterial(turned);
     return isTurned;
 }
 
 // The slider's right end means through.
-bool bladeKnob(const Facts& facts, Knobs& turned) {
+bool bladeKnob(TypedNumber& typed, const Facts& facts, Knobs& turned) {
     const auto [least, most] = facts.bladeDepths;
     const float through = 1.05f * most;
     // In centimeters, so that a number that is typed has the unit on show.
     float shown = 100 * turned.bladeDepth.value_or(through);
-    const bool isTurned =
-        slider("blade depth", shown, {100 * least, 100 * through, ImGuiSliderFlags_Logarithmic, "through"},
-               {turned.bladeDepth ? "%.3g cm" : "through", "cm"},
-               "depth below the surface under the pointer; right end: through; acts at once");
+    const bool isTurned = slider(
+        typed, "blade depth", shown, {100 * least, 100 * through, ImGuiSliderFlags_Logarithmic, "through"},
+        {turned.bladeDepth ? "%.3g cm" : "through", "cm"},
+        "depth below the surface under the pointer; right end: through; acts at once");
     const float depth = shown / 100;
     if (isTurned) turned.bladeDepth = depth > most ? std::nullopt : std::optional(std::max(depth, least));
     return isTurned;
@@ -214,13 +169,14 @@ bool softness(const SceneFacts& scene, Knobs& turned) {
 
 } // namespace
 
-void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
+void parameters(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wishes& wishes) {
     Knobs turned = facts.knobs;
-    bool isTurned = materialKnobs(scene, turned);
-    isTurned |= slider("gravity", turned.gravity, {0, 20}, {"%.2f m/s\u00b2", "m/s\u00b2"}, "acts at once");
-    isTurned |= slider("speed", turned.pace, {0.05f, 1}, {"x %.2f", "x"},
+    bool isTurned = materialKnobs(typed, scene, turned);
+    isTurned |=
+        slider(typed, "gravity", turned.gravity, {0, 20}, {"%.2f m/s\u00b2", "m/s\u00b2"}, "acts at once");
+    isTurned |= slider(typed, "speed", turned.pace, {0.05f, 1}, {"x %.2f", "x"},
                        "speed of the scene relative to real time; acts at once");
-    if (scene.canCut) isTurned |= bladeKnob(facts, turned);
+    if (scene.canCut) isTurned |= bladeKnob(typed, facts, turned);
     Knobs shown = facts.knobs;
     shown.body = scene.fromFile.body; // the selected body is not a change
     ImGui::BeginDisabled(shown == scene.fromFile);
@@ -232,11 +188,12 @@ void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     if (isTurned) take(turned, facts, wishes);
 }
 
-void solver(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
+void solver(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wishes& wishes) {
     Knobs turned = facts.knobs;
     knob("substeps");
-    bool isTurned =
-        ImGui::InputInt("##substeps", &turned.substeps, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::PushID("substeps");
+    bool isTurned = substeps(typed, turned.substeps, (1 - nameShare) * contentWidth());
+    ImGui::PopID();
     tip("act once prepared; 0 = as many as the scene needs");
     knob("solver");
     const auto solver = static_cast<std::size_t>(turned.solver);

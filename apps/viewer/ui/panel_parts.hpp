@@ -14,6 +14,7 @@ struct HelpSearch;
 struct FileField;
 struct GalleryState;
 struct SceneFields;
+struct TypedNumber;
 } // namespace sinew::viewer
 
 namespace sinew::viewer::parts {
@@ -77,17 +78,17 @@ void gallery(const Facts& facts, GalleryState& state, Wishes& wishes);
 /// The list of files, while it is shown.
 void open(FileField& files, Wishes& wishes);
 void play(const Facts& facts, Wishes& wishes);
-void parameters(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void parameters(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wishes& wishes);
 void look(const Facts& facts, Wishes& wishes);
 /// Legends of the layers that are on; hasLegend(): whether there are any.
 bool hasLegend(const Facts& facts);
 void legend(const SceneFacts& scene, const Facts& facts);
 void camera(Wishes& wishes);
 void files(const Facts& facts, Wishes& wishes);
-void beside(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void beside(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wishes& wishes);
 void cuts(const Facts& facts);
 void window(const Facts& facts, Wishes& wishes);
-void solver(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void solver(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wishes& wishes);
 void speed(const Facts& facts);
 /// "12.3 ms a step"; empty if it is not measured.
 std::string stepText(const Facts& facts);

@@ -403,7 +403,7 @@ void Panels::buildSections(const SceneFacts& scene, const Facts& facts, VkExtent
         parts::scenes(scene, facts, fields_, wishes);
         parts::play(facts, wishes);
     });
-    parts::section(Fold::material, folds_, "", [&] { parts::parameters(scene, facts, wishes); });
+    parts::section(Fold::material, folds_, "", [&] { parts::parameters(scene, facts, typed_, wishes); });
     parts::section(Fold::view, folds_, "", [&] {
         parts::camera(wishes);
         parts::look(facts, wishes);
@@ -411,7 +411,7 @@ void Panels::buildSections(const SceneFacts& scene, const Facts& facts, VkExtent
     });
     parts::section(Fold::record, folds_, "", [&] { parts::files(facts, wishes); });
     parts::section(Fold::compare, folds_, facts.beside.isOn ? "on" : "",
-                   [&] { parts::beside(scene, facts, wishes); });
+                   [&] { parts::beside(scene, facts, typed_, wishes); });
     buildPerformance(scene, facts, wishes);
     parts::section(Fold::window, folds_, "", [&] { parts::window(facts, wishes); });
 }
@@ -421,7 +421,7 @@ void Panels::buildPerformance(const SceneFacts& scene, const Facts& facts, Wishe
     const bool isFolded = folds_[indexOf(Fold::performance)], isSoft = !scene.stiffness.empty();
     const std::string summary = !isFolded ? "" : isSoft ? "softer than asked" : parts::stepText(facts);
     const auto content = [&] {
-        parts::solver(scene, facts, wishes);
+        parts::solver(scene, facts, typed_, wishes);
         if (scene.canCut) parts::cuts(facts);
         parts::counts(scene, facts);
         parts::speed(facts);

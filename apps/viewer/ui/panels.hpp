@@ -38,6 +38,14 @@ struct SceneFields {
     GalleryState gallery;
 };
 
+/// The text in the field for a number that has the keys. Dear ImGui forgets it when another control takes a
+/// press.
+struct TypedNumber {
+    unsigned field = 0;      ///< its ID
+    int picture = 0;         ///< the last one in which it had the keys
+    std::string first, text; ///< when it got the keys, and in that picture
+};
+
 /// Text that is typed while the help is open.
 struct HelpSearch {
     std::string text;
@@ -147,6 +155,7 @@ private:
     SceneFields fields_;
     std::function<std::string()> paste_;
     std::string pasted_;
+    TypedNumber typed_;
     std::function<void(const std::string&)> copy_;
     std::vector<int> released_; // keys to release in the next picture
     PanelInput early_;          // characters typed before the field of files opens
