@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <set>
 
 namespace sinew::viewer {
 namespace {
@@ -103,6 +104,79 @@ TEST_F(PanelFoldsTest, ScrollToASectionThatOpensBelowTheWindow) {
     EXPECT_FALSE(panels.folds()[indexOf(Fold::compare)]);
     EXPECT_GT(side->Scroll.y, 20);
     EXPECT_LT(side->Scroll.y, compare->y()) << "its heading is still in view";
+}
+
+// A double click on a heading would press what has come under the pointer.
+TEST_F(PanelFoldsTest, KeepAPressFromWhatScrolledUnderThePointer) {
+    constexpr VkExtent2D tall{1280, 1400};
+    const Folds folded = Folds().set(indexOf(Fold::compare));
+    panels.fold(folded);
+    settle(tall);
+    const auto compare = headingOf(Fold::compare, tall);
+    ASSERT_TRUE(compare);
+    const VkExtent2D low{1280, static_cast<std::uint32_t>(compare->y()) + 30};
+    panels.fold(folded);
+    for (int i = 0; i < 20; ++i) picture({.pointer = {1200, 100}, .notches = 5}, low);
+    const ImGuiWindow* side = shownWindow("side");
+    ASSERT_EQ(side->Scroll.y, 0);
+    for (const float x : {1000.0f, 1080.0f, 1180.0f, 1240.0f}) {
+        const Vector2 at(x, compare->y());
+        const auto rest = [&] {
+            for (int i = 0; i < 3; ++i) picture({.pointer = at}, low);
+        };
+        EXPECT_TRUE(click(at, low).isEmpty());
+        rest();
+        ASSERT_GT(side->Scroll.y, 20);
+        ASSERT_FALSE(panels.folds()[indexOf(Fold::compare)]);
+        EXPECT_EQ(ImGui::GetHoveredID(), 0u) << "nothing under the pointer lights up";
+        EXPECT_TRUE(click(at, low).isEmpty());
+        EXPECT_EQ(panels.folds(), folded) << "the section folds again";
+        rest();
+        EXPECT_EQ(side->Scroll.y, 0);
+    }
+    const Vector2 at(1180, compare->y());
+    click(at, low);
+    settle(low);
+    std::set<Action> clicked; // once the pointer has moved, all is as always
+    for (float y = compare->y() - 10; y > 20; y -= 8)
+        for (const Action action : click({1180, y}, low).actions) clicked.insert(action);
+    EXPECT_TRUE(clicked.contains(Action::beside));
+}
+
+// The second simulation takes seconds to make: its figures would push down what is below.
+TEST_F(PanelFoldsTest, TakeTheRoomOfAComparisonBeforeItIsThere) {
+    panels.fold({});
+    scene.solvers = {"split", "gauss_seidel"};
+    const auto height = [&] {
+        settle({1280, 2000});
+        settle({1280, 2000});
+        return contentHeight();
+    };
+    const float off = height();
+    facts.beside.isOn = facts.beside.isMaking = true;
+    EXPECT_EQ(height(), off);
+    facts.beside.isMaking = false;
+    facts.beside.names = {"split, 24 substeps", "gauss_seidel, 24 substeps"};
+    facts.phases = facts.beside.phases = {};
+    facts.beside.strainRms.add(0.01f);
+    facts.beside.strainMax.add(0.1f);
+    EXPECT_EQ(height(), off);
+}
+
+TEST_F(PanelFoldsTest, NameWhatPlaysInEachHalfOfAComparison) {
+    settle();
+    EXPECT_EQ(shownWindow("left"), nullptr);
+    facts.beside.isOn = true;
+    facts.beside.names = {"split, 24 substeps", "gauss_seidel, 24 substeps"};
+    for (const bool isShown : {true, false}) {
+        panels.choose(isShown);
+        settle();
+        const float width = large.width - static_cast<float>(panels.sideWidth(large));
+        const ImGuiWindow *left = shownWindow("left"), *right = shownWindow("right");
+        ASSERT_TRUE(left != nullptr && right != nullptr);
+        EXPECT_NEAR(left->Rect().GetCenter().x, 0.25f * width, 1);
+        EXPECT_NEAR(right->Rect().GetCenter().x, 0.75f * width, 1);
+    }
 }
 
 TEST_F(PanelFoldsTest, ShowTheWarningOfSoftBodiesInTheHeadingOfAFoldedSection) {

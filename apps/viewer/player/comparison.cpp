@@ -239,7 +239,7 @@ void Comparison::drawHalves(const Presenter::Frame& frame, const Overlay& overla
 
 BesideFacts Comparison::facts() const {
     BesideFacts facts{.isOn = player_.session.beside().has_value(), .isMaking = making_.valid()};
-    if (const auto& wanted = player_.session.beside()) facts.knobs = knobsOf(*wanted);
+    facts.knobs = knobsOf(player_.session.beside().value_or(defaultShape()));
     if (!beside_) return facts;
     const sim::Settings& first = player_.document.settings();
     const Facts measured = beside_->facts();

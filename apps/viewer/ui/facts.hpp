@@ -94,7 +94,7 @@ constexpr int mostSubsteps = 1000;
 
 struct BesideFacts {
     bool isOn = false, isMaking = false;
-    BesideKnobs knobs;                ///< set if a comparison is on
+    BesideKnobs knobs;                ///< of the comparison, or of the next one
     std::array<std::string, 2> names; ///< of the first and the second; empty until the second is ready
     std::vector<PhaseCurve> phases;   ///< like Facts::phases
     Curve strainRms, strainMax;       ///< like those of Facts

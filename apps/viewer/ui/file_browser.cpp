@@ -141,4 +141,13 @@ std::optional<std::string> FileBrowser::takeTyped() {
     return std::nullopt;
 }
 
+fs::path startFolder(const std::vector<std::string>& recent) {
+    std::error_code error;
+    if (!recent.empty())
+        if (const auto folder = fs::path(recent.front()).parent_path(); fs::is_directory(folder, error))
+            return folder;
+    const fs::path here = fs::current_path(error);
+    return error ? fs::path("/") : here;
+}
+
 } // namespace sinew::viewer

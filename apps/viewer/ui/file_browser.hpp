@@ -56,6 +56,9 @@ private:
 /// The kind of a file by the end of its name; empty = the viewer does not open it.
 std::optional<FileEntry::Kind> kindOfFile(const std::filesystem::path& file);
 
+/// The folder of the file that was opened last, if it still exists, else the current one.
+std::filesystem::path startFolder(const std::vector<std::string>& recent);
+
 /// Expands ~/ like a shell.
 std::string expanded(const std::string& path);
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace sinew::viewer {
 
@@ -37,6 +38,28 @@ Folds foldsIn(const std::string& text) {
         folds.set(static_cast<std::size_t>(title - foldTitles.begin()));
     }
     return folds;
+}
+
+void Reveal::begin(const Before& before, const Vector2& pointer) {
+    before_ = before;
+    pointer_ = pointer;
+}
+
+std::optional<Reveal::Before> Reveal::take(PanelInput& input, float slack) {
+    constexpr float away = -1e6f;
+    std::optional<Before> back;
+    if (before_ && ((input.pointer - pointer_).norm() > slack || input.notches != 0)) before_.reset();
+    if (before_ && input.presses[0] > 0) {
+        back = std::exchange(before_, std::nullopt);
+        isPressed_ = true;
+    }
+    if (isPressed_) {
+        isPressed_ = input.isDown[0];
+        input.isDown[0] = false;
+        input.presses[0] = 0;
+    }
+    if (before_) input.pointer = {away, away};
+    return back;
 }
 
 } // namespace sinew::viewer

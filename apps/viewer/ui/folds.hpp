@@ -1,9 +1,12 @@
 // The foldable sections of the side panel, and their names in the file of preferences.
 #pragma once
 
+#include "viewer/input/panel_input.hpp"
+
 #include <array>
 #include <bitset>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -30,5 +33,25 @@ inline const Folds foldedAtFirst = Folds().set(indexOf(Fold::compare)).set(index
 std::string toText(const Folds& folds);
 /// The inverse of toText(). Throws std::runtime_error, which names a word that is no section.
 Folds foldsIn(const std::string& text);
+
+/// A section that a click has opened below the window, so that the panel has scrolled. Something else is
+/// under the pointer then: until the pointer moves, that neither lights up nor takes a press.
+class Reveal {
+public:
+    struct Before {
+        Folds folds;
+        float scroll = 0; ///< [pixels]
+    };
+    void begin(const Before& before, const Vector2& pointer);
+    bool isHeld() const { return before_.has_value(); }
+    /// Hides the pointer and its press from the panels. A press folds the section again: it returns what was
+    /// before. A pointer that moves by more than `slack` [pixels], or the wheel, ends it.
+    std::optional<Before> take(PanelInput& input, float slack);
+
+private:
+    std::optional<Before> before_;
+    Vector2 pointer_ = Vector2::Zero();
+    bool isPressed_ = false; // until the button is released
+};
 
 } // namespace sinew::viewer

@@ -3,6 +3,7 @@
 #include "viewer/ui/panel_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 namespace sinew::viewer::parts {
@@ -42,7 +43,8 @@ void bothPlot(const Curve& left, const Curve& right, const char* format, double 
                  from.y + height * (1 - std::min(curve->at(i) / most, 1.0f))});
         list.PathStroke(phaseColor(curve == &left ? 0 : 1), 0, 1.5f);
     }
-    list.AddText(from, ImGui::GetColorU32(quiet()), figure(format, factor * double{most}).c_str());
+    if (left.count() + right.count() > 0)
+        list.AddText(from, ImGui::GetColorU32(quiet()), figure(format, factor * double{most}).c_str());
     ImGui::Dummy({width, height});
 }
 
@@ -72,20 +74,50 @@ void shapeKnobs(const SceneFacts& scene, const BesideKnobs& knobs, TypedNumber& 
     if (turned != knobs) wishes.beside = turned;
 }
 
+constexpr std::array<const char*, 2> sides{"left", "right"};
+
+// "left: split, 24 substeps"
+std::string nameOf(const BesideFacts& other, std::size_t side) {
+    const std::string what = !other.names[side].empty() ? other.names[side]
+                             : other.isMaking           ? "preparing ..."
+                                                        : "";
+    return sides[side] + (what.empty() ? "" : ": " + what);
+}
+
 } // namespace
 
+// Off and on have the same height, also while the second simulation is made: nothing below moves.
 void beside(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wishes& wishes) {
     const BesideFacts& other = facts.beside;
     button(Action::beside, wishes, contentWidth(), other.isOn,
            other.isMaking ? "Compare: preparing ..." : nullptr);
-    if (!other.isOn) return;
+    wrapped("Left: the scene as it plays. Right: the same scene with the same input, by", quiet());
+    ImGui::BeginDisabled(!other.isOn);
     shapeKnobs(scene, other.knobs, typed, wishes);
-    if (other.names[1].empty()) return;
-    const Curve left = sumOfPhases(facts.phases), right = sumOfPhases(other.phases);
-    lineOf(other.names[0], 0, left, facts.strainRms, facts.strainMax);
-    lineOf(other.names[1], 1, right, other.strainRms, other.strainMax);
-    if (left.count() > 0) bothPlot(left, right, "%.3g ms", 1);
-    if (other.strainRms.count() > 0) bothPlot(facts.strainRms, other.strainRms, "%.3g %% strain", 100);
+    ImGui::EndDisabled();
+    const Curve none, left = other.isOn ? sumOfPhases(facts.phases) : none, right = sumOfPhases(other.phases);
+    lineOf(nameOf(other, 0), 0, left, other.isOn ? facts.strainRms : none, facts.strainMax);
+    lineOf(nameOf(other, 1), 1, right, other.strainRms, other.strainMax);
+    bothPlot(left, right, "%.3g ms a step", 1);
+    bothPlot(other.isOn ? facts.strainRms : none, other.strainRms, "%.3g %% strain", 100);
+}
+
+void halves(const Facts& facts, float scale, std::uint32_t width) {
+    if (facts.beside.names[1].empty()) return;
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+        const float middle = (side == 0 ? 0.25f : 0.75f) * static_cast<float>(width);
+        ImGui::SetNextWindowPos({middle, 12 * scale}, ImGuiCond_Always, {0.5f, 0});
+        ImGui::SetNextWindowBgAlpha(0.85f);
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10 * scale, 6 * scale});
+        ImGui::Begin(sides[side], nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav |
+                         ImGuiWindowFlags_NoInputs);
+        ImGui::TextUnformatted(nameOf(facts.beside, side).c_str());
+        ImGui::End();
+        ImGui::PopStyleVar();
+    }
 }
 
 } // namespace sinew::viewer::parts

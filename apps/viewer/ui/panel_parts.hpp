@@ -95,6 +95,9 @@ std::string stepText(const Facts& facts);
 void counts(const SceneFacts& scene, const Facts& facts);
 void program(const SceneFacts& scene);
 
+/// While two simulations are compared, writes over each half what plays there; both are `width` pixels wide.
+void halves(const Facts& facts, float scale, std::uint32_t width);
+
 /// Draws a small window beside the pointer; `free` pixels from the left are not covered by the panel.
 void probe(const Facts& facts, float scale, float free);
 

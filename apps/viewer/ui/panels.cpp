@@ -23,17 +23,6 @@ constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200, r
 constexpr int mostPicturesUnfocused = 20;             // that a text field may wait for keys
 constexpr float roomBeside = 2.6f; // in panels: least width of a picture that shows panels at first
 
-// The folder of the file that was opened last.
-std::filesystem::path startFolder(const Facts& facts) {
-    std::error_code error;
-    if (!facts.recent.empty())
-        if (const auto folder = std::filesystem::path(facts.recent.front()).parent_path();
-            std::filesystem::is_directory(folder, error))
-            return folder;
-    const std::filesystem::path here = std::filesystem::current_path(error);
-    return error ? std::filesystem::path("/") : here;
-}
-
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
@@ -309,7 +298,10 @@ void Panels::feedKeys(const PanelInput& input) {
 
 Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInput& input, VkExtent2D extent,
                      double seconds) {
-    feed(input, extent, seconds);
+    PanelInput given = input;
+    const auto before = reveal_.take(given, 4 * scale_);
+    if (before) folds_ = before->folds;
+    feed(given, extent, seconds);
     lastExtent_ = extent;
     Wishes wishes;
     wishes.previews.emplace();
@@ -318,6 +310,7 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
         ImGui::ClearActiveID();
         if (!context_->OpenPopupStack.empty()) ImGui::ClosePopupToLevel(0, false);
     }
+    if (before) ImGui::SetNextWindowScroll({-1, before->scroll});
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
     if (toolbarWidth(extent) > 0) buildToolbar(facts, extent, wishes);
     buildHint(facts, extent, buildScaleBar(facts, extent));
@@ -325,6 +318,8 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
         buildLegend(scene, facts, extent);
     if (isAsking()) buildFiles(facts, extent, wishes);
     buildNotice(facts, extent);
+    parts::halves(facts, scale_,
+                  extent.width - (2 * sideWidth(extent) < extent.width ? sideWidth(extent) : 0));
     if (facts.recorded) buildRecording(facts, extent);
     parts::probe(facts, scale_, freeWidth(extent));
     if (isHelpShown_) parts::help(search_, scale_);
@@ -391,8 +386,11 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
         {width, 0}, {width, std::max(static_cast<float>(extent.height) - 2 * edge, 40.0f)});
     ImGui::Begin("side", nullptr, fixed | ImGuiWindowFlags_NoBackground);
     addGround();
+    const Reveal::Before before{folds_, ImGui::GetScrollY()};
     parts::device(scene, facts, wishes);
     buildSections(scene, facts, extent, wishes);
+    if (folds_ != before.folds && ImGui::GetCurrentWindow()->ScrollTarget.y < FLT_MAX)
+        reveal_.begin(before, {ImGui::GetMousePos().x, ImGui::GetMousePos().y});
     keepHeight();
     ImGui::End();
 }
@@ -436,7 +434,7 @@ void Panels::keepHeight() {
     const float height = ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y;
     const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     const bool isBelowPointer = ImGui::IsMouseHoveringRect(from, {from.x + size.x, from.y + size.y}, false);
-    if (!isBelowPointer || height > sideHeight_) sideHeight_ = height;
+    if (!(isBelowPointer || reveal_.isHeld()) || height > sideHeight_) sideHeight_ = height;
     if (height == sideHeight_) return;
     ImGui::SetCursorPosY(sideHeight_);
     ImGui::Dummy({0, 0});
@@ -561,7 +559,7 @@ void Panels::buildFiles(const Facts& facts, VkExtent2D extent, Wishes& wishes) {
     constexpr float widest = 460, highest = 520, narrowest = 240; // at a scale of 1 [pixels]
     FileField& files = fields_.files;
     if (files.browser.folder().empty() || files.wantsFolder)
-        files.browser.open(startFolder(facts), facts.recent);
+        files.browser.open(startFolder(facts.recent), facts.recent);
     files.wantsFolder = false;
     const float edge = gap * scale_, all = static_cast<float>(extent.width) - edge;
     const float beside = freeWidth(extent) - edge, right = beside >= narrowest * scale_ ? beside : all;

@@ -149,6 +149,7 @@ private:
     float scale_;
     std::optional<bool> isShown_;
     Folds folds_ = foldedAtFirst;
+    Reveal reveal_;
     bool isHelpShown_ = false;
     HelpSearch search_;
     float sideHeight_ = 0; // of what the panel at the side holds [pixels]
