@@ -71,6 +71,29 @@ TEST_F(PanelsTest, FitTheHintInThePictureInWhichItChanges) {
 }
 
 // Nothing in the panel moves under the pointer when a color map is turned on.
+// A paused scene has no next picture in which the legend would get its height.
+TEST_F(PanelsTest, FitTheLegendInThePictureInWhichItChanges) {
+    settle();
+    const auto check = [&](const char* what) {
+        picture();
+        const ImGuiWindow* legend = shownWindow("legend");
+        ASSERT_NE(legend, nullptr) << what;
+        const float height = legend->Size.y, foot = legend->Rect().Max.y;
+        settle();
+        EXPECT_EQ(shownWindow("legend")->Size.y, height) << what;
+        EXPECT_EQ(shownWindow("legend")->Rect().Max.y, foot) << what;
+    };
+    facts.legends[0] = {{LegendLine::Kind::row, "contacts", "12"}, {.name = "a line of text"}};
+    check("two lines");
+    const float two = shownWindow("legend")->Size.y;
+    facts.legends[0].resize(9, {LegendLine::Kind::row, "contacts", "12"});
+    check("nine lines");
+    EXPECT_GT(shownWindow("legend")->Size.y, two + 60);
+    facts.legends[0].resize(1);
+    check("one line");
+    EXPECT_LT(shownWindow("legend")->Size.y, two - 10);
+}
+
 TEST_F(PanelsTest, ShowLegendsOverTheHintInAWidePicture) {
     const auto height = [&](VkExtent2D extent) {
         settle(extent);

@@ -57,7 +57,9 @@ bool LayerView::tend() {
 }
 
 void LayerView::prepare(bool isCounting) {
-    drawn_ = layerLoader_.ready({player_.session.layers(), isCounting});
+    const WantedLayers before =
+        std::exchange(drawn_, layerLoader_.ready({player_.session.layers(), isCounting}));
+    if (drawn_.layers != before.layers) hasNewLegend_ = true;
 }
 
 Overlay LayerView::record(const Presenter::Frame& frame) {
@@ -85,15 +87,20 @@ void LayerView::settle(std::uint32_t slot) {
         const auto isStill = [&](const Layers& layers) { return layers.looks[i] == pending.looks[i]; };
         if (pending.looks[i] == 0 || !layerTable()[i]->make) continue;
         if (!isStill(drawn_.layers) || !isStill(player_.session.layers())) continue;
+        const std::size_t lines = readings_[i].legend.size();
         readings_[i] = layerLoader_.inspection().reading(i, slot);
+        if (readings_[i].legend.size() != lines) hasNewLegend_ = true;
         if (layerTable()[i] == &layer::colors) mapRange_.read(readings_[i].values);
     }
-    if (ranges() != before) player_.redraw();
+    if (ranges() == before) return;
+    hasNewLegend_ = true;
+    player_.redraw();
 }
 
 void LayerView::restart() {
     layerLoader_.forget();
     drawn_ = {};
+    hasNewLegend_ = true;
     for (auto& reading : readings_) reading.legend.clear(); // of the simulation before
 }
 

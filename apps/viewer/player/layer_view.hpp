@@ -4,6 +4,8 @@
 #include "viewer/jobs/layer_loader.hpp"
 #include "viewer/player/player_context.hpp"
 
+#include <utility>
+
 namespace sinew::viewer {
 
 /// Main thread only.
@@ -36,6 +38,8 @@ public:
     void restart();
 
     void addTo(Facts& facts) const;
+    /// Whether the legend has other colors or lines than at the last call: panels that show it are due.
+    bool takeNewLegend() { return std::exchange(hasNewLegend_, false); }
 
 private:
     void actOnSection(Action action);
@@ -45,6 +49,7 @@ private:
     LayerLoader& layerLoader_;
     WantedLayers drawn_;
     MapRange mapRange_;
+    bool hasNewLegend_ = false;
     std::array<LayerReading, mostLayers> readings_; // of the newest picture with each layer
     std::array<Layers, Presenter::framesInFlight> pending_;
 };

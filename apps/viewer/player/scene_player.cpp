@@ -380,7 +380,8 @@ void ScenePlayer::drawPicture(const Presenter::Frame& frame, const Overlay& over
     capture_.recordPicture(frame, overlay);
     times_.begin(frame, PictureTimes::Part::panels);
     const auto reduced = isReduced ? std::optional(PictureBudget::scales[scale]) : std::nullopt;
-    wishes_ = session_.drawPanels(frame, prepared_.facts, facts(reduced), arePanelsDue_);
+    const bool areDue = layers_.takeNewLegend() || arePanelsDue_; // it must fit the colors of this picture
+    wishes_ = session_.drawPanels(frame, prepared_.facts, facts(reduced), areDue);
     if (!wishes_.isEmpty()) panelsDue_ = picturesOfATouch;
     times_.end(frame, PictureTimes::Part::panels);
 }

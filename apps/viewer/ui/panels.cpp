@@ -525,13 +525,19 @@ bool Panels::isLegendApart(VkExtent2D extent) const {
 void Panels::buildLegend(const SceneFacts& scene, const Facts& facts, VkExtent2D extent) {
     const float edge = gap * scale_, hint = ImGui::GetTextLineHeight() + 12 * scale_;
     const float foot = static_cast<float>(extent.height) - 1.5f * edge - hint, tools = toolbarWidth(extent);
-    ImGui::SetNextWindowPos({edge + (tools > 0 ? tools + edge : 0), foot}, ImGuiCond_Always, {0, 1});
-    ImGui::SetNextWindowSize({legendWidth * scale_, 0});
-    ImGui::SetNextWindowSizeConstraints({0, 0}, {legendWidth * scale_, std::max(foot - 5 * edge, 40.0f)});
-    ImGui::SetNextWindowBgAlpha(0.85f);
-    ImGui::Begin("legend", nullptr, fixed);
-    parts::legend(scene, facts);
-    ImGui::End();
+    const float most = std::max(foot - 5 * edge, 40.0f);
+    for (const bool isMeasured : {false, true}) { // Dear ImGui fits a window one picture later
+        ImGui::SetNextWindowPos({edge + (tools > 0 ? tools + edge : 0), foot}, ImGuiCond_Always, {0, 1});
+        ImGui::SetNextWindowSize({legendWidth * scale_, isMeasured ? std::min(legendHeight_, most) : most});
+        ImGui::SetNextWindowBgAlpha(0.85f);
+        ImGui::Begin(isMeasured ? "legend" : "measured legend", nullptr, fixed);
+        if (!isMeasured) ImGui::GetCurrentWindow()->Hidden = true;
+        parts::legend(scene, facts);
+        const ImGuiStyle& style = ImGui::GetStyle();
+        legendHeight_ =
+            ImGui::GetCursorPosY() + ImGui::GetScrollY() - style.ItemSpacing.y + style.WindowPadding.y;
+        ImGui::End();
+    }
 }
 
 void Panels::buildNotice(const Facts& facts, VkExtent2D extent) {

@@ -152,7 +152,8 @@ private:
     Reveal reveal_;
     bool isHelpShown_ = false;
     HelpSearch search_;
-    float sideHeight_ = 0; // of what the panel at the side holds [pixels]
+    float sideHeight_ = 0;   // of what the panel at the side holds [pixels]
+    float legendHeight_ = 0; // [pixels]
     SceneFields fields_;
     std::function<std::string()> paste_;
     std::string pasted_;
