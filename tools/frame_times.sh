@@ -19,10 +19,12 @@ table() { # NAME PANELS
     local before
     before=$(said)
     keys F7
-    for _ in {1..300}; do (($(said) > before)) && break; sleep 0.1; done
+    hasTable() { (($(said) > before)); }
+    await 30 hasTable
     echo "$1, $2"
     tac viewer.out | sed '/^frame times/q' | tac | grep -v '^input waited'
 }
+# Every sleep from here on is real time of playing, which the tables are about.
 anew() { # resets the scene; later tables exclude earlier pictures
     keys r
     sleep 3

@@ -16,8 +16,8 @@ xdotool windowmove "$window" 0 0
 keys space
 awaitTitle paused
 keys r
-for _ in {1..45}; do keys period; sleep 0.1; done
-sleep 5 # until messages have vanished and the still picture is drawn in full quality
+xdotool key --window "$window" --repeat 45 period
+sleep 5 # real time: a message stays for four seconds
 awaitStill window.png
 convert window.png +dither -colors 250 -define png:compression-level=9 PNG8:"$file"
 keys ctrl+q

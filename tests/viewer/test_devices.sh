@@ -15,18 +15,21 @@ export VK_ICD_FILENAMES=$driver:$folder/other.json
 
 headlines() { grep -c ' on .* (software)$' viewer.out || true; }
 listFrom() { xdotool mousemove 700 44 click 1; } # opens the list of devices, at the top of the panel
-choose() { # ENTRY COMMAND: repeats the click until COMMAND succeeds, because on a busy machine a click may precede the list
+below() { shoot list.png && convert list.png -crop 220x60+640+66 +repage "$1"; } # where the list opens
+isListed() { below listed.png && ! same unlisted.png listed.png; }
+choose() { # ENTRY COMMAND: repeats the click until COMMAND succeeds, because a busy machine may miss one
     local place=$((80 + 38 * $1))
     shift
     for _ in {1..12}; do
+        below unlisted.png
         listFrom
-        sleep 2
-        shoot list.png
+        within 20 isListed || continue
         xdotool mousemove 700 $place click 1
-        for _ in {1..60}; do "$@" && return; sleep 0.1; done
+        within 6 "$@" && return
     done
     fail "the choice never came to anything: $*"
 }
+stepFive() { xdotool key --window "$window" --repeat 5 period; }
 hasHeadlines() { (($(headlines) >= $1)); }
 
 awaitBody() { # FILE: the part beside the panel and below messages, of a picture that no longer changes, without a tooltip
@@ -48,14 +51,14 @@ xdotool windowmove "$window" 0 0
 cutDown 290 100 600
 keys c space
 awaitTitle paused
-for _ in {1..5}; do keys period; done
+stepFive
 awaitBody before.png
 choose 1 hasHeadlines 2
 expectTheSame there.png "the other device"
 [[ ! -s viewer.err ]] || fail "something was said on stderr"
 choose 0 hasHeadlines 3
 awaitTitle paused
-for _ in {1..5}; do keys period; done
+stepFive
 awaitBody moved.png
 same before.png moved.png && fail "nothing moves on the device that took over"
 mv moved.png before.png
@@ -65,21 +68,23 @@ xdotool mousemove 854 263 click 1     # the "+" beside the substeps: one more
 await 60 says ' with 17 substeps, on ' # a busy machine takes long
 grep -q ' with 17 substeps, on ' viewer.out || fail "the number of substeps was not turned"
 expectTheSame substeps.png "the simulation with more substeps"
-for _ in {1..5}; do keys period; done
+stepFive
 awaitStill stepped.png
 
 echo "devices: what was cut before all that is undone, and done again"
+leads() { [[ $way == ctrl+z && $(title) != *pieces* || $way == ctrl+shift+z && $(title) == *pieces* ]]; }
 for way in ctrl+z ctrl+shift+z ctrl+z; do
     keys $way
+    awaitIdle
     for _ in {1..100}; do
-        [[ $way == ctrl+z && $(title) != *pieces* || $way == ctrl+shift+z && $(title) == *pieces* ]] && break
+        leads && break
         keys period # the title changes with the next step
-        sleep 0.3
+        awaitIdle
     done
-    [[ $way == ctrl+z && $(title) != *pieces* || $way == ctrl+shift+z && $(title) == *pieces* ]] || fail "$way leads nowhere"
+    leads || fail "$way leads nowhere"
 done
 keys F8
-await 10 says '^input: '
+await 60 says '^input: '
 hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
 grep -q '^solve split 16$' block-*.input || fail "the input does not say where another device took over"
 grep -q '^solve split 17$' block-*.input || fail "the input does not say where the substeps changed"

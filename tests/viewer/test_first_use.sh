@@ -45,11 +45,15 @@ reds() { # FILE: number of pixels of the red body; color maps have none
     convert "$1" -colorspace sRGB -fx 'r > 1.5*g && r > 0.3 ? 1 : 0' -format '%[fx:round(mean*w*h)]' info:
 }
 echo "first use: more room for contacts, while the window goes on"
-for _ in {1..150}; do
-    sleep 0.7
+inputs() { grep -c '^input: ' viewer.out || true; }
+isSaved() { (($(inputs) > before)); }
+for _ in {1..600}; do
+    before=$(inputs)
     keys F8
-    room=$(cat crowd-*.input 2>/dev/null | sed -n 's/^room //p' | sort -n | tail -n 1 || true)
+    await 60 isSaved
+    room=$(cat crowd-*.input | sed -n 's/^room //p' | sort -n | tail -n 1)
     ((${room:-1} > 1)) && break
+    sleep 0.1
 done
 ((room > 1)) || fail "there is no more room for contacts"
 keys space
@@ -58,12 +62,8 @@ shoot bare.png
 (($(reds bare.png) > 100)) || fail "no body is seen"
 echo "first use: every layer and the section"
 keys l 1 2 3 4 5 m i # the first group is made, then the things requested meanwhile
-for _ in {1..600}; do
-    shoot layers.png
-    (($(reds layers.png) < 20)) && break
-    sleep 0.3
-done
-(($(reds layers.png) < 20)) || fail "bodies do not get the colors of the map"
+areMapped() { awaitStill layers.png && (($(reds layers.png) < 20)); }
+within 180 areMapped || fail "bodies do not get the colors of the map"
 echo "first use: a picture, a film"
 keys F12
 await 60 says '^picture: '
@@ -77,14 +77,8 @@ keys F9
 await 60 says '^[1-9][0-9]* pictures\? in '
 echo "first use: another solver beside"
 line() { convert "$1" -crop 2x160+159+0 +repage -colorspace sRGB -format '%[fx:mean < 0.1 ? 1 : 0]' info:; } # dark line between the halves
-awaitHalves() { # WHY
-    for _ in {1..300}; do
-        shoot halves.png
-        [[ $(line halves.png) == 1 ]] && return
-        sleep 0.3
-    done
-    fail "$1"
-}
+areHalves() { shoot halves.png && [[ $(line halves.png) == 1 ]]; }
+awaitHalves() { pause=3 within 90 areHalves || fail "$1"; } # WHY
 [[ $(line layers.png) == 0 ]] || fail "there are halves before B"
 keys b
 awaitHalves "B compares nothing where gauss_seidel cannot play the scene"
@@ -104,7 +98,7 @@ quit
 awaitEnd 0
 
 echo "first use: another solver beside the first, in halves"
-sed -e '/cuttable/d' -e '/collides/d' crowd.toml >loose.toml
+sed -e '/cuttable/d' -e '/collides/d' -e s/crowd/loose/ crowd.toml >loose.toml
 scene=loose.toml
 start --beside jacobi
 xdotool windowmove "$window" 0 0
@@ -116,12 +110,8 @@ await 60 says '^picture: ' # of halves
 grep -qv '^warning: beside: .* softer than asked' viewer.err && fail "a picture of halves: $(cat viewer.err)"
 : >viewer.err
 keys b
-for _ in {1..100}; do
-    shoot whole.png
-    [[ $(line whole.png) == 0 ]] && break
-    sleep 0.3
-done
-[[ $(line whole.png) == 0 ]] || fail "B does not end it"
+isWhole() { shoot whole.png && [[ $(line whole.png) == 0 ]]; }
+pause=3 within 30 isWhole || fail "B does not end it"
 quit
 awaitEnd 0
 (($(grep -c 'pipelines made while keys waited: 0$' viewer.out) == 1)) || fail "the window's thread made pipelines: $(grep pipelines viewer.out)"
@@ -132,8 +122,7 @@ start
 keys b
 awaitHalves "B shows no halves"
 keys Prior
-awaitTitle crowd
-sleep 2 # until the picture is that of the scene
+awaitTitle 'crowd.*fps' # the picture is that of the scene
 awaitHalves "the comparison ends with the scene: $(cat viewer.err)"
 grep -q "Can't compare" viewer.err && fail "another default was not tried: $(cat viewer.err)"
 : >viewer.err

@@ -32,22 +32,22 @@ start
 xdotool windowmove "$window" 0 0
 keys r
 xdotool mousemove 500 330 mousedown 3
-for _ in {1..20}; do xdotool mousemove_relative -- 4 1; sleep 0.05; done
+glide 20 4 1
 xdotool mouseup 3
 keys c
 xdotool mousemove 320 60 mousedown 1
-for _ in {1..40}; do xdotool mousemove_relative -- 0 8; sleep 0.05; done
+glide 40 0 8
 xdotool mouseup 1
 awaitTitle pieces
 keys Tab
-sleep 3
+awaitWork "$running" 100 # pictures with panels
 keys F7
-await 10 says '^frame times'
+await 60 says '^frame times'
 cp viewer.out first.out
 agree first.out "frame [ms]" "frame in a cut [ms]" "thread of the window" "step, on the device" "drawing, on the device" \
     "panels, on the device" "input to picture, at most" "input to picture [pictures"
 frames() { awk '$1 " " $2 == "frame [ms]" { n = $(NF - 3) } END { print n }' "$1"; }
-sleep 1
+awaitWork "$running" 50 # pictures of the second table
 quit
 awaitEnd 0
 (($(grep -c '^frame times' viewer.out) == 2)) || fail "there is no table at the end"

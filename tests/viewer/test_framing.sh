@@ -34,7 +34,7 @@ expectInside() { # FILE FREE WHAT: the body is whole, in the middle of the free 
 resize() { # WIDTH HEIGHT
     extent=$1x$2
     xdotool windowsize "$window" "$1" "$2"
-    await 20 hasSize "$extent"
+    await 60 hasSize "$extent"
 }
 panel=320 # width of the panels with their margins
 
@@ -45,7 +45,7 @@ for _ in {1..600}; do
     now=$(title)
     shoot text.png
     [[ $(convert text.png -format '%[fx:mean > 0.1 ? 1 : 0]' info:) == 1 ]] && break
-    sleep 0.05
+    sleep 0.05 # the text stands for a moment
 done
 [[ $now == *preparing* ]] || fail "the window is black until the first picture: $now"
 colors=$(convert text.png -format %k info:)
@@ -66,7 +66,7 @@ echo "framing: a pin stands under the pointer"
 read -r left top right bottom <<<"$(boxOf small.png $((800 - panel)))"
 x=$(((left + right) / 2)) y=$(((top + bottom) / 2))
 xdotool mousemove $x $y
-sleep 0.3
+awaitIdle
 keys n
 awaitOther small.png pinned.png "N pins nothing"
 pins() { # the place of the blue pixels beside the toolbar, whose lit tool is blue, too
@@ -93,7 +93,7 @@ expectInside beside.png $((960 - panel)) "beside the panels again"
 
 echo "framing: a view that a person has chosen stays, except for the shift"
 xdotool mousemove 300 560 mousedown 3 # orbits
-for _ in {1..5}; do xdotool mousemove_relative -- 10 2; sleep 0.05; done
+glide 5 10 2
 xdotool mouseup 3
 awaitStill orbited.png
 read -r left top right bottom <<<"$(boxOf orbited.png $((960 - panel)))"

@@ -4,6 +4,7 @@
 set -euo pipefail
 viewer=$1 scene=$2 folder=$3
 here=$(cd "$(dirname "$0")" && pwd)
+. "$here/waits.sh"
 . "$here/signals.sh"
 unset DISPLAY WAYLAND_DISPLAY
 rm -rf "$folder"
@@ -90,26 +91,28 @@ expect 3 --headless --replay no.input
 [[ ! -e x ]] || [[ -z $(ls x) ]] || fail "a failed run left pictures"
 
 "$viewer" "$scene" --headless --frames 1000000 --every 5 --size 64x64 --out interrupted >out 2>err &
-for _ in {1..100}; do [[ -e interrupted/frame_0005.png ]] && break; sleep 0.1; done
+await 60 test -e interrupted/frame_0005.png
 kill -INT $!
 code=0
 wait $! || code=$?
 [[ $code == 130 ]] || fail "interrupted: exit code $code, expected 130"
 # A signal during the loading of a scene, or in a step of several seconds, ends the viewer within 2 s (longer
 # on a busy machine).
-endsSoon() { # SIGNAL SECONDS ARGUMENTS...: sends the signal that long after the start
-    local signal=$1 after=$2
-    shift 2
+endsSoon() { # SIGNAL FILE TICKS ARGUMENTS...: sends the signal when it has worked so long [1/100 s] after it wrote the file
+    local signal=$1 file=$2 ticks=$3
+    shift 3
     "$viewer" "$@" >out 2>err &
-    sleep "$after"
+    await 60 test -e "$file"
+    awaitWork $! "$ticks"
     endsWithin 4 "$signal" $!
 }
 printf '[[mesh]]\ngenerate = "organ"\ndetail = 256\nsize = 0.4\nresolution = 120\ncuttable = true\n' >large.toml
 printf '[solver]\nsubsteps = 1000\n[[box]]\nparticles = [40, 40, 40]\nspacing = 0.02\ncenter = [0, 1, 0]\nyoung_modulus = 1e5\n[[plane]]\n' >slow.toml
 for signal in INT TERM; do
-    endsSoon $signal 0.5 large.toml --headless --frames 10 --size 64x64 --out loading
+    endsSoon $signal . 30 large.toml --headless --frames 10 --size 64x64 --out loading
     [[ ! -e loading/frame_0000.png ]] || fail "the scene was loaded before the signal came"
-    endsSoon $signal 4 slow.toml --headless --frames 1000 --size 64x64 --out slow
+    rm -rf slow
+    endsSoon $signal slow/frame_0000.png 100 slow.toml --headless --frames 1000 --size 64x64 --out slow # in the first step
 done
 
 # Replaces ffmpeg: its last argument is the file.
@@ -119,7 +122,7 @@ chmod +x bin/ffmpeg
 for signal in INT TERM HUP; do
     # HUP may be ignored, because nohup may run the tests.
     PATH=$folder/bin:$PATH env --default-signal=HUP "$viewer" "$scene" --headless --frames 1000000 --size 64x64 --video film.mp4 >out 2>err &
-    for _ in {1..200}; do [[ -n $(find . -name 'film.mp4*.part' -size +16k) ]] && break; sleep 0.1; done
+    await 60 isFilming 16k
     [[ ! -e film.mp4 ]] || fail "a film that is not finished has its name already"
     kill -$signal $!
     code=0
@@ -131,8 +134,8 @@ for signal in INT TERM HUP; do
 done
 # Repeats this in a step that lasts longer than the viewer may run after the signal.
 PATH=$folder/bin:$PATH "$viewer" slow.toml --headless --frames 1000 --size 64x64 --video film.mp4 >out 2>err &
-for _ in {1..400}; do [[ -n $(find . -name 'film.mp4*.part' -size +15k) ]] && break; sleep 0.1; done
-sleep 1
+await 60 isFilming 15k
+awaitWork $! 100 # in the next step
 kill -INT $!
 code=0
 wait $! || code=$?

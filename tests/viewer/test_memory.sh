@@ -12,13 +12,13 @@ scene=$folder/one.toml
 start
 
 shown() { grep -c ' particles, ' viewer.out || true; }
-change() { # switches to the previous scene of the folder and plays it for half a second
+change() { # switches to the previous scene of the folder and plays some of it
     local before
     before=$(shown)
     keys Prior
-    for _ in {1..600}; do (($(shown) > before)) && break; sleep 0.1; done
-    (($(shown) > before)) || fail "the next scene never came"
-    sleep 0.5
+    isNext() { (($(shown) > before)); }
+    within 60 isNext || fail "the next scene never came"
+    awaitWork "$running" 50
 }
 resident() { awk '/^VmRSS/ {print $2}' "/proc/$running/status"; } # in kB
 least() { # smallest size after each of three switches

@@ -39,6 +39,7 @@ place() { # a point in the window or slightly outside
     roll 660
     event+=(mousemove "$x" "$rolled")
 }
+# Sleeps between events are real time: they spread the events over pictures.
 drag() { # BUTTON
     place
     event+=(mousedown "$1")

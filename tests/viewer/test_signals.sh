@@ -48,7 +48,7 @@ for signal in INT TERM; do
     echo "signals: SIG$signal in a step that takes seconds"
     launch "$viewer" slow.toml "${options[@]}" --size $extent
     awaitWindow '^Sinew.*particles'
-    sleep 3 # a step is running
+    awaitWork "$running" 100 # a step is running
     endsSoon $signal
 done
 

@@ -11,7 +11,7 @@ extent=640x400
 
 drag() { # BUTTON DX DY
     xdotool mousemove 300 200 mousedown "$1"
-    for _ in {1..5}; do xdotool mousemove_relative -- "$2" "$3"; sleep 0.05; done
+    glide 5 "$2" "$3"
     xdotool mouseup "$1"
 }
 echo "window: orbit, pan, zoom, pause"
@@ -33,18 +33,19 @@ colors=$(convert orbited.png -format %k info:)
 echo "window: frame, step, reset, screenshot, vsync, help, panels"
 keys Home
 awaitOther moved.png framed.png "F changed nothing"
-for _ in {1..20}; do keys period; done
+xdotool key --window "$window" --repeat 20 period
 awaitOther framed.png stepped.png "twenty steps changed nothing"
 keys r
 awaitOther stepped.png reset.png "R changed nothing"
 keys F12
-await 10 says '^picture: '
-for _ in {1..4}; do keys F12; sleep 0.1; done # pictures of one step, some while others are being written
-for _ in {1..100}; do
-    sleep 0.3
+await 60 says '^picture: '
+xdotool key --window "$window" --delay 100 --repeat 4 F12 # pictures of one step, some while others are being written
+areWritten() {
     pictures=$(find . -name 'block-000000*.png' | wc -l)
-    ((pictures > 1 && pictures == $(grep -c '^picture: ' viewer.out))) && break
-done
+    ((pictures > 1 && pictures == $(grep -c '^picture: ' viewer.out)))
+}
+awaitIdle
+within 30 areWritten || true
 [[ $(sort -u <<<"$(grep '^picture: ' viewer.out)" | wc -l) == "$pictures" ]] || fail "two pictures have one name: $(cat viewer.out)"
 ((pictures > 1)) || fail "there is no second picture of a step"
 [[ $(identify -format '%wx%h' block-000000.png) == 640x400 ]] || fail "F12 wrote no picture of the window's size"
@@ -109,7 +110,7 @@ rows() { # FILE
 awaitRest() {
     for _ in {1..120}; do
         shoot one.png
-        sleep 1
+        sleep 1 # real time of playing: at rest is what does not move in it
         shoot two.png
         [[ $(rows one.png) == "$(rows two.png)" ]] && return
     done
@@ -131,28 +132,27 @@ awaitTitle fps
 read -r top height < <(rows before.png)
 ((height > 20)) || fail "the block is not seen: $height rows"
 awaitTop() { # FILE TEST ROW: waits until the block's top is there
-    for _ in {1..100}; do
+    isThere() {
         shoot "$1"
         read -r now height < <(rows "$1")
-        test "$now" "$2" "$3" && return
-        sleep 0.3
-    done
-    fail "the top of the block is at $now, not $2 $3"
+        test "$now" "$2" "$3"
+    }
+    pause=3 within 30 isThere "$@" || fail "the top of the block is at $now, not $2 $3"
 }
 xdotool mousemove 320 $((top + height / 2)) mousedown 1
 awaitTitle holding
-for _ in {1..12}; do xdotool mousemove_relative -- 0 -8; sleep 0.1; done
+glide 12 0 -8
 awaitTop held.png -lt $((top - 30))
 lifted=$now
 for _ in {1..20}; do # a slow window shows it on its way up
-    sleep 0.5
+    sleep 0.5 # real time of playing
     shoot held.png
     read -r now height < <(rows held.png)
     ((now < lifted)) || break
     lifted=$now
 done
 xdotool mouseup 1
-await 10 lacksTitle holding
+await 60 lacksTitle holding
 [[ $(title) != *holding* ]] || fail "the block was not let go"
 awaitTop dropped.png -gt $((lifted + 20)) # at any place
 keys space
@@ -169,7 +169,7 @@ read -r now height < <(rows two.png)
 xdotool keydown ctrl mousemove 100 100 mousemove 110 100
 awaitTitle blade
 xdotool keyup ctrl
-await 10 lacksTitle blade
+await 60 lacksTitle blade
 [[ $(title) != *blade* ]] || fail "the blade stays when Ctrl is let go"
 keys c
 awaitTitle blade
@@ -177,37 +177,28 @@ strokes=0
 stroke() {
     strokes=$((strokes + 1))
     xdotool mousemove 320 $((now - 25)) mousedown 1
-    for ((way = 0; way < height + 60; way += 8)); do xdotool mousemove_relative -- 0 8; sleep 0.05; done
+    glide $(((height + 67) / 8)) 0 8
     xdotool mouseup 1
 }
 stroke
-for _ in {1..300}; do hasTitle pieces && break; sleep 0.1; done
-hasTitle pieces || stroke # if the slow window saw only an end of the first stroke
+within 30 hasTitle pieces || stroke # if the slow window saw only an end of the first stroke
 awaitTitle 'pieces'
 keys c # back to the grab tool
 shoot cut.png
 xdotool mousemove 345 $((now + height / 2)) mousedown 1
 awaitTitle holding
-for _ in {1..20}; do xdotool mousemove_relative -- 8 -3; sleep 0.05; done
-for _ in {1..100}; do
-    shoot parted.png
-    (($(inside parted.png) > 200)) && break
-    sleep 0.3
-done
-(($(inside parted.png) > 200)) || fail "the inside is not seen: $(inside parted.png) pixels of it"
+glide 20 8 -3
+isParted() { shoot parted.png && (($(inside parted.png) > 200)); }
+pause=3 within 30 isParted || fail "the inside is not seen: $(inside parted.png) pixels of it"
 xdotool mouseup 1
 keys space
 awaitTitle paused
-for ((undo = 1; undo < strokes; ++undo)); do keys ctrl+z; sleep 1; done # nothing tells that a stroke beside is undone
+for ((undo = 1; undo < strokes; ++undo)); do keys ctrl+z; awaitIdle; done # of a stroke beside
 keys ctrl+z
-await 10 lacksTitle pieces # at once: no step follows
-for _ in {1..100}; do # the title changes before the picture
-    shoot undone.png
-    (($(inside undone.png) < 50)) && break
-    sleep 0.3
-done
+await 60 lacksTitle pieces # at once: no step follows
+awaitStill undone.png # the title changes before the picture
 (($(inside undone.png) < 50)) || fail "the inside is still seen: $(inside undone.png) pixels of it"
-for ((redo = 1; redo < strokes; ++redo)); do keys ctrl+shift+z; sleep 1; done
+for ((redo = 1; redo < strokes; ++redo)); do keys ctrl+shift+z; awaitIdle; done
 keys ctrl+shift+z
 awaitTitle 'pieces.*paused'
 keys space
@@ -217,19 +208,19 @@ hasFile() { compgen -G "$1" >/dev/null; }
 saveInput() { # as the only log in the folder
     rm -f block-*.input
     keys F8
-    await 10 hasFile 'block-*.input'
+    await 60 hasFile 'block-*.input'
 }
 areTurned() {
     saveInput
     grep -q '^material 2 1 0\.6' block-*.input && grep -q '^gravity 9\.5' block-*.input
 }
-await 20 areTurned
+await 60 areTurned
 keys space
 awaitTitle paused
 
 echo "window: what hands did leads to the same state without a window"
 saveInput
-await 10 says "^input: $(echo block-*.input),"
+await 60 says "^input: $(echo block-*.input),"
 hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out | tail -n 1)
 [[ -n $hash ]] || fail "F8 saved no input"
 grep -q '^material 2 1 0\.6' block-*.input && grep -q '^gravity 9\.5' block-*.input || fail "keys turned no knobs: $(grep '^material\|^gravity' block-*.input)"
@@ -243,9 +234,9 @@ grep -q " after $more steps$" replay.out || fail "nothing is said of the steps a
 echo "window: a state that is saved goes on in another run, cut and seen as it was"
 find . -name 'block-*.png' -delete
 keys F12
-await 10 hasFile 'block-*.png'
+await 60 hasFile 'block-*.png'
 keys ctrl+s
-await 10 says '^state: '
+await 60 says '^state: '
 grep -q '^state: block-[0-9]*\.state$' viewer.out || fail "Ctrl + S saved no state"
 for run in first second; do
     "$viewer" block-*.state --headless --frames 9 --picture-frames 0 --size 640x400 --out "$run" >"$run.out" 2>"$run.err" ||
@@ -264,16 +255,16 @@ keys space
 awaitTitle fps
 for size in "200 300" "700 120" "1 1" "640 480" "33 500" "900 650" "123 77" "640 400"; do
     xdotool windowsize "$window" $size
-    sleep 0.15
+    sleep 0.15 # the pace of a hand: some sizes are drawn, others are not
 done
 for size in {1..30}; do xdotool windowsize "$window" $((300 + 11 * size)) $((400 - 7 * size)); done
-xdotool windowunmap "$window"
-sleep 0.5
+xdotool windowunmap --sync "$window"
+awaitIdle # nothing is drawn while it is hidden
 xdotool windowmap "$window"
 keys F11
-await 10 hasSize "$screen"
+await 60 hasSize "$screen"
 keys F11
-await 10 lacksSize "$screen"
+await 60 lacksSize "$screen"
 awaitTitle fps
 quit
 awaitEnd 0
@@ -285,13 +276,13 @@ awaitTitle 'pieces'
 
 echo "window: what hands did since a state was loaded leads there again, in the window and without"
 xdotool mousemove 320 $((now + height / 2)) mousedown 1
-for _ in {1..10}; do xdotool mousemove_relative -- 4 -6; sleep 0.1; done
+glide 10 4 -6
 xdotool mouseup 1
 keys space
 awaitTitle paused
 rm block-*.input
 keys F8
-await 10 says '^input: '
+await 60 says '^input: '
 hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
 [[ -n $hash ]] || fail "F8 saved no input of a state"
 log=$(echo block-*.input)
@@ -301,19 +292,16 @@ awaitEnd 0
 "$viewer" --headless --replay "$log" >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
 grep -q "^$hash, as recorded$" replay.out || fail "from a state the replay came to $(cat replay.out), not to $hash"
 scene=
-played() { # TIMES
-    for _ in {1..600}; do (($(grep -c "^$hash, as recorded$" viewer.out) >= $1)) && return; sleep 0.1; done
-    fail "the replay in the window did not come to $hash"
-}
+played() { within 60 says "^$hash, as recorded$" || fail "the replay in the window did not come to $hash"; }
 start --replay "$log"
-played 1
+played
 quit
 awaitEnd 0
 start --replay "$log"
 keys r # starts it again
 beginsAgain() { (($(grep -c ' particles, ' viewer.out) >= 2)); }
 await 30 beginsAgain
-played 1
+played
 quit
 awaitEnd 0
 cp "$state" kept.state
@@ -333,7 +321,7 @@ scene=$state
 start
 awaitTitle 'pieces'
 keys r
-await 10 lacksTitle pieces
+await 60 lacksTitle pieces
 [[ $(title) != *pieces* ]] || fail "a reset does not lead from a state to the start of its scene"
 quit
 awaitEnd 0
@@ -351,11 +339,11 @@ awaitTitle 'other'
 keys space
 awaitTitle paused
 keys Prior
-await 20 test -s viewer.err
+await 60 test -s viewer.err
 [[ $(cat viewer.err) == "warning: cannot read scene: "*broken.toml* ]] || fail "a scene that is none was not refused in a line"
 [[ $(title) == *other*paused* ]] || fail "a scene that is none took the place of one"
 keys F9
-await 20 says '^recording other-'
+await 60 says '^recording other-'
 awaitStill filmed.png
 for step in {1..4}; do # one after the other, because a busy machine is slow to draw a whole picture
     mv filmed.png unfilmed.png
@@ -363,7 +351,7 @@ for step in {1..4}; do # one after the other, because a busy machine is slow to 
     awaitOther unfilmed.png filmed.png "step $step of the film changes nothing"
 done
 keys F9
-await 20 says '^4 pictures in other-'
+await 60 says '^4 pictures in other-'
 grep -q '^4 pictures in other-' viewer.out || fail "F9 made no film of the four steps"
 film=$(sed -n 's/^recording //p' viewer.out)
 [[ -s $film && ( ! -d $film || -s $film/frame_0003.png ) ]] || fail "the film is not there"
@@ -401,8 +389,7 @@ scene=
 start
 [[ $(title) == *other* ]] || fail "the last scene is not opened again"
 keys F9
-isFilmed() { [[ -n $(find . -name '*.mp4*.part' -size +1000k) ]]; }
-await 20 isFilmed
+await 60 isFilming 1000k
 kill -INT "$running"
 code=0
 wait "$running" || code=$?
@@ -417,7 +404,7 @@ cp bin/ffmpeg whole
 printf '#!/bin/sh\nhead -c 3000000 >/dev/null\nexit 1\n' >bin/ffmpeg
 start
 keys F9
-await 20 test -s viewer.err
+await 60 test -s viewer.err
 [[ $(cat viewer.err) == "warning: cannot write video: "*": ffmpeg has stopped: see its message above" ]] || fail "nothing was said of an encoder that ended"
 mv whole bin/ffmpeg
 keys space # it goes on without the encoder
@@ -425,9 +412,9 @@ awaitTitle paused
 keys space
 awaitTitle fps
 keys F9
-await 20 isFilmed
+await 60 isFilming 1000k
 keys F9
-await 20 says ' pictures\? in other-.*\.mp4$'
+await 60 says ' pictures\? in other-.*\.mp4$'
 grep -q ' pictures\? in other-.*\.mp4$' viewer.out || fail "there is no film after the one that failed"
 quit
 code=0
@@ -438,7 +425,7 @@ echo "window: what the command line says goes before what is remembered, and is 
 cp config/sinew/viewer.conf before.conf
 scene=scenes/block.toml
 start --panels --no-vsync --scale 1.5 --full-screen
-await 10 hasSize "$screen" # --full-screen fills it
+await 60 hasSize "$screen" # --full-screen fills it
 keys space
 awaitTitle paused
 extent=$screen awaitStill whole.png

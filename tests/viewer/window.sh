@@ -1,6 +1,7 @@
 # Sourced by tests that play in a window: starts an X server and the viewer, and queries the window's title
 # and picture. Needs `viewer`, `folder`, and `extent` of the window; `scene` may be empty, and `options`
 # precede others. Changes to the folder.
+. "$here/waits.sh"
 screen=${screen:-1000x700}
 [[ -v options ]] || options=(--validation)
 for program in Xvfb xdotool convert; do
@@ -49,15 +50,8 @@ start() {
     awaitWindow '^Sinew'
     awaitTitle fps
 }
-await() { # SECONDS COMMAND...: waits until the command succeeds
-    local tries=$((10 * $1))
-    shift
-    for ((; tries > 0; --tries)); do "$@" && return; sleep 0.1; done
-    fail "waited in vain for: $*"
-}
 says() { grep -q "$1" viewer.out; }
 hasEnded() { [[ ! -d /proc/$running ]]; }
-isFilming() { [[ -n $(find . -name '*.mp4*.part' -size "+$1") ]]; } # SIZE: more than that is written
 hasTitle() { [[ $(title) =~ $1 ]]; }
 lacksTitle() { [[ ! $(title) =~ $1 ]]; }
 title() { xdotool getwindowname "$window"; }
@@ -69,6 +63,12 @@ awaitTitle() { # PATTERN
     done
     fail "the title never showed $1: $(title)"
 }
+# Moves the pointer at the pace of a hand, which is the real time of a stroke.
+glide() { # TIMES DX DY
+    local moves=()
+    for ((move = 0; move < $1; ++move)); do moves+=(mousemove_relative -- "$2" "$3" sleep 0.05); done
+    xdotool "${moves[@]}"
+}
 keys() { xdotool key --window "$window" "$@"; }
 quit() { # quits by the key. xdotool fails if the window closes before it releases the keys, and Q would stay pressed for the next one
     keys ctrl+q 2>/dev/null || true
@@ -79,35 +79,43 @@ quit() { # quits by the key. xdotool fails if the window closes before it releas
     fail "Ctrl + Q does not end it"
 }
 # Reads the screen where the server keeps it: a busy server takes seconds to answer a program that asks for it.
-shoot() { convert "xwd:$folder/Xvfb_screen0" -crop "$extent+0+0" +repage "$1"; } # as large as the window, which is in the corner
+shoot() { convert "xwd:$folder/Xvfb_screen0" -crop "$extent+0+0" +repage -quality 10 "$1"; } # as large as the window, which is in the corner; barely compressed
 awaitMotion() { # waits until the picture changes: steps are on their way
-    shoot motion.png
-    for _ in {1..600}; do
-        sleep 0.1
-        shoot next.png
-        compare -metric AE motion.png next.png null: >/dev/null 2>&1 || return 0
-    done
-    fail "nothing moves"
+    cp Xvfb_screen0 motion
+    hasMoved() { ! cmp -s Xvfb_screen0 motion; }
+    await 60 hasMoved
 }
-awaitStill() { # FILE: waits for a picture that stays; a paused software device draws its last one in full quality
-    shoot "$1"
-    for _ in {1..100}; do
-        sleep 0.5
-        shoot next.png
-        compare -metric AE "$1" next.png null: >/dev/null 2>&1 && return
-        mv next.png "$1"
+# Waits until the viewer waits for input, and the X server for the viewer: what was asked for is done, and a paused
+# software device has drawn its last picture in full quality. Until then it draws without a pause. A picture that
+# stands for three seconds counts as well, since the viewer may draw the same one again and again.
+awaitIdle() {
+    local before stood=0
+    used "$running" "${processes[0]}"
+    for _ in {1..600}; do
+        before=$ticks
+        sleep 0.15 # the time in which nothing may be done
+        used "$running" "${processes[0]}"
+        [[ $isRunning ]] || ((ticks - before > 1)) || return 0
+        if cmp -s Xvfb_screen0 stood; then ((++stood)); else stood=0; fi
+        ((stood < 20)) || return 0
+        ((stood > 0)) || cp Xvfb_screen0 stood
+        kill -0 "$running" 2>/dev/null || fail "the viewer ended while it was to finish its work"
     done
-    fail "the paused picture never stood still"
+    fail "the viewer is never idle"
+}
+awaitStill() { # FILE: waits for the last picture of a paused scene
+    awaitIdle
+    shoot "$1"
 }
 awaitOther() { # BEFORE FILE WHY: pipelines may have to be made first
-    for _ in {1..60}; do
+    for _ in {1..150}; do
         awaitStill "$2" # pictures in between may differ for a moment
         same "$1" "$2" || return 0
     done
     fail "$3"
 }
 awaitSame() { # BEFORE FILE WHY: waits for a picture like that before
-    for _ in {1..60}; do
+    for _ in {1..150}; do
         awaitStill "$2"
         same "$1" "$2" && return
     done
@@ -127,11 +135,11 @@ cutDown() { # X FROM TO: a stroke down the window, repeated if a slow window saw
     awaitTitle blade
     for _ in {1..5}; do
         xdotool mousemove "$1" "$2" mousedown 1
-        sleep 0.3
-        for ((y = $2; y < $3; y += 8)); do xdotool mousemove_relative -- 0 8; sleep 0.05; done
-        sleep 0.3
+        awaitWork "$running" 15 # pictures that see the button go down, and the end of the stroke
+        glide $((($3 - $2 + 7) / 8)) 0 8
+        awaitWork "$running" 15
         xdotool mouseup 1
-        for _ in {1..50}; do [[ $(title) == *pieces* ]] && return; sleep 0.1; done
+        within 5 hasTitle pieces && return
     done
     fail "nothing was cut"
 }
