@@ -42,7 +42,7 @@ start
 xdotool windowmove "$window" 0 0
 xdotool mousemove 160 110
 reds() { # FILE: number of pixels of the red body; color maps have none
-    convert "$1" -colorspace sRGB -fx 'r > 1.5*g && r > 0.3 ? 1 : 0' -format '%[fx:round(mean*w*h)]' info:
+    red "$1" 1.5 30% -format '%[fx:round(mean*w*h)]'
 }
 echo "first use: more room for contacts, while the window goes on"
 inputs() { grep -c '^input: ' viewer.out || true; }

@@ -10,14 +10,14 @@ extent=800x500
 . "$here/window.sh"
 
 # The box of the red pixels in FILE between x = 0 and x = WIDTH, as "left top right bottom". ImageMagick would
-# count transparent borders.
+# count transparent borders, and its -fx takes two seconds of processor time.
 boxOf() { # FILE WIDTH
-    convert "$1" -crop "$2x${extent#*x}+0+0" +repage -colorspace sRGB -fx 'r > 1.5*g && r > 1.3*b && r > 0.15 ? 1 : 0' \
-        -depth 8 gray:- | python3 -c '
+    convert "$1" -crop "$2x${extent#*x}+0+0" +repage -colorspace sRGB -depth 8 rgb:- | python3 -c '
 import sys
 width = int(sys.argv[1])
 data = sys.stdin.buffer.read()
-spots = [i for i, value in enumerate(data) if value > 127]
+pixels = zip(data[0::3], data[1::3], data[2::3])
+spots = [i for i, (r, g, b) in enumerate(pixels) if r > 0.15 * 255 and r > 1.5 * g and r > 1.3 * b]
 if len(spots) < 500: sys.exit("no body is seen")
 xs = [i % width for i in spots]
 print(min(xs), spots[0] // width, max(xs), spots[-1] // width)' "$2"
@@ -70,10 +70,11 @@ awaitIdle
 keys n
 awaitOther small.png pinned.png "N pins nothing"
 pins() { # the place of the blue pixels beside the toolbar, whose lit tool is blue, too
-    convert "$1" -crop "$((800 - panel))x500+0+0" +repage -colorspace sRGB -fx 'b > 1.6*r && b > 0.3 ? 1 : 0' -depth 8 gray:- | python3 -c '
+    convert "$1" -crop "$((800 - panel))x500+0+0" +repage -colorspace sRGB -depth 8 rgb:- | python3 -c '
 import sys
 width = int(sys.argv[1])
-spots = [i for i, value in enumerate(sys.stdin.buffer.read()) if value > 127 and i % width > 70]
+data = sys.stdin.buffer.read()
+spots = [i for i, (r, b) in enumerate(zip(data[0::3], data[2::3])) if b > 1.6 * r and b > 0.3 * 255 and i % width > 70]
 print(sum(i % width for i in spots) // max(len(spots), 1), sum(i // width for i in spots) // max(len(spots), 1), len(spots))' $((800 - panel))
 }
 read -r pinX pinY count <<<"$(pins pinned.png)"

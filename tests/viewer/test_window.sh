@@ -98,11 +98,6 @@ keys f
 awaitOther centered.png body.png "F changes nothing"
 
 echo "window: a hand grabs the body, lifts it and lets go"
-# Pixels whose red exceeds FACTOR times green, and LEAST. -fx would need a second of processor time.
-red() { # FILE FACTOR LEAST OPERATORS...
-    convert "$1" -colorspace sRGB -color-matrix "1 -$2 0 1 0 0 0 0 0" -channel R -threshold 0 -channel G -threshold "$3" \
-        +channel -separate -delete 2 -compose multiply -composite "${@:4}" info:
-}
 # The block is the only red object. Prints the rows of its lowest and its highest pixel.
 rows() { # FILE
     red "$1" 1.5 30% -trim -format '%O %h\n' | sed 's/.*+\([0-9]*\) \([0-9]*\)$/\1 \2/'

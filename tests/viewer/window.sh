@@ -124,6 +124,11 @@ awaitSame() { # BEFORE FILE WHY: waits for a picture like that before
 hasSize() { [[ $(xdotool getwindowgeometry "$window") == *"$1"* ]]; }
 lacksSize() { ! hasSize "$1"; }
 same() { compare -metric AE "$1" "$2" null: >/dev/null 2>&1; }
+# Pixels whose red exceeds FACTOR times green, and LEAST. -fx would need a second of processor time.
+red() { # FILE FACTOR LEAST OPERATORS...
+    convert "$1" -colorspace sRGB -color-matrix "1 -$2 0 1 0 0 0 0 0" -channel R -threshold 0 -channel G -threshold "$3" \
+        +channel -separate -delete 2 -compose multiply -composite "${@:4}" info:
+}
 alike() { # within 0.5 % RMS: a shift by two pixels exceeds it
     local off
     off=$(compare -metric RMSE "$1" "$2" null: 2>&1 || true)
