@@ -15,7 +15,10 @@ drag() { # BUTTON DX DY
     xdotool mouseup "$1"
 }
 echo "window: orbit, pan, zoom, pause"
+threads=$LP_NUM_THREADS
+unset LP_NUM_THREADS # so this viewer tries steps without threads at its end, under validation
 start
+export LP_NUM_THREADS=$threads
 xdotool windowmove "$window" 0 0
 keys space
 awaitTitle paused

@@ -28,6 +28,9 @@ Xvfb -displayfd 3 -screen 0 "${screen}x24" -fbdir "$folder" -nolisten tcp -nores
 processes+=($!)
 for _ in {1..100}; do [[ -s display ]] && break; sleep 0.1; done
 [[ -s display ]] || fail "Xvfb did not start"
+# The number of threads that lavapipe takes anyway. Where it is set, the viewer does not try at its end whether fewer are
+# faster: two more simulations, which take most of the time of its end.
+export LP_NUM_THREADS=${LP_NUM_THREADS:-$(nproc)}
 export XDG_CONFIG_HOME=$folder/config
 export DISPLAY=:$(tr -d '[:space:]' <display)
 
