@@ -185,6 +185,26 @@ TEST(Section, OpensEachOfSeveralBodiesAndNothingBehindThem) {
     EXPECT_TRUE(isGrey(colorAt(sides, fromSide, {0, 0, -0.3f}))) << "between them there is nothing";
 }
 
+// In a block of which each particle is as fast as it is far to the right.
+TEST(Section, CarriesTheValuesOfAColorMap) {
+    sim::Scene scene = blocks({0});
+    for (sim::Particle& particle : scene.particles)
+        particle.velocity = {0, 2.5f * (particle.position.x + 0.2f), 0};
+    const Layers whole = shown({"speed"}), opened = shown({"speed"}, Section{Vector3::UnitZ(), 0.03f});
+    for (const VkSampleCountFlagBits samples : {VK_SAMPLE_COUNT_4_BIT, VK_SAMPLE_COUNT_1_BIT}) {
+        Shot shot(scene, samples);
+        const Picture skin = shot.take(fromFront, whole), cap = shot.take(fromFront, opened);
+        int last = 0;
+        for (const float x : {-0.15f, -0.07f, 0.02f, 0.09f, 0.15f}) {
+            const Color inside = colorAt(cap, fromFront, {x, 0.04f, 0.03f}),
+                        outside = colorAt(skin, fromFront, {x, 0.04f, 0.2f});
+            for (const std::size_t c : {0u, 1u, 2u}) EXPECT_NEAR(inside[c], outside[c], 25) << x << ' ' << c;
+            EXPECT_GT(brightness(inside), last + 8) << "from dark blue to light yellow, at " << x;
+            last = brightness(inside);
+        }
+    }
+}
+
 TEST(Section, GivesAnOpenSheetNoInside) {
     Shot shot(sheet());
     for (const float azimuth : {0.0f, 3.1f}) {

@@ -201,6 +201,24 @@ BallList allBallsOf(const sim::Scene& scene) {
     return listBalls(scene, Which::all);
 }
 
+BallList insidesOf(const sim::Scene& scene) {
+    constexpr float inner = 0.794f; // radius of the largest ball in an icosahedron
+    BallList list;
+    const std::vector<Color> colors = skinColors(scene);
+    std::vector<float> sums(scene.particles.size()), counts(scene.particles.size());
+    for (const sim::DistanceConstraint& link : scene.distances)
+        for (const std::uint32_t end : {link.a, link.b}) {
+            sums[end] += link.restLength;
+            counts[end] += 1;
+        }
+    for (const sim::Body& body : scene.bodies)
+        if (skinColor(body, colors)) list.ranges.push_back({body.firstParticle, body.particleCount, {}});
+    if (list.ranges.empty()) return list;
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        list.radii.push_back(counts[i] > 0 ? sums[i] / (inner * counts[i]) : 0);
+    return list;
+}
+
 BallList marksOf(const sim::Scene& scene, std::span<const sim::NamedHold> holds, float radius) {
     constexpr std::uint32_t longestGap = 8;
     std::vector<std::uint32_t> marked = fixedInMovingBodies(scene);

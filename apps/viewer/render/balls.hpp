@@ -25,6 +25,10 @@ BallList ballsOf(const sim::Scene& scene);
 /// apart.
 BallList allBallsOf(const sim::Scene& scene);
 
+/// Particles of bodies with a skin, for their values in a section: icosahedra around balls that reach as far
+/// as the mean of the particle's links.
+BallList insidesOf(const sim::Scene& scene);
+
 /// Marks of held particles, and of those of moving bodies that never move: balls of `radius` [m], smaller
 /// where two of them are linked, so that they stay apart. Particles beside the skin of a mesh body have a
 /// mark only if it dips into the skin. One draw covers a run of them; gaps of a few particles, whose balls

@@ -68,8 +68,8 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                                          .depth = format_.depth,
                                          .samples = format_.samples,
                                          .finalLayout = target.finalLayout})),
-      sets_(device, maps_, slots), balls_(device, light.balls), marks_(device, light.marks, 0),
-      walls_(device, light.walls), hand_(device),
+      sets_(device, maps_, slots), balls_(device, light.balls), insides_(device, light.insides, 0),
+      marks_(device, light.marks, 0), walls_(device, light.walls), hand_(device),
       strokes_(device, {.name = "strokes",
                         .count = slots * pointsASlot,
                         .stride = sizeof(sim::layout::vec4),
@@ -153,7 +153,8 @@ bool Renderer::shadesOnce(const Canvas& canvas, const Layers& layers) const noex
 void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas, std::size_t picture,
                       const Camera& camera, const sim::Simulation& simulation,
                       const Overlay& overlay) noexcept {
-    const layout::FrameParams params = frameParams(light_, camera, canvas.aspect(), overlay.layers.section);
+    layout::FrameParams params = frameParams(light_, camera, canvas.aspect(), overlay.layers.section);
+    params.look.x = overlay.layers.map() != ColorMap::none ? 1 : 0;
     sets_.write(slot, params);
     leavesBacks_ = quality_.leavesBacks && !overlay.layers.section && !light_.bounds.contains(eye(camera));
     const bool isOpened = overlay.layers.section && canvas.hasCounts() && has(capPipeline);

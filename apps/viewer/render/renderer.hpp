@@ -171,6 +171,8 @@ private:
                     const Overlay& overlay) const noexcept;
     void recordCounts(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,
                       const Overlay& overlay) const noexcept;
+    void drawInsides(VkCommandBuffer commands, const sim::Simulation& simulation,
+                     const Overlay& overlay) const noexcept;
     void drawCap(VkCommandBuffer commands, const Canvas& canvas, const Layers& layers) const noexcept;
     void recordLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
                       const Overlay& overlay) const noexcept;
@@ -248,7 +250,7 @@ private:
     LightMaps maps_;
     RenderPass pass_;
     PictureSets sets_;
-    Balls balls_, marks_;
+    Balls balls_, insides_, marks_;
     Walls walls_;
     HandMesh hand_;
     vk::Buffer strokes_;                                        // vec4, pointsASlot each
@@ -293,6 +295,7 @@ private:
         cutCountPipeline,
         ballCountPipeline,
         ballValuesCountPipeline,
+        sectionValuesPipeline,
         capPipeline,
         layerPipelines, // one for each row of layerTable()
         pipelineCount = layerPipelines + mostLayers

@@ -103,6 +103,7 @@ void Renderer::makeCounts(Additions& to) const {
     add(ballCountPipeline, "balls", shaders::ballVert, shaders::ballCountFrag, In::balls);
     add(ballValuesCountPipeline, "ball_values", shaders::ballValuesVert, shaders::ballValuesCountFrag,
         In::ballValues);
+    add(sectionValuesPipeline, "values", shaders::ballReachVert, shaders::sectionValuesFrag, In::ballValues);
     addLit(to, capPipeline,
            {.name = "section_cap",
             .vertex = &shaders::screenVert,
@@ -120,6 +121,7 @@ void Renderer::recordCounts(VkCommandBuffer commands, const Canvas& canvas, cons
     if (isSolid) {
         drawSkins(commands, skinCountPipeline, simulation);
         drawCuts(commands, cutCountPipeline, cutCountPipeline, simulation);
+        if (isMap) drawInsides(commands, simulation, overlay);
     }
     if (!isSolid || !layers.has(layer::particles)) {
         if (!isMap) drawBalls(commands, ballCountPipeline, simulation, overlay);
@@ -129,10 +131,20 @@ void Renderer::recordCounts(VkCommandBuffer commands, const Canvas& canvas, cons
     device_.functions().vkCmdEndRenderPass(commands);
 }
 
+// Values of the particles of bodies with a skin, where they reach the plane.
+void Renderer::drawInsides(VkCommandBuffer commands, const sim::Simulation& simulation,
+                           const Overlay& overlay) const noexcept {
+    if (insides_.ranges().empty() || overlay.buffers.particles.size == 0) return;
+    bind(commands, sectionValuesPipeline);
+    insides_.bind(commands, simulation.positions(), removedParticles(simulation), overlay.buffers.particles);
+    push(commands, {overlay.buffers.range}, 0, {});
+    for (const BallRange& range : insides_.ranges()) insides_.draw(commands, range);
+}
+
 void Renderer::drawCap(VkCommandBuffer commands, const Canvas& canvas, const Layers& layers) const noexcept {
     if (!layers.section || !canvas.hasCounts() || !has(capPipeline)) return;
     bind(commands, capPipeline);
-    push(commands, {layers.map() != ColorMap::none ? 1.0f : 0.0f, 0, 0}, capGloss, {});
+    push(commands, {}, capGloss, {});
     device_.functions().vkCmdDraw(commands, 3, 1, 0, 0);
 }
 

@@ -97,6 +97,7 @@ SceneLight lightFor(const sim::Scene& scene, const Camera& camera) {
     light.isClosed = closedSkins(scene);
     light.isOutward = outwardSkins(scene);
     light.balls = ballsOf(scene);
+    light.insides = insidesOf(scene);
     light.colliders = scene.colliders;
     light.walls = wallsOf(scene, light.bounds);
     light.toLight = {level * std::sin(azimuth), std::sin(keyElevation), level * std::cos(azimuth)};
@@ -145,6 +146,7 @@ layout::FrameParams frameParams(const SceneLight& light, const Camera& camera, f
                                .skins = {},
                                .floor = floor,
                                .mapColors = {},
+                               .look = {},
                                .section =
                                    section ? packed(section->normal, section->offset) : layout::vec4{}};
     for (std::size_t i = 0; i < std::min<std::size_t>(light.skins.size(), SKIN_COLORS); ++i) {

@@ -24,6 +24,7 @@ struct SceneLight {
     std::vector<bool> isClosed;           ///< whether each skin is closed (closedSkins)
     std::vector<bool> isOutward;          ///< whether it is closed and its triangles face outwards
     BallList balls;                       ///< balls for bodies without a skin
+    BallList insides;                     ///< particles of the others, as far as their values reach
     BallList marks;                       ///< marks of the particles that the scene holds
     bool showsSleep = false;              ///< sleeping bodies are paler
     std::vector<sim::Collider> colliders; ///< drawn at the poses of the simulation

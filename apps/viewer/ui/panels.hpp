@@ -155,9 +155,9 @@ private:
     float sideHeight_ = 0;   // of what the panel at the side holds [pixels]
     float legendHeight_ = 0; // [pixels]
     SceneFields fields_;
+    TypedNumber typed_;
     std::function<std::string()> paste_;
     std::string pasted_;
-    TypedNumber typed_;
     std::function<void(const std::string&)> copy_;
     std::vector<int> released_; // keys to release in the next picture
     PanelInput early_;          // characters typed before the field of files opens

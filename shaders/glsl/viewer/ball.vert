@@ -17,6 +17,9 @@ layout(location = 2) out float value;
 #else
 layout(location = 2) out float asleep;
 #endif
+#ifdef REACH
+layout(location = 3) out float reach;
+#endif
 
 void main() {
     worldPosition = center.xyz + (piece == REMOVED_PIECE ? 0.0 : radius) * corner.xyz;
@@ -25,6 +28,9 @@ void main() {
     value = valueIn;
 #else
     asleep = center.w == 0.0 ? push.position.w : 0.0;
+#endif
+#ifdef REACH
+    reach = piece == REMOVED_PIECE ? 0.0 : radius;
 #endif
     gl_Position = frame.clipFromWorld * vec4(worldPosition, 1.0);
 }

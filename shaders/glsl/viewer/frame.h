@@ -31,6 +31,7 @@ struct FrameParams {
     vec4 skins[SKIN_COLORS]; // linear RGB and gloss of the first skins, for the surface of cuts
     vec4 floor;  // x and z of the floor map's centre, its width, the plan map's height [m]
     vec4 mapColors[MAP_COLORS]; // linear RGB of values, from the lowest to the highest
+    vec4 look;    // x: 1 = bodies have the colors of a map
     vec4 section; // unit normal and offset [m]; SECTION forms of shaders cut away everything in front of the plane
 };
 

@@ -1,10 +1,10 @@
 #version 460
-// The section plane where it passes through bodies: their opened inside; for balls their color.
+// The section plane where it passes through bodies: their opened inside, or their values; for balls their color.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/tissue.glsl"
 #include "viewer/inside.glsl"
 
-layout(push_constant) uniform Push { SkinPush push; }; // color.x: 1 = a color map; color.w: gloss of balls
+layout(push_constant) uniform Push { SkinPush push; }; // color.w: gloss of balls
 #ifdef ONE_SAMPLE
 const int samples = 1;
 layout(set = 0, binding = 5) uniform sampler2D counts;
@@ -54,8 +54,8 @@ void main() {
     const float skins = round(sum.a), balls = round(64.0 * (sum.a - skins));
     const bool isSkin = skins > 0.5;
     const vec3 color = sum.rgb / max(isSkin ? skins : balls, 1.0);
-    if (push.color.x > 0.5)
-        shown = matt(position, frame.section.xyz, isSkin ? unknownValue : color);
+    if (frame.look.x > 0.5) // sums of weighted values and of weights; grey where no particle is near
+        shown = matt(position, frame.section.xyz, sum.g > 1e-3 ? mapColor(sum.r / sum.g, 1.0) : unknownValue);
     else
         shown = shade(position, frame.section.xyz, isSkin ? insideSurface(position, skinOf(color)) : tissue(color, push.color.w));
 }
