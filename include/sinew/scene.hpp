@@ -366,7 +366,8 @@ struct SINEW_API Settings {
     std::uint32_t levels = 0;
     /// `split`: a link is clamped to what its particles bear in the directions of their links, not to what
     /// they would bear if all were parallel: the same error takes 0.6 times the substeps in a solid, 0.7
-    /// times in a sheet (docs/clamp.md). Without effect where there are levels or internal damping.
+    /// times in a sheet (docs/clamp.md). Without effect where there are levels or internal damping, and where
+    /// the sum clamps nothing (clampOf).
     bool hasSharpClamp = false;
     float weight = 0;         ///< `jacobi`: factor on a particle's summed corrections; 0 = 1 / their number
     float overRelaxation = 1; ///< `jacobi`: second factor on that sum, below 4/3 with averaging

@@ -35,6 +35,23 @@ struct SINEW_API StiffnessReport {
 /// `settings.substeps` may be 0.
 SINEW_API StiffnessReport inspectStiffness(const Scene& scene, const Settings& settings);
 
+/// The clamp of link stiffness that a simulation runs with, and the reason if it is that by the sum although
+/// a host may ask for the sharp one (docs/clamp.md).
+enum class Clamp : std::uint8_t {
+    none,       ///< another solver than `split`
+    sharp,      ///< by the directions in which links meet
+    sumAsked,   ///< Settings::hasSharpClamp is false
+    sumLevels,  ///< coarse levels need the sum
+    sumDamping, ///< internal damping takes what the sum leaves of the stability bound
+    sumWhole,   ///< the sum clamps no link and no cell of the bodies at rest in a step of Scene::dt
+};
+
+/// The clamp of a simulation of `scene`; `settings.substeps` may be 0.
+SINEW_API Clamp clampOf(const Scene& scene, const Settings& settings);
+
+/// The clamp as text: "sharp", "sum: levels"; "none" for other solvers than `split`.
+SINEW_API std::string toText(Clamp clamp);
+
 /// The rule that decided the number of substeps.
 enum class SubstepReason : std::uint8_t {
     asked,     ///< settings.substeps

@@ -218,6 +218,26 @@ Settings sharp(std::uint32_t substeps) {
     return {.substeps = substeps, .hasSharpClamp = true};
 }
 
+Settings bySum(std::uint32_t substeps) {
+    return {.substeps = substeps, .hasSharpClamp = false};
+}
+
+TEST(SharpClamp, IsToldWithItsReason) {
+    Scene damped = heldBeam();
+    damped.dampingTime = 0.01f;
+    Settings levels = sharp(5), jacobi = sharp(5);
+    levels.levels = 2;
+    jacobi.solver = Solver::jacobi;
+    EXPECT_EQ(toText(clampOf(heldBeam(), sharp(5))), "sharp");
+    EXPECT_EQ(toText(clampOf(heldBeam(), bySum(5))), "sum: as asked");
+    EXPECT_EQ(toText(clampOf(heldBeam(), levels)), "sum: levels");
+    EXPECT_EQ(toText(clampOf(damped, sharp(5))), "sum: internal damping");
+    EXPECT_EQ(toText(clampOf(heldBeam(), sharp(64))), "sum: nothing is clamped");
+    EXPECT_EQ(toText(clampOf({}, sharp(1))), "sum: nothing is clamped");
+    EXPECT_EQ(toText(clampOf(heldBeam(), jacobi)), "none");
+    EXPECT_EQ(clampOf(heldBeam(), sharp(0)), Clamp::sharp) << "with the number that is chosen";
+}
+
 TEST(SharpClamp, AgreesWithTheReference) {
     // From large deformations roundings grow tenfold a step.
     for (const auto& [scene, steps] : {std::pair(hungSheet(), 6),
@@ -264,13 +284,13 @@ TEST(SharpClamp, NeedsFewerSubsteps) {
     for (const auto& [scene, ratio] : {std::pair(heldBeam(), 0.78), std::pair(hungSheet(), 0.75)}) {
         const reference::Trajectory truth =
             reference::trueTrajectory(scene, {.frames = 20, .tolerance = 1e-4});
-        const std::uint32_t bySum = chooseSubsteps(scene, {}).substeps;
-        const std::uint32_t substeps = chooseSubsteps(scene, {.hasSharpClamp = true}).substeps;
-        EXPECT_LE(substeps, ratio * bySum);
-        const double without = test::errorOf(scene, {.substeps = substeps}, truth);
+        const std::uint32_t ofSum = chooseSubsteps(scene, bySum(0)).substeps;
+        const std::uint32_t substeps = chooseSubsteps(scene, sharp(0)).substeps;
+        EXPECT_LE(substeps, ratio * ofSum);
+        const double without = test::errorOf(scene, bySum(substeps), truth);
         const double with = test::errorOf(scene, sharp(substeps), truth);
         std::printf("%u substeps in place of %u: error %.3g %% of the motion, with the sum %.3g %%\n",
-                    substeps, bySum, 100 * with, 100 * without);
+                    substeps, ofSum, 100 * with, 100 * without);
         EXPECT_LT(with, 0.02);
         EXPECT_GT(without, 5 * with);
     }
@@ -290,20 +310,21 @@ TEST(SharpClamp, IsRememberedByASavedState) {
 // The directions of links are not followed where they cannot matter.
 TEST(SharpClamp, LeavesAsItIsWhatTheSumDoesNotClamp) {
     for (const Scene& scene : {heldBeam(), heldBeam(0.4f), hungSheet()}) {
-        const std::uint32_t exact = chooseSubsteps(scene, {.tolerance = 1e-4f}).substeps;
-        EXPECT_EQ(test::hashOfRun(scene, sharp(exact)), test::hashOfRun(scene, {.substeps = exact}));
-        EXPECT_EQ(describe(compile(scene, sharp(exact))), describe(compile(scene, {.substeps = exact})));
-        EXPECT_NE(test::hashOfRun(scene, sharp(exact / 2)), test::hashOfRun(scene, {.substeps = exact / 2}));
+        const std::uint32_t exact =
+            chooseSubsteps(scene, {.tolerance = 1e-4f, .hasSharpClamp = false}).substeps;
+        EXPECT_EQ(test::hashOfRun(scene, sharp(exact)), test::hashOfRun(scene, bySum(exact)));
+        EXPECT_EQ(describe(compile(scene, sharp(exact))), describe(compile(scene, bySum(exact))));
+        EXPECT_NE(test::hashOfRun(scene, sharp(exact / 2)), test::hashOfRun(scene, bySum(exact / 2)));
     }
     Scene loose; // without links there is nothing to clamp
     loose.particles = {{.position = {0, 1, 0}, .inverseMass = 1, .radius = 0.1f},
                        {.position = {0.5f, 1, 0}, .inverseMass = 1, .radius = 0.1f}};
-    EXPECT_EQ(describe(compile(loose, sharp(4))), describe(compile(loose, {.substeps = 4})));
+    EXPECT_EQ(describe(compile(loose, sharp(4))), describe(compile(loose, bySum(4))));
 }
 
 TEST(SharpClamp, LeavesLevelsAsTheyAre) {
     const Scene scene = heldBeam();
-    Settings settings{.substeps = 5, .levels = 2};
+    Settings settings{.substeps = 5, .levels = 2, .hasSharpClamp = false};
     const std::uint64_t hash = test::hashOfRun(scene, settings);
     settings.hasSharpClamp = true;
     EXPECT_EQ(test::hashOfRun(scene, settings), hash);
@@ -315,13 +336,10 @@ TEST(SharpClamp, LeavesInternalDampingAsItIs) {
         Scene scene = heldBeam();
         scene.dampingTime = dampingTime;
         for (const std::uint32_t substeps : {5u, 11u}) {
-            EXPECT_EQ(test::hashOfRun(scene, sharp(substeps)),
-                      test::hashOfRun(scene, {.substeps = substeps}));
-            EXPECT_EQ(describe(compile(scene, sharp(substeps))),
-                      describe(compile(scene, {.substeps = substeps})));
+            EXPECT_EQ(test::hashOfRun(scene, sharp(substeps)), test::hashOfRun(scene, bySum(substeps)));
+            EXPECT_EQ(describe(compile(scene, sharp(substeps))), describe(compile(scene, bySum(substeps))));
         }
-        EXPECT_EQ(chooseSubsteps(scene, {.hasSharpClamp = true}).substeps,
-                  chooseSubsteps(scene, {}).substeps);
+        EXPECT_EQ(chooseSubsteps(scene, sharp(0)).substeps, chooseSubsteps(scene, bySum(0)).substeps);
     }
 }
 

@@ -48,7 +48,7 @@ struct Common {
         if (model.settings.keepsForces) constants.merge(forces::pullConstants());
         constants.merge(planes.constants());
         if (levels) constants[hasLevelsId] = true;
-        if (shares.isSharp)
+        if (shares.isSharp())
             constants[mostOfLinksId] = std::bit_cast<std::uint32_t>(
                 static_cast<float>(stiffness::mostOfLinks(model.scene, model.settings)));
         return {{}, std::move(constants), {}};
@@ -78,7 +78,7 @@ std::vector<constraints::distance::GatherLink> listedLinks(const Common& common)
 template <typename Push>
 void setDispatch(const Common& common, Gather& gather, const vk::ShaderCode& code, Push push) {
     gather.dispatch = [&program = common.program, &code, constants = gather.constants, push,
-                       items = gather.items, isSharp = common.shares.isSharp,
+                       items = gather.items, isSharp = common.shares.isSharp(),
                        all = common.build.model.settings.substeps](std::span<const BufferId> buffers,
                                                                    std::uint32_t substep) mutable {
         push.isFirst = substep == 0;
@@ -253,7 +253,7 @@ void addResident(const Common& common) {
     for (const Batch& batch : batches.batches) {
         Gather gather = gridGather(common, batch, cells);
         gather.constants[residentSlotsId] = batch.push.bodySlots;
-        if (common.shares.isSharp) gather.constants[followsDirectionsId] = true;
+        if (common.shares.isSharp()) gather.constants[followsDirectionsId] = true;
         std::vector<BufferId> buffers{particles.positions,  particles.velocities,         particles.step,
                                       common.planes.planes, common.planes.contactOffsets, particles.mostW};
         buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
@@ -375,7 +375,7 @@ bool contactsFollow(const Scene& scene, const Settings& settings) {
 SolverPlan plan(const SceneModel& model) {
     stiffness::Shares shares = stiffness::sharesOfMotion(model.scene, model.settings, model.inverseMass);
     std::vector<float> times = shares.startTimes, most;
-    if (shares.isSharp) most = shares.times;
+    if (shares.isSharp()) most = shares.times;
     return {std::move(times), std::move(most),
             [shares = std::move(shares)](Build& build) { addPasses(build, shares); }};
 }

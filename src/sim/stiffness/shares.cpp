@@ -65,11 +65,13 @@ std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
     return shares;
 }
 
-// Dampers take what the sum leaves of the stability bound (dampingBudget): links that a sharp clamp leaves
-// stiffer would take it twice once their directions line up.
-bool isClampSharp(const Scene& scene, const Settings& settings) {
-    return settings.hasSharpClamp && settings.levels == 0 && scene.dampingTime == 0 &&
-           settings.solver == Solver::split;
+// The clamp that the settings and the scene allow. Dampers take what the sum leaves of the stability bound
+// (dampingBudget): links that a sharp clamp leaves stiffer would take it twice once their directions line up.
+Clamp allowedClamp(const Scene& scene, const Settings& settings) {
+    if (settings.solver != Solver::split) return Clamp::none;
+    if (!settings.hasSharpClamp) return Clamp::sumAsked;
+    if (settings.levels > 0) return Clamp::sumLevels;
+    return scene.dampingTime > 0 ? Clamp::sumDamping : Clamp::sharp;
 }
 
 // The share of each corner of a full cell that its links take: a quarter of each of three edges, half of
@@ -85,7 +87,7 @@ double linksOfACorner(const Scene& scene, const Grid& grid, std::span<const floa
 // The part of what meets in a particle that it bears in every direction: the largest eigenvalue of links is
 // at least a third of their sum.
 double dimensionsOf(const Scene& scene, const Settings& settings) {
-    return isClampSharp(scene, settings) ? 3 : 1;
+    return allowedClamp(scene, settings) == Clamp::sharp ? 3 : 1;
 }
 
 // Stiffness of the volume of a full cell in its share's terms [N/m]: it meets its clamp with links of the
@@ -201,8 +203,8 @@ Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const fl
     Shares shares{.ofLinks = shareStiffness(scene, settings, inverseMass)};
     shares.ofCells = cellShares(scene, settings, inverseMass, shares.ofLinks);
     const double omega{settings.omega};
-    shares.isSharp = isClampSharp(scene, settings);
-    if (!shares.isSharp) {
+    shares.clamp = allowedClamp(scene, settings);
+    if (!shares.isSharp()) {
         shares.times = clampTimes(omega, inverseMass, sumsOf(scene, shares.ofLinks, shares.ofCells));
         shares.startTimes = shares.times;
         return shares;
@@ -216,10 +218,11 @@ Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const fl
 }
 
 Shares sharesOfMotion(const Scene& scene, const Settings& settings, std::span<const float> inverseMass) {
-    if (isClampSharp(scene, settings)) {
+    if (allowedClamp(scene, settings) == Clamp::sharp) {
         Settings withSum = settings;
         withSum.hasSharpClamp = false;
         Shares shares = sharesOf(scene, withSum, inverseMass);
+        shares.clamp = Clamp::sumWhole;
         if (!clamps(scene, withSum, inverseMass, shares)) return shares;
     }
     return sharesOf(scene, settings, inverseMass);

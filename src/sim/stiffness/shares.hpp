@@ -38,6 +38,7 @@
 #pragma once
 
 #include "sinew/scene.hpp"
+#include "sinew/substeps.hpp"
 
 #include <span>
 #include <vector>
@@ -63,8 +64,9 @@ struct Shares {
     /// With a sharp clamp, of the bodies at rest.
     std::vector<float> times;
     std::vector<float>
-        startTimes;       ///< tau of the scene's own state: lower where a sharp clamp finds it deformed
-    bool isSharp = false; ///< whether tau follows from the directions of links
+        startTimes; ///< tau of the scene's own state: lower where a sharp clamp finds it deformed
+    Clamp clamp = Clamp::none;
+    bool isSharp() const { return clamp == Clamp::sharp; }
 };
 
 /// `settings.substeps` must be resolved; `inverseMass` is taken after fixed constraints. The clamp is sharp

@@ -11,6 +11,7 @@
 #include "sim/stiffness/level_choice.hpp"
 #include "sim/stiffness/shares.hpp"
 #include "sim/stiffness/terms.hpp"
+#include "sinew/inverse_masses.hpp"
 #include "sinew/ranges.hpp"
 
 #include <algorithm>
@@ -341,6 +342,29 @@ Settings withSubsteps(const Scene& scene, Settings settings) {
     settings.substeps = choice.substeps;
     settings.levels = choice.levels;
     return settings;
+}
+
+Clamp clampOf(const Scene& scene, const Settings& settings) {
+    if (settings.solver != Solver::split) return Clamp::none;
+    return stiffness::sharesOfMotion(scene, withSubsteps(scene, settings), inverseMasses(scene)).clamp;
+}
+
+std::string toText(Clamp clamp) {
+    switch (clamp) {
+    case Clamp::none:
+        return "none";
+    case Clamp::sharp:
+        return "sharp";
+    case Clamp::sumAsked:
+        return "sum: as asked";
+    case Clamp::sumLevels:
+        return "sum: levels";
+    case Clamp::sumDamping:
+        return "sum: internal damping";
+    case Clamp::sumWhole:
+        return "sum: nothing is clamped";
+    }
+    return {};
 }
 
 StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
