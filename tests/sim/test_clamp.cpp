@@ -10,6 +10,7 @@
 #include "sim/stiffness/shares.hpp"
 #include "sinew/bodies.hpp"
 #include "sinew/inverse_masses.hpp"
+#include "sinew/material.hpp"
 #include "sinew/ranges.hpp"
 #include "sinew/substeps.hpp"
 
@@ -320,6 +321,99 @@ TEST(SharpClamp, LeavesAsItIsWhatTheSumDoesNotClamp) {
     loose.particles = {{.position = {0, 1, 0}, .inverseMass = 1, .radius = 0.1f},
                        {.position = {0.5f, 1, 0}, .inverseMass = 1, .radius = 0.1f}};
     EXPECT_EQ(describe(compile(loose, sharp(4))), describe(compile(loose, bySum(4))));
+}
+
+// A particle that hangs on a fixed one. With excess 0 the sum clamps the link to exactly what it asks for.
+Scene pairAtTheThreshold(float inverseMass, float dt, std::uint32_t substeps, double excess) {
+    Scene scene;
+    scene.dt = dt;
+    scene.particles = {{.position = {0, 0, 0}, .inverseMass = 0},
+                       {.position = {0, -1, 0}, .inverseMass = inverseMass}};
+    const double h = double{dt} / substeps;
+    scene.distances = {{0, 1, 1, static_cast<float>(double{inverseMass} * h * h / (1 + excess))}};
+    return scene;
+}
+
+// A link that is softer than asked by the rounding of float32 alone does not make a scene follow directions.
+TEST(SharpClamp, IsNotChosenByRounding) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int trial = 0; trial < 2000; ++trial) {
+        const auto w = static_cast<float>(std::pow(10.0, 3 * unit(random))),
+                   dt = static_cast<float>(std::pow(10.0, unit(random) - 2));
+        const std::uint32_t substeps = 1 + static_cast<std::uint32_t>(random()) % 64;
+        const auto clampAt = [&](double excess) {
+            return clampOf(pairAtTheThreshold(w, dt, substeps, excess), sharp(substeps));
+        };
+        ASSERT_EQ(clampAt(0), Clamp::sumWhole) << w << ' ' << dt << ' ' << substeps;
+        ASSERT_EQ(clampAt(-1e-5), Clamp::sumWhole) << w << ' ' << dt << ' ' << substeps;
+        ASSERT_EQ(clampAt(1e-5), Clamp::sharp) << w << ' ' << dt << ' ' << substeps;
+    }
+}
+
+// Substeps in which the sum clamps nothing, but would with four times the stiffness.
+std::uint32_t wholeSubsteps(const Scene& scene) {
+    return chooseSubsteps(scene, {.tolerance = 1e-4f, .hasSharpClamp = false}).substeps;
+}
+
+// A material that crosses the threshold needs other passes. The new simulation takes the state over, and what
+// moves never has more energy than the state had with the new material.
+TEST(SharpClamp, ComesAndGoesWithTheMaterialAndKeepsTheState) {
+    for (const Scene& soft : {heldBeam(), heldBeam(0.4f), hungSheet()}) {
+        const Scene stiff = withMaterial(soft, {.stiffness = 4});
+        const std::uint32_t substeps = wholeSubsteps(soft);
+        ASSERT_EQ(clampOf(soft, sharp(substeps)), Clamp::sumWhole);
+        ASSERT_EQ(clampOf(stiff, sharp(substeps)), Clamp::sharp);
+        for (const auto& [before, after] :
+             {std::pair(soft, stiff), {stiff, soft}, {deformed(soft), deformed(stiff)}}) {
+            test::Runner first(before, sharp(substeps)), second(after, sharp(substeps));
+            first.run(12);
+            EXPECT_FALSE(first.change(after));
+            second.takeOver(first);
+            EXPECT_EQ(second.stateHash(), first.stateHash());
+            reference::State state = reference::initialState(after);
+            const auto energyNow = [&] {
+                state.x = second.positions();
+                state.v = second.velocities();
+                return reference::energy(after, state);
+            };
+            const reference::Energy start = energyNow();
+            for (int s = 0; s < 240; ++s) {
+                ASSERT_EQ(second.run(1).nonFinite, 0u);
+                const reference::Energy now = energyNow();
+                ASSERT_LE(now.kinetic + now.gravitational, start.total() + 1e-3 * start.elastic) << s;
+            }
+        }
+    }
+}
+
+// The choice is made for steps of Scene::dt; a longer one is clamped by what was chosen.
+TEST(SharpClamp, StaysStableInStepsLongerThanThoseOfTheScene) {
+    for (const Scene& scene : {heldBeam(), heldBeam(0.4f), hungSheet()})
+        for (const bool isWhole : {true, false}) {
+            const std::uint32_t substeps = isWhole ? wholeSubsteps(scene) : 11;
+            test::Runner runner(scene, sharp(substeps)), sum(scene, bySum(substeps));
+            reference::State state = reference::initialState(scene), moved = state;
+            const double energy = reference::energy(scene, state).total();
+            for (int s = 0; s < 120; ++s) {
+                const float dt = 3 * scene.dt;
+                ASSERT_EQ(runner.step(dt).nonFinite, 0u);
+                moved.x = runner.positions();
+                moved.v = runner.velocities();
+                const reference::Energy now = reference::energy(scene, moved);
+                ASSERT_LE(now.kinetic + now.gravitational, energy + 1e-3 * std::abs(energy) + 1e-6) << s;
+                if (isWhole) {
+                    sum.step(dt);
+                    ASSERT_EQ(runner.stateHash(), sum.stateHash()) << s;
+                }
+                if (s > 2) continue; // roundings grow
+                reference::stepSplit(scene, sharp(substeps), double{dt}, state);
+                double most = 0;
+                for (std::size_t i = 0; i < moved.x.size(); ++i)
+                    most = std::max(most, (moved.x[i] - state.x[i]).norm());
+                EXPECT_LT(most, 2e-5 * reference::bodySize(scene)) << s;
+            }
+        }
 }
 
 TEST(SharpClamp, LeavesLevelsAsTheyAre) {

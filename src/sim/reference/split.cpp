@@ -105,17 +105,20 @@ struct Split {
                                     : infinite);
     }
 
-    // Whether a link or a cell at rest is softer than asked in a substep of this length.
+    // Whether a link or a cell at rest is softer than asked in a substep of this length, by more than float32
+    // rounds.
     bool clamps(const Problem& problem, double h) const {
+        constexpr double most = 1 + 1e-6;
         for (std::size_t c = 0; c < problem.links.size(); ++c) {
             const double time = std::min(clampTime[problem.links[c].a], clampTime[problem.links[c].b]);
-            if (stiffness[c] * h * h > share[c] * time) return true;
+            if (stiffness[c] * h * h > most * share[c] * time) return true;
         }
         for (std::size_t c = 0; c < problem.cells.size(); ++c) {
             const Cell& cell = problem.cells[c];
             double time = infinite;
             for (const std::uint32_t corner : cell.corners) time = std::min(time, clampTime[corner]);
-            if (cell.fill * 0.75 * cell.stiffness * cell.spacing * h * h > cellShare[c] * time) return true;
+            if (cell.fill * 0.75 * cell.stiffness * cell.spacing * h * h > most * cellShare[c] * time)
+                return true;
         }
         return false;
     }

@@ -143,6 +143,13 @@ std::vector<float> clampTimes(double most, std::span<const float> inverseMass, s
     return times;
 }
 
+// Whether a clamp is below what is asked by more than the rounding of shares, times and compliances to
+// float32: a substep that is just short enough clamps nothing.
+bool isBelow(double clamp, double asked) {
+    constexpr double rounding = 1e-6;
+    return clamp * (1 + rounding) < asked;
+}
+
 // Whether some link or cell at rest is softer in a substep than asked.
 bool clamps(const Scene& scene, const Settings& settings, std::span<const float> inverseMass,
             const Shares& shares) {
@@ -152,7 +159,7 @@ bool clamps(const Scene& scene, const Settings& settings, std::span<const float>
         if (!constraints::distance::canMove(link, inverseMass)) continue;
         const double most =
             double{shares.ofLinks[c]} * double{std::min(shares.times[link.a], shares.times[link.b])};
-        if (double{stiffnessOf(link.compliance)} * h * h > most) return true;
+        if (isBelow(most, double{stiffnessOf(link.compliance)} * h * h)) return true;
     }
     for (std::size_t g = 0; g < scene.grids.size(); ++g) {
         const double stiffness = volumeStiffness(scene.grids[g]);
@@ -161,7 +168,7 @@ bool clamps(const Scene& scene, const Settings& settings, std::span<const float>
         lattice::forEachCell(scene.grids[g], [&](const lattice::Cell& cell) {
             float time = shares.times[cell.corners[0]];
             for (const std::uint32_t corner : cell.corners) time = std::min(time, shares.times[corner]);
-            isSoft = isSoft || stiffness * h * h > double{shares.ofCells[g].volume} * double{time};
+            isSoft = isSoft || isBelow(double{shares.ofCells[g].volume} * double{time}, stiffness * h * h);
         });
         if (isSoft) return true;
     }
