@@ -399,15 +399,23 @@ TEST_F(Load, LetsTheCommandLineHaveItsSay) {
 
 TEST_F(Load, ChoosesLevelsWhereTheFileAsksForIt) {
     const std::string box = "[[box]]\nparticles = [16, 16, 16]\nspacing = 0.02\ncenter = [0, 1, 0]\n";
-    EXPECT_EQ(load("[solver]\nsubsteps = 8\nlevels = \"auto\"\n" + box).settings.levels, 2u);
-    EXPECT_EQ(load("[solver]\nsubsteps = 8\n" + box).settings.levels, 0u);
-    const scenes::LoadedScene both = load("[solver]\nlevels = \"auto\"\n" + box);
+    const std::string sum = "sharp_clamp = false\n";
+    EXPECT_EQ(load("[solver]\nsubsteps = 8\nlevels = \"auto\"\n" + sum + box).settings.levels, 2u);
+    EXPECT_EQ(load("[solver]\nsubsteps = 8\n" + sum + box).settings.levels, 0u);
+    const scenes::LoadedScene both = load("[solver]\nlevels = \"auto\"\n" + sum + box);
     EXPECT_EQ(both.settings.substeps, 8u);
     EXPECT_EQ(both.settings.levels, 2u);
+    const std::string eleven = "[solver]\nsubsteps = 11\n";
     EXPECT_EQ(
-        scenes::load(write("scene.toml", "[solver]\nsubsteps = 11\n" + box), {.levels = sim::autoLevels})
-            .settings.levels,
+        scenes::load(write("scene.toml", eleven + sum + box), {.levels = sim::autoLevels}).settings.levels,
         1u);
+    // The sharp clamp, which is the default, wins up to a lack of 3.2 times the substeps.
+    EXPECT_EQ(scenes::load(write("scene.toml", eleven + box), {.levels = sim::autoLevels}).settings.levels,
+              0u);
+    EXPECT_EQ(load("[solver]\nsubsteps = 6\nlevels = \"auto\"\n" + box).settings.levels, 2u);
+    const scenes::LoadedScene sharp = load("[solver]\nlevels = \"auto\"\n" + box);
+    EXPECT_EQ(sharp.settings.substeps, 17u);
+    EXPECT_EQ(sharp.settings.levels, 0u);
 }
 
 TEST_F(Load, ChoosesSubstepsWhereTheFileDoesNotSay) {

@@ -41,7 +41,8 @@ TEST(Substeps, OfSplitAreThoseOfItsFormula) {
     const Scene scene = dampedChain(5, 1e-4f);
     const double exact = double{scene.dt} * std::sqrt(1e4 / 0.005);
     for (const double tolerance : {1e-3, 0.05, 0.5}) {
-        const SubstepChoice choice = chooseSubsteps(scene, {.tolerance = static_cast<float>(tolerance)});
+        const SubstepChoice choice =
+            chooseSubsteps(scene, {.tolerance = static_cast<float>(tolerance), .hasSharpClamp = false});
         EXPECT_EQ(choice.substeps, std::ceil(exact * std::sqrt(1 - tolerance))) << tolerance;
         EXPECT_EQ(choice.reason, SubstepReason::stiffness);
     }
@@ -152,7 +153,7 @@ TEST(Substeps, KeepEveryElasticLinkWithinTheTolerance) {
 TEST(Substeps, ReportTheStiffnessThatALoadedChainShows) {
     const Scene scene = dampedChain(4, 1e-4f);
     for (const std::uint32_t substeps : {4u, 8u, 32u}) {
-        const Settings settings{.substeps = substeps};
+        const Settings settings{.substeps = substeps, .hasSharpClamp = false};
         const StiffnessReport report = inspectStiffness(scene, settings);
         EXPECT_EQ(report.clamped, substeps < 23 ? 4u : 0u) << substeps;
         // Every link has an end with two links, and so the same clamp; the loads are 4, 3, 2 and 1 weights.

@@ -10,6 +10,7 @@ namespace sinew::sim::stiffness {
 namespace {
 
 constexpr double leastLack = 1.8, lackOfLevel = 2.2; // see the header
+constexpr double leastBesideSharp = 3.2;             // of a solid that has the sharp clamp without levels
 // Factors on r, so that the number of levels is its logarithm.
 constexpr double ofSheet = 1.1, ofSolid = 1.9;
 // Blocks along the longest axis: of level 1, without which a body is too small for levels to win, and of the
@@ -36,10 +37,15 @@ double lackOf(const Terms& terms, const Grid& grid) {
     return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 
+// The smallest r with which levels beat what the scene has without them.
+double leastLackOf(const Settings& settings, const Grid& grid) {
+    return settings.hasSharpClamp && !lattice::isSheet(grid) ? leastBesideSharp : leastLack;
+}
+
 std::uint32_t levelsFor(const Terms& terms, const Grid& grid) {
     const double lack = lackOf(terms, grid);
     std::uint32_t blocks = halved(std::ranges::max(grid.nodes));
-    if (lack < leastLack || blocks < fewestBlocks) return 0;
+    if (lack < leastLackOf(terms.settings, grid) || blocks < fewestBlocks) return 0;
     const double most = std::log((lattice::isSheet(grid) ? ofSheet : ofSolid) * lack) / std::log(lackOfLevel);
     const std::uint32_t coarsest = lattice::isSheet(grid) ? coarsestOfSheet : coarsestOfSolid;
     std::uint32_t levels = 1;
