@@ -106,3 +106,25 @@ TEST_F(PilotRun, TakesTheClampOfTheSceneUnlessAskedForAnother) {
     EXPECT_FALSE(isSharp("", {"--no-sharp-clamp"}));
     EXPECT_TRUE(isSharp(bySum, {"--sharp-clamp"}));
 }
+
+TEST_F(PilotRun, SaysWhichClampItHasAndWhy) {
+    const auto clamp = [&](const std::string& scene, const std::vector<std::string>& options = {},
+                           const std::string& substeps = "4") {
+        write("beam.toml", scene);
+        std::vector<std::string> arguments{"beam.toml", "--frames", "1", "--substeps", substeps};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return report(arguments)["clamp"];
+    };
+    EXPECT_EQ(clamp(bar), "sharp");
+    EXPECT_EQ(clamp(bySum + bar), "sum: as asked");
+    EXPECT_EQ(clamp(bar, {"--levels", "1"}), "sum: levels");
+    EXPECT_EQ(clamp("damping_time = 0.01\n" + bar), "sum: internal damping");
+    EXPECT_EQ(clamp(bar, {}, "64"), "sum: nothing is clamped");
+    EXPECT_TRUE(clamp(bar, {"--solver", "jacobi"}).is_null());
+    const auto describes = [&](const std::string& substeps, const std::string& text) {
+        const std::string out = run({"describe", "beam.toml", "--substeps", substeps}).out;
+        return out.find("\nclamp: " + text + "\n") != std::string::npos;
+    };
+    EXPECT_TRUE(describes("4", "sharp"));
+    EXPECT_TRUE(describes("64", "sum: nothing is clamped"));
+}

@@ -43,7 +43,7 @@ const std::string bomb =
 // The fields that docs/report.md lists.
 // clang-format off
 constexpr const char* reportFields[] = {
-    "schema", "scene", "device", "solver", "substeps", "levels", "sharp_clamp", "substep_choice", "forms", "iterations", "reversed",
+    "schema", "scene", "device", "solver", "substeps", "levels", "sharp_clamp", "clamp", "substep_choice", "forms", "iterations", "reversed",
     "dt", "velocity_age", "origin", "particles", "constraints", "bodies", "cut", "meshes", "passes",
     "skipped", "step", "frames", "frames_wanted", "interrupted", "frame_ms", "phase_ms", "error",
     "error_estimate", "stiffness", "finite", "sleeping", "divergence", "overflow", "forces", "state_hash", "peak_memory_mib",

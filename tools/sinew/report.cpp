@@ -263,6 +263,8 @@ std::string toJson(const RunRecord& record) {
     json["substeps"] = settings.substeps;
     json["levels"] = settings.levels;
     json["sharp_clamp"] = settings.hasSharpClamp;
+    const sim::Clamp clamp = sim::clampOf(scene, settings);
+    json["clamp"] = clamp == sim::Clamp::none ? Json(nullptr) : Json(sim::toText(clamp));
     json["substep_choice"] = choiceJson(record);
     json["iterations"] = settings.solver == sim::Solver::split ? 1 : settings.iterations;
     json["reversed"] = settings.isReversed;
@@ -308,6 +310,8 @@ std::string toJson(const RunRecord& record) {
 
 std::string stiffnessText(const scenes::LoadedScene& loaded) {
     std::string text = sim::toText(loaded.substeps, loaded.settings) + "\n";
+    if (const sim::Clamp clamp = sim::clampOf(loaded.scene, loaded.settings); clamp != sim::Clamp::none)
+        text += "clamp: " + sim::toText(clamp) + "\n";
     const sim::StiffnessReport report = sim::inspectStiffness(loaded.scene, loaded.settings);
     if (report.elastic == 0) return text;
     text += fmt::format(
