@@ -253,6 +253,14 @@ struct SINEW_API CellEmbedding {
     }
 };
 
+/// A place in a texture, as OBJ has it: v grows upwards.
+struct SINEW_API TexturePoint {
+    float u = 0, v = 0;
+    bool operator==(const TexturePoint&) const = default;
+};
+/// Those of the corners of a triangle. A seam is an edge along which two triangles have different ones.
+using TextureCorners = std::array<TexturePoint, 3>;
+
 /// The visible triangle mesh of a body. Its vertices are either particles (`particles`) or points in lattice
 /// cells (`cells`); exactly one of the two lists is filled, one entry a vertex.
 struct SINEW_API Skin {
@@ -271,6 +279,9 @@ struct SINEW_API Skin {
     /// Empty, or for each of `triangles` the whole triangle that it is a part of: after a cut, parts away
     /// from it are lit as their whole triangle was.
     std::vector<std::uint32_t> wholeOf{};
+    /// Empty, or texture coordinates for each of `triangles`, and then for each of `wholeTriangles`. Without
+    /// them in any skin of a scene no buffer or pass is added.
+    std::vector<TextureCorners> textureCoordinates{}, wholeTextureCoordinates{};
     Vec3 color{0.78f, 0.36f, 0.32f}; ///< linear RGB
     std::size_t vertexCount() const { return particles.empty() ? cells.size() : particles.size(); }
 };

@@ -144,6 +144,9 @@ struct SINEW_API CutSurface {
     vk::BufferView draws{};
     vk::BufferView counts{};    ///< one layout::SurfaceState: counts of what the buffers above hold
     vk::BufferView particles{}; ///< 32 bits: the particle in each slot (CutVertex::corners)
+    /// TexturePoint of each vertex of the pieces of skins, stride 8; 0 at vertices of the inside, which have
+    /// `rest` for a solid texture. Empty if no skin has Skin::textureCoordinates.
+    vk::BufferView textureCoordinates{};
 };
 
 /// Outputs of one step, in buffers that other steps do not write (Simulation::outputs).
@@ -151,7 +154,7 @@ struct SINEW_API Outputs {
     bool isKept = false;                      ///< if false all views are empty
     vk::BufferView positions{}, velocities{}; ///< as Simulation::positions(), velocities()
     /// After a recordSkin() that follows the step; empty before, and without skins.
-    vk::BufferView skinVertices{}, skinIndices{}, pieceDraws{};
+    vk::BufferView skinVertices{}, skinIndices{}, pieceDraws{}, textureCoordinates{};
     CutSurface cutSurface{};
 };
 
@@ -298,6 +301,11 @@ public:
     /// such place. Empty without Settings::keepsPrevious.
     vk::BufferView previousSkinVertices() const noexcept;
     vk::BufferView skinIndices() const noexcept;
+    /// TexturePoint of each entry of skinIndices(), stride 8: a seam has several at one vertex. Draw without
+    /// an index buffer; a vertex shader reads index and texture point n = gl_VertexIndex, and the vertex at
+    /// that index (docs/skins.md). Changes with the indices: a vertex that a cut moves has those of its new
+    /// place. Empty if no skin has Skin::textureCoordinates.
+    vk::BufferView textureCoordinates() const noexcept;
     /// Outputs of a recorded step that is one of the last Settings::outputFrames; empty views for any other,
     /// or if a reset, a loaded state or a take-over came after it. Step `frame` lies in the copies of number
     /// frame % outputFrames: only steps that are a multiple of it apart share them. record() writes the first
@@ -314,6 +322,8 @@ public:
         vk::BufferView indices{};
         std::span<const SkinRange> ranges{};
         bool areWhole = false; ///< Skin::wholeTriangles, for skins that have them
+        /// Of `indices`, as Simulation::textureCoordinates().
+        vk::BufferView textureCoordinates{};
     };
     DrawnSkins drawnSkins() const noexcept;
     CutSurface cutSurface() const noexcept;

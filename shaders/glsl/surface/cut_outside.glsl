@@ -63,6 +63,12 @@ uint outsideFace(uint cell, uint p, uint m, uint parted) {
     return 6u;
 }
 
+// True if a face of a tetrahedron is an outer one: that opposite of corner 0 (side 0) or of 3 (side 1).
+bool isOuter(uint cell, uint p, uint side) {
+    const uint next = side == 0u ? slotOf(cell, secondCorner[p]) : cell - slotOf(0u, 1u << lastAxis[p]);
+    return !isCell(complex[next]);
+}
+
 // Adds the outer triangles of a cell, and returns the outer faces that are drawn in pieces: bit 2 p for the face
 // opposite of 0, 2 p + 1 for that of 3.
 uint addOutside(uint cell) {
@@ -70,10 +76,8 @@ uint addOutside(uint cell) {
     uint pieces = 0u;
     [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p)
         [[dont_unroll]] for (uint side = 0u; side < 2u; ++side) {
-            const uint axis = side == 0u ? secondCorner[p] : 1u << lastAxis[p];
-            const uint next = side == 0u ? slotOf(cell, axis) : cell - slotOf(0u, axis);
-            if (isCell(complex[next])) continue;
-            setNormal(axis, side == 0u);
+            if (!isOuter(cell, p, side)) continue;
+            setNormal(side == 0u ? secondCorner[p] : 1u << lastAxis[p], side == 0u);
             if (outsideFace(cell, p, 3u * side, partitionOf(partitions[cell], p)) > 0u) pieces |= 1u << 2u * p + side;
             writeNoted();
         }

@@ -30,10 +30,7 @@ uint self;
 
 #include "surface/piece_vertices.glsl"
 
-// Corners of triangles to write, 4 bits each. There is one place that writes them, because a software device inlines
-// every call.
-uint noted[6], count = 0u;
-void triangle(uint a, uint b, uint c) { noted[count++] = a | b << 4 | c << 8; }
+#include "surface/piece_triangles.glsl"
 
 void writeNoted() {
     [[dont_unroll]] for (uint corner = 0u; corner < 3u * count; ++corner) {
@@ -49,24 +46,6 @@ void main() {
     self = listed[1u + item] - push.first;
     prism = prisms[self];
     next = starts[push.first + self].y;
-    const uvec3 pattern = patternOf(prism);
-    if (pattern.y + pattern.z == 0u) { // whole, but its neighbour is not: the point on their edge is inserted
-        [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
-            const SkinEdge edge = edgeOf(prism, self, n);
-            if ((owned[push.first + edge.prism].x >> 2u * edge.edge & 1u) == 0u) continue;
-            triangle(n, 3u + n, (n + 2u) % 3u);
-            triangle(3u + n, (n + 1u) % 3u, (n + 2u) % 3u);
-        }
-    } else if (pattern.y == 1u && pattern.z == 2u) {
-        [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
-            triangle(n, 3u + n, firstCenter + n);
-            triangle(n, firstCenter + n, 6u + (n + 2u) % 3u);
-        }
-    } else {
-        const uint a = pattern.y == 0u ? 2u : pattern.z == 0u ? 1u : 0u, b = (a + 1u) % 3u, c = (a + 2u) % 3u;
-        triangle(a, 3u + a, 6u + c);
-        triangle(6u + a, b, c);
-        triangle(6u + a, c, 3u + c);
-    }
+    addPieces();
     writeNoted();
 }

@@ -19,33 +19,29 @@ layout(push_constant) uniform Push { SheetPush push; };
 #include "surface/hit_at.glsl"
 #include "surface/sheet_polygons.glsl"
 
-void splitInThree() {
-    vec2 middle = vec2(0.0);
-    for (int n = 0; n < 3; ++n) middle += (vec2(cuts.edges[n].from) + hitOf(cuts.edges[n]) * vec2(cuts.edges[n].way)) / 3.0;
-    for (int n = 0; n < 3; ++n) {
-        const uint corner = addCorner(n), ahead = addPoint(n, n);
-        const uint inside = addOn(n, middle - vec2(cornerAt(triangle.kind, n)));
-        addQuad(corner, ahead, inside, addPoint((n + 2) % 3, n));
-    }
+float turn() { return (triangle.kind & 2u) == 0u ? 1.0 : -1.0; }
+
+uint add(SheetVertex vertex) {
+    vertices[next.vertices] = vertex;
+    return push.firstVertex + next.vertices++;
 }
 
-// Splits off the corner between two dead edges.
-void splitInTwo() {
-    int off = 0;
-    for (int n = 0; n < 3; ++n)
-        if (cuts.edges[n].isAlive) off = (n + 2) % 3;
-    const int ahead = (off + 1) % 3, behind = (off + 2) % 3;
-    const uint corner = addCorner(off), first = addPoint(off, off);
-    addTriangle(corner, first, addPoint(behind, off));
-    const uint start = addPoint(off, ahead), low = addCorner(ahead), high = addCorner(behind);
-    addQuad(start, low, high, addPoint(behind, behind));
+uint addOn(int corner, vec2 way) {
+    const uint slot = slotAt(triangle.slot, cornerAt(triangle.kind, corner));
+    return add(SheetVertex(slot, slot, 0.0, way.x, way.y, turn()));
 }
 
-void splitAtPoint() {
-    int n = 0;
-    while (cuts.edges[n].isAlive) ++n;
-    const uint from = addCorner(n), point = addBetween(n), to = addCorner((n + 1) % 3);
-    addQuad(point, to, addCorner((n + 2) % 3), from);
+uint addBetween(int n) {
+    const Edge edge = cuts.edges[n];
+    return add(SheetVertex(edge.owner, edge.other, hitOf(edge), 0.0, 0.0, turn()));
+}
+
+void addTriangle(uint a, uint b, uint c) {
+    const uint first = push.firstPiece + 3u * next.triangles++;
+    const bool isTurned = (triangle.kind & 2u) != 0u;
+    indices[first] = a;
+    indices[first + 1u] = isTurned ? c : b;
+    indices[first + 2u] = isTurned ? b : c;
 }
 
 void main() {
@@ -60,7 +56,5 @@ void main() {
         indices[index + n] = allIndices[index + (isHidden ? 0u : n)];
     }
     if (!isHidden) return;
-    if (cuts.dead == 3u) splitInThree();
-    else if (cuts.dead == 2u) splitInTwo();
-    else splitAtPoint();
+    addPieces();
 }

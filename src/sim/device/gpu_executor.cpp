@@ -44,7 +44,9 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
         const BufferId id{b};
         if (id == program.skinVertices || id == program.positions || id == program.velocities ||
             id == program.previousPositions || id == program.previousSkinVertices ||
-            id == program.cutting.pieces || id == cut.vertices || id == cut.rest)
+            id == program.cutting.pieces || id == program.textureCoordinates ||
+            id == program.wholeTextureCoordinates || id == cut.vertices || id == cut.rest ||
+            id == cut.textureCoordinates)
             usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
         if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws)
             usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;

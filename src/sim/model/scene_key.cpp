@@ -94,6 +94,8 @@ void addBodies(Key& key, const Scene& scene) {
     key.each(scene.skins, [&](const Skin& skin) {
         key.addAll(std::uint64_t{skin.triangles.size()}, std::uint64_t{skin.vertexCount()},
                    std::uint64_t{skin.anchors.size()});
+        for (const TextureCorners& corners : skin.textureCoordinates) // none = the same key as before
+            for (const TexturePoint& at : corners) key.addAll(at.u, at.v);
     });
 }
 

@@ -120,6 +120,7 @@ struct CutSurfaceBuffers {
     BufferId particles; ///< by slot: the particle that CutVertex::corners refer to
     BufferId hung;      ///< layout::HungVertex of clipped skins of meshes; invalid without such skins
     BufferId moved;     ///< of each of these: position at rest, if w is VERTEX_MOVED or more
+    BufferId textureCoordinates; ///< TexturePoint of each vertex; invalid if no skin has them
 };
 
 /// Contact candidates: lists by slot of layout::ContactCandidate (collision/contact_lists.hpp,
@@ -247,6 +248,8 @@ struct StepProgram {
     BufferId skinVertices, skinIndices;                   ///< invalid without skins
     BufferId previousPositions, previousSkinVertices;     ///< invalid unless Settings::keepsPrevious
     BufferId wholeIndices;                                ///< of all skins: wholeTriangles, else triangles
+    BufferId textureCoordinates;      ///< TexturePoint of each skin index; invalid if no skin has them
+    BufferId wholeTextureCoordinates; ///< the same of wholeIndices
     ContactBuffers contacts;
     std::vector<GridBuffers> grids; ///< one for each contact search that uses a grid
     SleepBuffers sleep;

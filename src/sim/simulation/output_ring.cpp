@@ -24,8 +24,9 @@ OutputRing::OutputRing(const vk::Device& device, const StepProgram& program, con
     keep(program.positions, By::step);
     keep(program.velocities, By::step);
     const CutSurfaceBuffers& cut = program.cutSurface;
-    for (const BufferId buffer : {program.skinVertices, program.skinIndices, program.pieceDraws, cut.vertices,
-                                  cut.rest, cut.indices, cut.draws, cut.state, cut.particles})
+    for (const BufferId buffer :
+         {program.skinVertices, program.skinIndices, program.pieceDraws, cut.vertices, cut.rest, cut.indices,
+          cut.draws, cut.state, cut.particles, program.textureCoordinates, cut.textureCoordinates})
         keep(buffer, By::skin);
     for (Slot& slot : slots_)
         for (const Kept& one : kept_) {
@@ -79,8 +80,9 @@ Outputs OutputRing::outputs(std::uint64_t frame) const noexcept {
     outputs.skinVertices = of(program_.skinVertices);
     outputs.skinIndices = of(program_.skinIndices);
     outputs.pieceDraws = of(program_.pieceDraws);
-    outputs.cutSurface = {of(cut.vertices), of(cut.rest),  of(cut.indices),
-                          of(cut.draws),    of(cut.state), of(cut.particles)};
+    outputs.textureCoordinates = of(program_.textureCoordinates);
+    outputs.cutSurface = {of(cut.vertices), of(cut.rest),      of(cut.indices),           of(cut.draws),
+                          of(cut.state),    of(cut.particles), of(cut.textureCoordinates)};
     return outputs;
 }
 

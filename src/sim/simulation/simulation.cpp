@@ -232,6 +232,9 @@ vk::BufferView Simulation::skinVertices() const noexcept {
 vk::BufferView Simulation::skinIndices() const noexcept {
     return state_->executor.view(state_->program.skinIndices);
 }
+vk::BufferView Simulation::textureCoordinates() const noexcept {
+    return state_->executor.view(state_->program.textureCoordinates);
+}
 Outputs Simulation::outputs(std::uint64_t frame) const noexcept {
     return state_->outputs.outputs(frame);
 }
@@ -240,13 +243,15 @@ const std::vector<SkinRange>& Simulation::skins() const noexcept {
 }
 Simulation::DrawnSkins Simulation::drawnSkins() const noexcept {
     const vk::BufferView whole = view(state_->program.wholeIndices);
-    if (state_->isUncut && whole.size > 0) return {whole, state_->wholeSkins, true};
-    return {skinIndices(), state_->skins};
+    if (state_->isUncut && whole.size > 0)
+        return {whole, state_->wholeSkins, true, view(state_->program.wholeTextureCoordinates)};
+    return {skinIndices(), state_->skins, false, textureCoordinates()};
 }
 CutSurface Simulation::cutSurface() const noexcept {
     const CutSurfaceBuffers& buffers = state_->program.cutSurface;
-    return {view(buffers.vertices), view(buffers.rest),  view(buffers.indices),
-            view(buffers.draws),    view(buffers.state), view(buffers.particles)};
+    return {
+        view(buffers.vertices), view(buffers.rest),      view(buffers.indices),           view(buffers.draws),
+        view(buffers.state),    view(buffers.particles), view(buffers.textureCoordinates)};
 }
 vk::BufferView Simulation::pieceDraws() const noexcept {
     return state_->executor.view(state_->program.pieceDraws);

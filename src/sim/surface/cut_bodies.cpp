@@ -4,6 +4,7 @@
 #include "sim/surface/lattice_faces.hpp"
 #include "sim/surface/skin_complex.hpp"
 #include "sim/surface/skin_slots.hpp"
+#include "sim/surface/texture_coordinates.hpp"
 #include "sim/surface/unfold_anchors.hpp"
 #include "sinew/bodies.hpp"
 
@@ -43,6 +44,12 @@ private:
         const auto faces = latticeFaces(scene_.skins[place.index], grid, box, place.firstTriangle);
         if (!faces) return false;
         bodies_.faces.insert(bodies_.faces.end(), faces->begin(), faces->end());
+        if (areTextured_) {
+            const layout::CutPush& run = runOf(box);
+            addTexturedFaces(
+                bodies_, scene_.skins[place.index], grid, *faces,
+                {.first = 0, .count = 0, .rowStride = run.rowStride, .sliceStride = run.sliceStride});
+        }
         addBody(grid, place.index);
         for (const std::uint32_t index : grid.node) {
             const std::array<std::uint32_t, 3> node = lattice::coordinates(grid, index);
@@ -74,6 +81,7 @@ private:
                 bodies_.parts.push_back(
                     {firstHung + part.vertex, firstWhole + part.whole, {part.shares[0], part.shares[1]}});
         }
+        if (areTextured_) addTexturedPrisms(bodies_, skin, *complex, place.firstTriangle);
         bodies_.prisms.insert(bodies_.prisms.end(), complex->prisms.begin(), complex->prisms.end());
         bodies_.vertices.insert(bodies_.vertices.end(), complex->vertices.begin(), complex->vertices.end());
         bodies_.planes.insert(bodies_.planes.end(), complex->planes.begin(), complex->planes.end());
@@ -96,12 +104,16 @@ private:
             static_cast<double>(std::ranges::count_if(grid.fill, [](std::uint8_t fill) { return fill > 0; }));
     }
 
-    void addRange(const lattice::Box& box, std::uint32_t firstPrism, std::uint32_t firstHung,
-                  const SkinComplex& complex) {
-        const auto run = std::ranges::find_if(runs_, [&](const layout::CutPush& push) {
+    const layout::CutPush& runOf(const lattice::Box& box) const {
+        return *std::ranges::find_if(runs_, [&](const layout::CutPush& push) {
             return box.origin >= push.first && box.origin - push.first < push.count;
         });
-        HungRange range{*run, *run};
+    }
+
+    void addRange(const lattice::Box& box, std::uint32_t firstPrism, std::uint32_t firstHung,
+                  const SkinComplex& complex) {
+        const layout::CutPush& run = runOf(box);
+        HungRange range{run, run};
         range.prisms.first = firstPrism;
         range.prisms.count = static_cast<std::uint32_t>(complex.prisms.size());
         range.vertices.first = firstHung;
@@ -114,6 +126,7 @@ private:
     const Scene& scene_;
     const StateLayout& layout_;
     const std::span<const layout::CutPush> runs_;
+    const bool areTextured_ = areTextured(scene_.skins);
     CutBodies bodies_;
     std::vector<std::pair<std::uint32_t, Vec3>> pulled_;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/layout.h"
+#include "common/texture_layout.h"
 #include "sim/model/scene_model.hpp"
 
 #include <span>
@@ -25,13 +26,17 @@ struct CutBodies {
     std::vector<layout::HungVertex> vertices;
     std::vector<layout::vec4> planes; ///< by vertex: normals of the triangles around
     std::vector<layout::WholeTriangle> wholes;
-    std::vector<layout::PartVertex> parts; ///< vertices that are no corners of whole triangles
-    std::vector<layout::SkinSlot> slots;   ///< slots that prisms and vertices depend on
-    std::vector<std::uint32_t> hanging;    ///< prisms and vertices by slot
-    std::vector<HungRange> ranges;         ///< one for each body with prisms
-    double cells = 0;                      ///< of all bodies with a clipped skin; 0 = there are none
-    std::uint32_t room = 0;                ///< Settings::cutSurfaceRoom
-    std::vector<std::uint32_t> skins;      ///< clipped skins
+    std::vector<layout::PartVertex> parts;             ///< vertices that are no corners of whole triangles
+    std::vector<layout::SkinSlot> slots;               ///< slots that prisms and vertices depend on
+    std::vector<std::uint32_t> hanging;                ///< prisms and vertices by slot
+    std::vector<HungRange> ranges;                     ///< one for each body with prisms
+    std::vector<layout::TexturedPrism> texturedPrisms; ///< one for each of `prisms`, if a skin is textured
+    std::vector<layout::TexturedWhole> texturedWholes;
+    std::vector<layout::TexturedFace> texturedFaces;
+    std::vector<layout::TexturedFacePush> texturedRanges; ///< of texturedFaces, one for each body
+    double cells = 0;                 ///< of all bodies with a clipped skin; 0 = there are none
+    std::uint32_t room = 0;           ///< Settings::cutSurfaceRoom
+    std::vector<std::uint32_t> skins; ///< clipped skins
 };
 
 /// Reads cuttable bodies whose skin can be clipped; others are left out. `runs` are those of all cuttable

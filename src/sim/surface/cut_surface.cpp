@@ -5,6 +5,7 @@
 #include "sim/surface/hung_surface.hpp"
 #include "sim/surface/skin.hpp"
 #include "sim/surface/split_normals.hpp"
+#include "sim/surface/texture_coordinates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +95,7 @@ void addRewriting(ProgramBuilder& program, const CutSurface& surface, BufferId b
               {complex, partitions, owned, listed, surface.starts, drawn.state, surface.rest, drawn.rest,
                drawn.indices, surface.source.particles});
     addPrismTriangles(program, surface);
+    addTexturePasses(program, surface);
     addWholeMarks(program, surface);
     const layout::CountPush faces{surface.faces};
     program.dispatch(
@@ -140,6 +142,7 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
         program.addToState(buffer, buffer);
     }
     addHungBuffers(program, *surface, bodies);
+    addTextureBuffers(program, scene.skins, *surface, bodies);
     return surface;
 }
 

@@ -53,6 +53,13 @@ struct HungSurface {
     BufferId pulledPlaces; ///< by slot, positions of particles for a blade [m]; invalid = unchanged
 };
 
+/// Buffers of texture coordinates; invalid, or empty, where no clipped skin of the kind has them.
+struct SurfaceTexture {
+    BufferId prisms, wholes;                      ///< of bound skins
+    BufferId faces;                               ///< of outer faces of cells
+    std::vector<layout::TexturedFacePush> ranges; ///< of these, by body
+};
+
 struct CutSurface {
     CutSource source;
     layout::SurfacePush push{};
@@ -72,6 +79,7 @@ struct CutSurface {
     VertexFans wholeFans;             ///< whole triangles around each of these vertices
     std::uint32_t wholeVertices = 0;  ///< vertices in wholeFans
     std::vector<std::uint32_t> skins; ///< clipped skins
+    SurfaceTexture texture;
 };
 
 /// Adds the buffers, and the index buffer of skins, which cuts change. Call it after the buffers of

@@ -19,13 +19,6 @@ IndirectItems listOf(const HungSurface& hung, const layout::CutPush& range, std:
     return {hung.arguments, SKIN_LISTS * range.run + list, range.count};
 }
 
-// Appends a dispatch over the items that have a part of the surface.
-void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
-               std::initializer_list<BufferId> buffers) {
-    program.dispatchIndirect(code, {surface.arguments, surface.push.runs + SURFACE_LISTED, surface.items},
-                             buffers, pushOf(surface, surface.hung.prismCount));
-}
-
 void addPlan(ProgramBuilder& program, const HungSurface& hung) {
     const layout::CountPush lists{static_cast<std::uint32_t>(SKIN_LISTS * hung.ranges.size())};
     program.dispatch(k::planListed, lists.count, {hung.counts, hung.arguments}, lists);
@@ -63,6 +56,12 @@ std::vector<layout::SkinGrid> gridsOf(const CutBodies& bodies) {
 }
 
 } // namespace
+
+void addListedPrisms(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
+                     std::initializer_list<BufferId> buffers) {
+    program.dispatchIndirect(code, {surface.arguments, surface.push.runs + SURFACE_LISTED, surface.items},
+                             buffers, pushOf(surface, surface.hung.prismCount));
+}
 
 void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
     if (bodies.prisms.empty()) return;
@@ -163,9 +162,9 @@ void addPrismParting(ProgramBuilder& program, const CutSurface& surface) {
 void addRimPoints(ProgramBuilder& program, const CutSurface& surface) {
     const HungSurface& hung = surface.hung;
     if (hung.prismCount == 0) return;
-    addListed(program, surface, k::writeRims,
-              {surface.listed, surface.owned, program.program().cutting.links, hung.prisms, hung.vertices,
-               hung.hits, program.program().cutSurface.rest, hung.moved});
+    addListedPrisms(program, surface, k::writeRims,
+                    {surface.listed, surface.owned, program.program().cutting.links, hung.prisms,
+                     hung.vertices, hung.hits, program.program().cutSurface.rest, hung.moved});
 }
 
 void addPrismTriangles(ProgramBuilder& program, const CutSurface& surface) {
@@ -173,12 +172,12 @@ void addPrismTriangles(ProgramBuilder& program, const CutSurface& surface) {
     const BufferId links = program.program().cutting.links;
     const HungSurface& hung = surface.hung;
     if (hung.prismCount == 0) return;
-    addListed(program, surface, k::writePrisms,
-              {surface.listed, surface.owned, links, hung.prisms, hung.vertices, surface.starts, drawn.rest,
-               drawn.indices});
-    addListed(program, surface, k::writePieces,
-              {surface.listed, surface.owned, links, hung.prisms, hung.vertices, surface.starts, drawn.state,
-               drawn.rest, drawn.indices, hung.moved});
+    addListedPrisms(program, surface, k::writePrisms,
+                    {surface.listed, surface.owned, links, hung.prisms, hung.vertices, surface.starts,
+                     drawn.rest, drawn.indices});
+    addListedPrisms(program, surface, k::writePieces,
+                    {surface.listed, surface.owned, links, hung.prisms, hung.vertices, surface.starts,
+                     drawn.state, drawn.rest, drawn.indices, hung.moved});
 }
 
 void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {

@@ -17,6 +17,10 @@ namespace sinew::sim::surface {
 /// Adds the buffers; buffers of cuts are added to the topology.
 void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies);
 
+/// Appends a dispatch of a kernel with a layout::PrismPush over the items that have a part of the surface.
+void addListedPrisms(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
+                     std::initializer_list<BufferId> buffers);
+
 void addPrismParting(ProgramBuilder& program, const CutSurface& surface);
 void addRimPoints(ProgramBuilder& program, const CutSurface& surface);
 void addPrismTriangles(ProgramBuilder& program, const CutSurface& surface);

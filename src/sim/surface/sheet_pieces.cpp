@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "sim/lattice/placement.hpp"
 #include "sim/surface/skin.hpp"
+#include "sim/surface/texture_coordinates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,20 +17,59 @@ namespace k = kernels;
 
 using Nodes = std::array<std::array<std::uint32_t, 3>, 3>; // of the corners of a triangle
 
-// The kind of a triangle, from its corners relative to the cell's node in the order of the skin: bit 0 x, bit
-// 1 z.
-std::optional<std::uint32_t> kindOf(const Nodes& nodes, std::uint32_t x, std::uint32_t z) {
+// The corners of a triangle in the order of the skin, relative to a node of the cell: bit 0 x, bit 1 z.
+std::optional<std::array<std::uint32_t, 3>> cornersOf(const Nodes& nodes, std::uint32_t x, std::uint32_t z) {
     std::array<std::uint32_t, 3> corners{};
     for (std::size_t n = 0; n < 3; ++n) {
         const std::uint32_t right = nodes[n][0] - x, down = nodes[n][2] - z;
         if (right > 1 || down > 1) return std::nullopt;
         corners[n] = right | down << 1;
     }
+    return corners;
+}
+
+// The kind of a triangle with these corners.
+std::optional<std::uint32_t> kindOf(std::array<std::uint32_t, 3> corners) {
     std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     constexpr std::array<std::array<std::uint32_t, 3>, 4> kinds{{{0, 2, 3}, {0, 3, 1}, {0, 3, 2}, {0, 1, 3}}};
     const auto found = std::ranges::find(kinds, corners);
     if (found == kinds.end()) return std::nullopt;
     return static_cast<std::uint32_t>(found - kinds.begin());
+}
+
+// Nodes of the corners of a triangle; none if one is not of this grid.
+std::optional<Nodes> nodesOf(const Skin& skin, const Grid& grid,
+                             const std::array<std::uint32_t, 3>& corners) {
+    Nodes nodes;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const std::uint32_t index = skin.particles[corners[n]] - grid.firstParticle;
+        if (index >= grid.node.size()) return std::nullopt;
+        nodes[n] = lattice::coordinates(grid, grid.node[index]);
+    }
+    return nodes;
+}
+
+std::uint32_t lowest(const Nodes& nodes, std::size_t axis) {
+    return std::min({nodes[0][axis], nodes[1][axis], nodes[2][axis]});
+}
+
+// Texture coordinates of the halves of cells that a skin consists of.
+std::vector<layout::TexturedHalf> texturedHalves(const Skin& skin, const Grid& grid,
+                                                 const std::vector<layout::SheetTriangle>& triangles) {
+    std::vector<layout::TexturedHalf> halves(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const Nodes nodes = *nodesOf(skin, grid, skin.triangles[t]);
+        const auto corners = *cornersOf(nodes, lowest(nodes, 0), lowest(nodes, 2));
+        constexpr std::array<std::array<std::uint32_t, 3>, 2> orders{{{0, 2, 3}, {0, 3, 1}}};
+        const auto& order = orders[triangles[t].kind & 1];
+        for (std::size_t n = 0; n < 3; ++n) {
+            const TexturePoint& at = skin.textureCoordinates[t][n];
+            const auto place = static_cast<std::size_t>(std::ranges::find(order, corners[n]) - order.begin());
+            halves[t].at[2 * place] = at.u;
+            halves[t].at[2 * place + 1] = at.v;
+        }
+    }
+    return halves;
 }
 
 // Triangles of a few dozen cuts from end to end, or `least`, but no more than with every triangle of the
@@ -115,6 +155,9 @@ void findSkins(ProgramBuilder& program, const Scene& scene, const StateLayout& l
             const auto triangles = sheetTriangles(skin, grid, place.origin, place.sliceStride);
             if (!triangles) continue;
             SheetSkin sheet;
+            if (!skin.textureCoordinates.empty())
+                sheet.textured =
+                    program.upload(skin.name + ".textured", texturedHalves(skin, grid, *triangles));
             sheet.push.firstIndex = firstIndex;
             sheet.push.firstSlot = place.origin;
             sheet.push.sliceStride = place.sliceStride;
@@ -135,15 +178,11 @@ sheetTriangles(const Skin& skin, const Grid& grid, std::uint32_t slot, std::uint
     if (skin.particles.empty() || skin.triangles.empty()) return std::nullopt;
     std::vector<layout::SheetTriangle> triangles;
     for (const auto& corners : skin.triangles) {
-        Nodes nodes;
-        for (std::size_t n = 0; n < 3; ++n) {
-            const std::uint32_t index = skin.particles[corners[n]] - grid.firstParticle;
-            if (index >= grid.node.size()) return std::nullopt;
-            nodes[n] = lattice::coordinates(grid, grid.node[index]);
-        }
-        const std::uint32_t x = std::min({nodes[0][0], nodes[1][0], nodes[2][0]}),
-                            z = std::min({nodes[0][2], nodes[1][2], nodes[2][2]});
-        const auto kind = kindOf(nodes, x, z);
+        const auto nodes = nodesOf(skin, grid, corners);
+        if (!nodes) return std::nullopt;
+        const std::uint32_t x = lowest(*nodes, 0), z = lowest(*nodes, 2);
+        const auto places = cornersOf(*nodes, x, z);
+        const auto kind = places ? kindOf(*places) : std::nullopt;
         if (!kind) return std::nullopt;
         triangles.push_back({slot + x + sliceStride * z, *kind});
     }
@@ -166,6 +205,7 @@ std::shared_ptr<SheetPieces> addSheetPieces(ProgramBuilder& program, const Scene
     pieces->allIndices = program.upload("skin.all_indices", indices);
     indices.resize(room.index, 0);
     built.skinIndices = program.upload("skin.indices", indices);
+    addTextureCoordinates(program, scene.skins, Coordinates::changing, room.index);
     built.pieceVertices = room.vertex - vertices;
     built.pieceDraws = program.scratch<layout::DrawArguments>("skin.piece_draws", scene.skins.size());
     pieces->arguments =
@@ -207,6 +247,11 @@ void addSheetPasses(ProgramBuilder& program, const SheetPieces& pieces, bool isF
                                  {built.cutting.links, built.cutting.hits, skin.triangles, skin.counts,
                                   skin.state, pieces.allIndices, built.skinIndices, skin.vertices},
                                  push);
+        if (skin.textured != BufferId{})
+            program.dispatchIndirect(k::writeSheetTextures, {pieces.arguments, 2 * push.skin, push.triangles},
+                                     {built.cutting.links, built.cutting.hits, skin.triangles, skin.counts,
+                                      skin.state, skin.textured, built.textureCoordinates},
+                                     push);
     }
 }
 

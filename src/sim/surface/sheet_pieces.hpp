@@ -28,6 +28,7 @@ struct SheetSkin {
     layout::SheetPush push{};
     layout::SheetSkinPush skinPush{};
     BufferId triangles, counts, state, vertices;
+    BufferId textured; ///< layout::TexturedHalf of each triangle; invalid without texture coordinates
 };
 
 struct SheetPieces {

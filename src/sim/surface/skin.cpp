@@ -4,6 +4,7 @@
 
 #include "common/layout.h"
 #include "kernels.hpp"
+#include "sim/surface/texture_coordinates.hpp"
 
 #include <algorithm>
 #include <array>
@@ -170,6 +171,7 @@ void addWholeSkins(ProgramBuilder& program, const Skins& skins) {
     const std::vector<std::uint32_t> indices = join(skins.all, wholeTriangles);
     const std::uint32_t vertexCount = std::ranges::max(indices) + 1;
     program.program().wholeIndices = program.upload("skin.whole_indices", indices);
+    addWholeTextureCoordinates(program, skins.all);
     program.into(List::wholeSkin, [&] {
         addPrevious(program);
         addVertices(program, skins, wholeVertices);
@@ -218,6 +220,7 @@ void addSkins(Build& build) {
     built.skinVertices =
         program.scratch<layout::SkinVertex>("skin.vertices", vertexCount + built.pieceVertices);
     if (built.skinIndices == BufferId{}) built.skinIndices = program.upload("skin.indices", indices);
+    addTextureCoordinates(program, skins, Coordinates::fixed);
     Skins all{skins, {}};
     for (const Skin& skin : skins)
         all.holders.push_back(skin.vertexCount() > 0 ? uploadHolders(program, skin) : BufferId{});
