@@ -1,8 +1,12 @@
 // Checks and rewrites OBJ files: every vertex and face is checked and written again, so that assimp reads
-// only `v x y z` and `f i j k`. Material libraries are dropped: setting a texture before any material crashes
-// assimp 5.2.5.
+// only `v x y z`, `vt u v` and `f i j k` or `f i/m j/n k/o`. Texture coordinates of a file are dropped if one
+// of them is no number or missing. Material libraries are dropped: setting a texture before any material
+// crashes assimp 5.2.5.
 #include "mesh/import_checks.hpp"
 #include "mesh/text_scanner.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace sinew::mesh {
 namespace {
@@ -33,9 +37,11 @@ private:
     std::size_t number_ = 0;
 };
 
+enum class Texture { keep, drop };
+
 class ObjReducer {
 public:
-    explicit ObjReducer(const ImportLimits& limits) : limits_(limits) {}
+    ObjReducer(const ImportLimits& limits, Texture texture) : limits_(limits), texture_(texture) {}
 
     Reduced reduce(std::string_view bytes) {
         const std::string_view nameWord = wordOfObjects(bytes);
@@ -44,6 +50,8 @@ public:
             const std::string_view word = takeWord(line);
             if (word == "v")
                 addVertex(line, lines.number());
+            else if (word == "vt" && texture_ == Texture::keep)
+                addTexturePoint(line);
             else if (word == "f")
                 addFace(line, lines.number());
             else if (word == nameWord)
@@ -53,6 +61,12 @@ public:
         checkTriangleCount(triangles_, limits_);
         return std::move(reduced_);
     }
+
+    /// Whether texture coordinates were found, all of them valid. False also if there are none.
+    bool isTextured() const {
+        return points_ > 0 && !hasFault_ && highestPoint_ > 0 && highestPoint_ <= points_;
+    }
+    bool hasTexturePoints() const { return points_ > 0; }
 
 private:
     static bool hasObjects(std::string_view bytes) {
@@ -80,11 +94,46 @@ private:
         ++vertices_;
     }
 
-    void addFace(std::string_view line, std::size_t number) {
-        std::uint64_t corners = 0;
-        beginRun();
+    void addTexturePoint(std::string_view line) {
+        result_ += "vt";
+        for (int axis = 0; axis < 2; ++axis) {
+            const std::string_view word = takeWord(line);
+            const std::optional<double> value = word.empty() && axis == 1 ? 0.0 : toNumber(word);
+            hasFault_ = hasFault_ || !value || !(std::abs(*value) <= largestCoordinate);
+            appendNumber(result_, hasFault_ ? 0.0 : *value);
+        }
+        result_ += '\n';
+        ++points_;
+    }
+
+    /// The texture coordinates of a face corner, "i/n" or "i/n/m", from 1; 0 if it has none.
+    std::uint64_t pointOf(std::string_view corner) const {
+        const std::size_t slash = corner.find('/');
+        if (texture_ == Texture::drop || slash == std::string_view::npos) return 0;
+        const std::string_view rest = corner.substr(slash + 1);
+        const auto index = toInteger<std::int64_t>(rest.substr(0, rest.find('/')));
+        if (!index) return 0;
+        const std::int64_t point = *index < 0 ? *index + static_cast<std::int64_t>(points_) + 1 : *index;
+        return static_cast<std::uint64_t>(std::max<std::int64_t>(point, 0));
+    }
+
+    /// Assimp takes them for other corners if some corners of a face have none.
+    void writeFace() {
+        const bool isTextured = std::ranges::find(corners_, 0u, &Corner::point) == corners_.end();
         result_ += 'f';
-        for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line), ++corners) {
+        for (const Corner& corner : corners_) {
+            (result_ += ' ') += std::to_string(corner.vertex);
+            if (!isTextured) continue;
+            (result_ += '/') += std::to_string(corner.point);
+            highestPoint_ = std::max(highestPoint_, corner.point);
+        }
+        result_ += '\n';
+    }
+
+    void addFace(std::string_view line, std::size_t number) {
+        beginRun();
+        corners_.clear();
+        for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line)) {
             const auto index = toInteger<std::int64_t>(word.substr(0, word.find('/')));
             if (!index)
                 throw Refusal(std::to_string(number), "a face corner is not a number: export the mesh again");
@@ -95,12 +144,12 @@ private:
                 highest_ = static_cast<std::uint64_t>(vertex);
                 highestLine_ = number;
             }
-            (result_ += ' ') += std::to_string(vertex);
+            corners_.push_back({static_cast<std::uint64_t>(vertex), pointOf(word)});
         }
-        result_ += '\n';
-        if (corners < 3)
+        writeFace();
+        if (corners_.size() < 3)
             throw Refusal(std::to_string(number), "a face has fewer than 3 corners: export the mesh again");
-        triangles_ += corners - 2;
+        triangles_ += corners_.size() - 2;
         if (triangles_ > limits_.triangles) checkTriangleCount(triangles_, limits_);
     }
 
@@ -110,6 +159,13 @@ private:
     }
 
     const ImportLimits& limits_;
+    Texture texture_;
+    bool hasFault_ = false;                       ///< of texture coordinates
+    std::uint64_t points_ = 0, highestPoint_ = 0; ///< the same
+    struct Corner {
+        std::uint64_t vertex = 0, point = 0;
+    };
+    std::vector<Corner> corners_; ///< of the face that is read
     Reduced reduced_;
     std::string& result_ = reduced_.text;
     std::uint32_t object_ = noObject; ///< object of the faces to come
@@ -120,7 +176,10 @@ private:
 } // namespace
 
 Reduced reduceObj(std::string_view bytes, const ImportLimits& limits) {
-    return ObjReducer(limits).reduce(bytes);
+    ObjReducer reducer(limits, Texture::keep);
+    Reduced reduced = reducer.reduce(bytes);
+    if (reducer.isTextured() || !reducer.hasTexturePoints()) return reduced;
+    return ObjReducer(limits, Texture::drop).reduce(bytes);
 }
 
 } // namespace sinew::mesh

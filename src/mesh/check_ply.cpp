@@ -63,6 +63,16 @@ bool isCoordinate(const Property& property) {
     return property.name == "x" || property.name == "y" || property.name == "z";
 }
 
+/// 0 for u, 1 for v, by the names that assimp knows; none for any other property.
+std::optional<std::size_t> textureAxis(const Property& property) {
+    const std::array<std::array<std::string_view, 4>, 2> names{
+        {{"u", "s", "tx", "texture_u"}, {"v", "t", "ty", "texture_v"}}};
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        if (!property.isList() && std::ranges::find(names[axis], property.name) != names[axis].end())
+            return axis;
+    return std::nullopt;
+}
+
 [[noreturn]] void refuse(std::size_t line, const std::string& why) {
     throw Refusal(std::to_string(line), why);
 }
@@ -236,6 +246,7 @@ public:
     virtual ~Reader() = default;
 
     virtual void vertex(const std::array<double, 3>&) {}
+    virtual void texture(const std::array<double, 2>&) {} ///< of the vertex before
     virtual void face(std::span<const std::uint64_t>) {}
 
     void count(std::uint64_t triangles) {
@@ -259,15 +270,25 @@ public:
         for (const double value : x) appendNumber(text_, value);
         text_ += '\n';
     }
+    void texture(const std::array<double, 2>& at) override {
+        isTextured_ = true;
+        text_ += "vt";
+        for (const double value : at) appendNumber(text_, std::abs(value) <= largestCoordinate ? value : 0);
+        text_ += '\n';
+    }
     void face(std::span<const std::uint64_t> corners) override {
         text_ += 'f';
-        for (const std::uint64_t corner : corners) (text_ += ' ') += std::to_string(corner + 1);
+        for (const std::uint64_t corner : corners) {
+            (text_ += ' ') += std::to_string(corner + 1);
+            if (isTextured_) (text_ += '/') += std::to_string(corner + 1);
+        }
         text_ += '\n';
     }
     std::string take() { return std::move(text_); }
 
 private:
     std::string text_;
+    bool isTextured_ = false;
 };
 
 constexpr double stripEnd = -1; // an index that ends a strip within its list
@@ -319,20 +340,28 @@ void readStrips(std::span<const std::optional<std::uint64_t>> indices, Reader& r
 /// Reads all items of an element.
 void walk(Values& values, const Element& element, std::uint64_t vertices, Reader& reader) {
     std::vector<std::optional<std::uint64_t>> indices;
+    const auto hasAxis = [&](std::size_t axis) {
+        return std::ranges::any_of(
+            element.properties, [axis](const Property& property) { return textureAxis(property) == axis; });
+    };
+    const bool isTextured = element.isVertex() && hasAxis(0) && hasAxis(1);
     for (std::uint64_t item = 0; item < element.count; ++item) {
         values.beginItem(element, item);
         std::array<double, 3> x{};
+        std::array<double, 2> at{};
         for (const Property& property : element.properties) {
             if (property.isList()) {
                 walkList(values, property, element.isStrips(), vertices, indices);
                 continue;
             }
             const double value = values.next(property.type);
+            if (const auto axis = isTextured ? textureAxis(property) : std::nullopt) at[*axis] = value;
             if (!element.isVertex() || !isCoordinate(property)) continue;
             if (!(std::abs(value) <= largestCoordinate)) checkCoordinate(value, values.where());
             x[static_cast<std::size_t>(property.name.front() - 'x')] = value;
         }
         if (element.isVertex()) reader.vertex(x);
+        if (isTextured) reader.texture(at);
         if (element.isFace()) readFace(indices, reader);
         if (element.isStrips()) readStrips(indices, reader);
     }

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char meshMark = 'M', refusalMark = 'R'; ///< first byte of the child's answer
-constexpr std::size_t triangleBytes = 9 * sizeof(float);
+constexpr std::size_t triangleBytes = 9 * sizeof(float), textureBytes = 6 * sizeof(float);
 
 std::string printable(std::string_view text) {
     std::string result(text.substr(0, 500));
@@ -175,14 +175,17 @@ template <typename T> void append(std::string& bytes, const std::vector<T>& valu
 }
 
 /// The child's answer. Runs in the child. For a mesh: its mark, the number of names, the names with a zero
-/// after each, the corners, and the objects if there are names.
+/// after each, 1 if there are texture coordinates or else 0, the corners, these coordinates, and the objects
+/// if there are names.
 std::string answer(Format format, std::string_view bytes, const ImportLimits& limits) {
     try {
         const Soup soup = checkAndRead(format, bytes, limits);
         std::string result(1, meshMark);
         append(result, std::vector{static_cast<std::uint32_t>(soup.names.size())});
         for (const std::string& name : soup.names) (result += name) += '\0';
+        result += soup.textureCoordinates.empty() ? '\0' : '\1';
         append(result, soup.corners);
+        append(result, soup.textureCoordinates);
         append(result, soup.objects);
         return result;
     } catch (const Refusal& refusal) {
@@ -213,20 +216,35 @@ bool takeNames(std::string_view& bytes, std::vector<std::string>& names) {
     return true;
 }
 
+std::vector<sim::TextureCorners> takeTexture(const fs::path& file, std::string_view& bytes,
+                                             std::size_t triangles) {
+    const auto values = take<float>(bytes, 6 * triangles);
+    if (!std::ranges::all_of(values, [](float x) { return std::abs(double{x}) <= largestCoordinate; }))
+        fail(file, "", "the importer failed (a texture coordinate is not finite): export the mesh again");
+    std::vector<sim::TextureCorners> corners(triangles);
+    for (std::size_t t = 0; t < triangles; ++t)
+        for (std::size_t n = 0; n < 3; ++n)
+            corners[t][n] = {values[6 * t + 2 * n], values[6 * t + 2 * n + 1]};
+    return corners;
+}
+
 TriangleMesh decode(const fs::path& file, std::string_view bytes, const ImportLimits& limits) {
     const char mark = bytes.empty() ? '\0' : bytes.front();
     bytes.remove_prefix(std::min<std::size_t>(bytes.size(), 1));
     if (const std::size_t end = bytes.find('\0'); mark == refusalMark && end != std::string_view::npos)
         fail(file, printable(bytes.substr(0, end)), printable(bytes.substr(end + 1)));
     TriangleMesh mesh{.name = file.stem().string()};
-    const bool isSound = mark == meshMark && takeNames(bytes, mesh.objectNames);
-    const std::size_t size = triangleBytes + (mesh.objectNames.empty() ? 0 : sizeof(std::uint32_t));
+    const bool isSound = mark == meshMark && takeNames(bytes, mesh.objectNames) && !bytes.empty();
+    const bool isTextured = isSound && take<char>(bytes, 1)[0] != 0;
+    const std::size_t size = triangleBytes + (isTextured ? textureBytes : 0) +
+                             (mesh.objectNames.empty() ? 0 : sizeof(std::uint32_t));
     const std::size_t count = bytes.size() / size;
     if (!isSound || bytes.size() != count * size || count > limits.triangles)
         fail(file, "", "the importer failed (its answer is invalid): export the mesh again");
     const auto corners = take<float>(bytes, 9 * count);
     if (!std::ranges::all_of(corners, [](float x) { return std::abs(double{x}) <= largestCoordinate; }))
         fail(file, "", "the importer failed (a coordinate is not finite): repair the mesh");
+    if (isTextured) mesh.textureCoordinates = takeTexture(file, bytes, count);
     mesh.objects = take<std::uint32_t>(bytes, bytes.size() / sizeof(std::uint32_t));
     for (std::uint32_t& object : mesh.objects)
         if (object >= mesh.objectNames.size()) object = noObject;
@@ -248,12 +266,12 @@ TriangleMesh importMesh(const fs::path& file, MeshDefects& defects, const Import
     const double forSize = std::floor(static_cast<double>(bytes.size()) / limits.bytesPerSecond);
     std::string result;
     try {
-        result =
-            runInChild([&] { return answer(format, bytes, limits); },
-                       {.addressSpaceBytes = limits.addressSpaceBytes,
-                        .answerBytes = (1 << 20) + limits.triangles * (triangleBytes + sizeof(std::uint32_t)),
-                        .cpuSeconds = limits.cpuSeconds + forSize,
-                        .wallSeconds = limits.wallSeconds + 2 * forSize});
+        result = runInChild([&] { return answer(format, bytes, limits); },
+                            {.addressSpaceBytes = limits.addressSpaceBytes,
+                             .answerBytes = (1 << 20) + limits.triangles * (triangleBytes + textureBytes +
+                                                                            sizeof(std::uint32_t)),
+                             .cpuSeconds = limits.cpuSeconds + forSize,
+                             .wallSeconds = limits.wallSeconds + 2 * forSize});
     } catch (const ChildFailure& failure) {
         fail(file, "",
              std::string("the importer failed (") + failure.what() +

@@ -34,8 +34,10 @@ enum class Format { obj, stl, ply, glb, gltf };
 /// applied, triangulated, welded, and repaired as `how` says; `repairs`, if not null, receives the report.
 /// `defects` are those of the result, except for degenerate and duplicate triangles, which are those of the
 /// file. `weldWithin` as `weld` of repair() [units of the file]. Objects keep their names from OBJ ("o", or
-/// "g" if it has no "o"), text STL ("solid") and glTF (nodes, or meshes). Never opens a second file. Throws
-/// ImportError. Forks: call before threads that hold locks the child would need (malloc is safe).
+/// "g" if it has no "o"), text STL ("solid") and glTF (nodes, or meshes). The first set of texture
+/// coordinates is kept (OBJ "vt", PLY s, t or u, v, glTF TEXCOORD_0), with v upwards; (0, 0) where a part has
+/// none. Never opens a second file. Throws ImportError. Forks: call before threads that hold locks the child
+/// would need (malloc is safe).
 TriangleMesh importMesh(const std::filesystem::path& file, MeshDefects& defects,
                         const ImportLimits& limits = {}, Repair how = Repair::close,
                         Repairs* repairs = nullptr, double weldWithin = 0);

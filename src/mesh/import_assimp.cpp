@@ -141,19 +141,31 @@ Eigen::Affine3d toAffine(const aiMatrix4x4& m) {
     return result;
 }
 
+/// Texture coordinates of a vertex in the first set; (0, 0) if there are none, or none that are finite.
+std::array<float, 2> texturePointOf(const aiMesh& mesh, unsigned vertex) {
+    if (!mesh.HasTextureCoords(0)) return {0, 0};
+    const aiVector3D& at = mesh.mTextureCoords[0][vertex];
+    const bool isUsable =
+        std::abs(double{at.x}) <= largestCoordinate && std::abs(double{at.y}) <= largestCoordinate;
+    return isUsable ? std::array<float, 2>{at.x, at.y} : std::array<float, 2>{0, 0};
+}
+
 /// Appends a mesh. A mirroring transform inverts triangles; they are reversed again.
-void append(const aiMesh& mesh, const Eigen::Affine3d& transform, std::vector<float>& corners) {
+void append(const aiMesh& mesh, const Eigen::Affine3d& transform, bool isTextured, Soup& soup) {
     const bool isMirrored = transform.linear().determinant() < 0;
     for (unsigned face = 0; face < mesh.mNumFaces; ++face) {
         const aiFace& triangle = mesh.mFaces[face];
         if (triangle.mNumIndices != 3) continue;
         for (unsigned corner = 0; corner < 3; ++corner) {
-            const aiVector3D& x = mesh.mVertices[triangle.mIndices[isMirrored ? 2 - corner : corner]];
+            const unsigned vertex = triangle.mIndices[isMirrored ? 2 - corner : corner];
+            const aiVector3D& x = mesh.mVertices[vertex];
             const Vector3 moved = transform * Vector3(double{x.x}, double{x.y}, double{x.z});
             for (unsigned axis = 0; axis < 3; ++axis) {
                 checkCoordinate(moved[axis], "face " + std::to_string(face));
-                corners.push_back(static_cast<float>(moved[axis]));
+                soup.corners.push_back(static_cast<float>(moved[axis]));
             }
+            if (!isTextured) continue;
+            for (const float value : texturePointOf(mesh, vertex)) soup.textureCoordinates.push_back(value);
         }
     }
 }
@@ -179,6 +191,8 @@ Soup readTriangles(Format format, std::string_view bytes, const ImportLimits& li
     const aiScene& scene = load(assimp, importer, announced);
 
     Soup soup;
+    const bool isTextured = std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
+                                        [](const aiMesh* mesh) { return mesh->HasTextureCoords(0); });
     std::vector<std::pair<const aiNode*, Eigen::Affine3d>> open{
         {scene.mRootNode, Eigen::Affine3d::Identity()}};
     std::uint64_t triangles = 0;
@@ -190,7 +204,7 @@ Soup readTriangles(Format format, std::string_view bytes, const ImportLimits& li
             const aiMesh& mesh = *scene.mMeshes[node->mMeshes[i]];
             triangles += mesh.mNumFaces; // several nodes may share a mesh
             if (triangles > limits.triangles) checkTriangleCount(triangles, limits);
-            append(mesh, transform, soup.corners);
+            append(mesh, transform, isTextured, soup);
             if (i == 0) soup.names.push_back(nameOf(*node, mesh));
             soup.objects.resize(soup.corners.size() / 9, static_cast<std::uint32_t>(soup.names.size() - 1));
         }

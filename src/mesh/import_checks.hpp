@@ -49,9 +49,11 @@ struct Reduced {
 };
 
 /// The child's answer: the corners of all triangles, 3 x 3 floats each, counter-clockwise from outside, and
-/// the object of each triangle, an index in `names`. Without names there are no objects.
+/// the object of each triangle, an index in `names`. Without names there are no objects. Texture coordinates
+/// are empty, or 3 x 2 floats a triangle.
 struct Soup {
     std::vector<float> corners;
+    std::vector<float> textureCoordinates;
     std::vector<std::uint32_t> objects;
     std::vector<std::string> names;
 };
@@ -78,8 +80,9 @@ std::uint32_t readUint32(std::string_view bytes, std::size_t offset);
 /// Detects the format by content alone; nothing if no known one matches.
 std::optional<Format> sniff(std::string_view bytes);
 
-/// Checks every vertex and face and returns an OBJ with these alone, without materials, normals or names, in
-/// runs of one object each if the file names objects ("o", or "g" if it has no "o").
+/// Checks every vertex and face and returns an OBJ with these and valid texture coordinates alone, without
+/// materials, normals or names, in runs of one object each if the file names objects ("o", or "g" if it has
+/// no "o").
 Reduced reduceObj(std::string_view bytes, const ImportLimits& limits);
 
 /// Checks of STL, text or binary. Both return the part to read: for text every facet in one solid, for binary

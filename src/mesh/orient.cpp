@@ -83,14 +83,14 @@ std::size_t orientNeighbours(TriangleMesh& mesh) {
     for (std::uint32_t triangle = 0; triangle < turns.size(); ++triangle)
         if (turns[triangle] == Turn::unknown) orientPart(mesh, neighbours, triangle, turns);
     for (std::size_t i = 0; i < turns.size(); ++i)
-        if (turns[i] == Turn::flip) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+        if (turns[i] == Turn::flip) flip(mesh, i);
     return static_cast<std::size_t>(std::ranges::count(turns, Turn::flip));
 }
 
 TriangleMesh orient(TriangleMesh mesh) {
     orientNeighbours(mesh);
     if (measure(mesh).volume < 0)
-        for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) flip(mesh, i);
     return mesh;
 }
 

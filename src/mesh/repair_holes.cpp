@@ -154,12 +154,31 @@ TakenEdges edgesBetween(const TriangleMesh& mesh, const std::vector<Loop>& loops
     return TakenEdges(std::move(edges));
 }
 
+/// Texture coordinates of a patch's vertex: those that a triangle of the rim has there. The centre of a fan
+/// has their mean.
+sim::TexturePoint texturePointOf(const TriangleMesh& mesh, const Loop& loop, std::uint32_t vertex) {
+    sim::TexturePoint sum;
+    float count = 0;
+    for (const std::uint32_t triangle : loop.rim)
+        for (std::size_t n = 0; n < 3; ++n) {
+            const sim::TexturePoint& at = mesh.textureCoordinates[triangle][n];
+            if (mesh.triangles[triangle][n] == vertex) return at;
+            sum = {sum.u + at.u, sum.v + at.v};
+            ++count;
+        }
+    return {sum.u / count, sum.v / count};
+}
+
 void addPatch(TriangleMesh& mesh, const Loop& loop, const Patch& patch, TakenEdges& taken) {
     if (patch.center) mesh.positions.push_back(*patch.center);
     for (const auto& triangle : patch.triangles) {
         mesh.triangles.push_back(triangle);
         if (!mesh.objects.empty()) mesh.objects.push_back(mesh.objects[loop.rim.front()]);
         if (!mesh.parts.empty()) mesh.parts.push_back(mesh.parts[loop.rim.front()]);
+        if (!mesh.textureCoordinates.empty())
+            mesh.textureCoordinates.push_back({texturePointOf(mesh, loop, triangle[0]),
+                                               texturePointOf(mesh, loop, triangle[1]),
+                                               texturePointOf(mesh, loop, triangle[2])});
         for (std::size_t i = 0; i < 3; ++i) taken.add(triangle[i], triangle[(i + 1) % 3]);
     }
 }

@@ -171,8 +171,7 @@ void turnParts(TriangleMesh& mesh, Places& places) {
     }
     for (std::size_t i = 0; i < parts.size(); ++i)
         if (isTurned[i])
-            for (const std::uint32_t triangle : parts[i].triangles)
-                std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+            for (const std::uint32_t triangle : parts[i].triangles) flip(mesh, triangle);
 }
 
 } // namespace sinew::mesh

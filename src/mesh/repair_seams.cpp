@@ -114,6 +114,26 @@ std::vector<Triangle> pieces(const Triangle& triangle, const Split& split) {
     return result;
 }
 
+/// Texture coordinates of these pieces: linear along the edge.
+std::vector<sim::TextureCorners> texturePieces(const TriangleMesh& mesh, const Split& split) {
+    const Triangle& triangle = mesh.triangles[split.triangle];
+    const sim::TextureCorners& whole = mesh.textureCoordinates[split.triangle];
+    const std::size_t start = split.corner, end = (start + 1) % 3;
+    const Vector3 a = toVector(mesh.positions[triangle[start]]), b = toVector(mesh.positions[triangle[end]]);
+    std::vector<sim::TextureCorners> result;
+    sim::TexturePoint from = whole[start];
+    const sim::TexturePoint apex = whole[(start + 2) % 3];
+    for (const std::uint32_t point : split.points) {
+        const auto share = static_cast<float>(nearestOnSegment(a, b, toVector(mesh.positions[point])).at);
+        const sim::TexturePoint to{whole[start].u + share * (whole[end].u - whole[start].u),
+                                   whole[start].v + share * (whole[end].v - whole[start].v)};
+        result.push_back({from, to, apex});
+        from = to;
+    }
+    result.push_back({from, whole[end], apex});
+    return result;
+}
+
 /// True if the corners lie exactly on a line: such a triangle would be dropped.
 bool isEmpty(const TriangleMesh& mesh, const Triangle& triangle) {
     const Vector3 a = toVector(mesh.positions[triangle[0]]);
@@ -137,6 +157,11 @@ bool splitOnce(TriangleMesh& mesh, double tolerance, Places& places) {
         const std::vector<Triangle> parts = pieces(triangle, split);
         if (std::ranges::any_of(parts, [&](const Triangle& part) { return isEmpty(mesh, part); })) continue;
         isSplit[edge.triangle] = true;
+        if (!mesh.textureCoordinates.empty()) {
+            const std::vector<sim::TextureCorners> corners = texturePieces(mesh, split);
+            mesh.textureCoordinates[edge.triangle] = corners.front();
+            mesh.textureCoordinates.insert(mesh.textureCoordinates.end(), corners.begin() + 1, corners.end());
+        }
         mesh.triangles[edge.triangle] = parts.front();
         mesh.triangles.insert(mesh.triangles.end(), parts.begin() + 1, parts.end());
         if (!mesh.objects.empty()) mesh.objects.resize(mesh.triangles.size(), mesh.objects[edge.triangle]);

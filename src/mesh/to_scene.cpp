@@ -140,6 +140,34 @@ double volumeOf(const TriangleMesh& mesh, const VoxelGrid& grid) {
     return isOff ? grid.filledVolume : volume;
 }
 
+/// Weights of the corners of a triangle at a point in its plane, none below 0; they sum to 1.
+Vector3 weightsIn(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& point) {
+    const Vector3 ab = b - a, ac = c - a, ap = point - a, normal = ab.cross(ac);
+    const double scale = normal.squaredNorm();
+    if (scale == 0) return {1, 0, 0};
+    const double atB = ap.cross(ac).dot(normal) / scale, atC = ab.cross(ap).dot(normal) / scale;
+    const Vector3 weights = Vector3(1 - atB - atC, atB, atC).cwiseMax(0);
+    return weights / weights.sum();
+}
+
+/// Texture coordinates of the triangles that a skin was split into: linear in each whole triangle.
+std::vector<sim::TextureCorners> splitCoordinates(const sim::Skin& skin,
+                                                  const std::vector<Vector3>& positions) {
+    std::vector<sim::TextureCorners> corners(skin.triangles.size());
+    for (std::size_t t = 0; t < corners.size(); ++t) {
+        const auto& [a, b, c] = skin.wholeTriangles[skin.wholeOf[t]];
+        const sim::TextureCorners& at = skin.wholeTextureCoordinates[skin.wholeOf[t]];
+        for (std::size_t n = 0; n < 3; ++n) {
+            const Vector3 weights =
+                weightsIn(positions[a], positions[b], positions[c], positions[skin.triangles[t][n]]);
+            const Vector3 u(double{at[0].u}, double{at[1].u}, double{at[2].u}),
+                v(double{at[0].v}, double{at[1].v}, double{at[2].v});
+            corners[t][n] = {static_cast<float>(weights.dot(u)), static_cast<float>(weights.dot(v))};
+        }
+    }
+    return corners;
+}
+
 /// Binds every vertex to its cell; a vertex of a clipped skin also gets its anchor.
 void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid,
           const sim::LatticeCorners& corners, bool isClipped) {
@@ -150,6 +178,9 @@ void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid
         positions = std::move(split.positions);
         skin.triangles = std::move(split.triangles);
         skin.wholeOf = std::move(split.wholeOf);
+        skin.wholeTextureCoordinates = std::exchange(skin.textureCoordinates, {});
+        if (!skin.wholeTextureCoordinates.empty())
+            skin.textureCoordinates = splitCoordinates(skin, positions);
         for (const auto& node : split.anchors)
             skin.anchors.push_back(corners.at(static_cast<std::uint32_t>(node[0]),
                                               static_cast<std::uint32_t>(node[1]),
@@ -157,6 +188,7 @@ void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid
         if (std::ranges::count(skin.anchors, sim::LatticeCorners::noParticle) > 0) {
             positions.resize(whole); // the skin is not clipped: restored
             skin.triangles = std::exchange(skin.wholeTriangles, {});
+            skin.textureCoordinates = std::exchange(skin.wholeTextureCoordinates, {});
             skin.wholeOf.clear();
             skin.anchors.clear();
         }
@@ -189,7 +221,10 @@ Filled fillVoxels(const TriangleMesh& mesh, const MeshBody& body) {
 
 void addSkin(sim::Scene& scene, const Filled& filled, const sim::LatticeCorners& corners,
              const MeshBody& body) {
-    scene.skins.push_back({.name = body.name, .triangles = filled.mesh.triangles, .color = body.color});
+    scene.skins.push_back({.name = body.name,
+                           .triangles = filled.mesh.triangles,
+                           .textureCoordinates = filled.mesh.textureCoordinates,
+                           .color = body.color});
     hang(scene.skins.back(), toCellUnits(filled.mesh, filled.grid), filled.grid, corners,
          body.isCuttable && filled.isClosed);
 }

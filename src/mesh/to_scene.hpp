@@ -39,7 +39,8 @@ struct AddedMesh {
 /// Appends particles on the corners of the filled cells, links, a body (restVolume = the mesh's volume if it
 /// is closed and no parts of it overlap, else the filled volume) and the skin, with every vertex in the cell
 /// that contains it. Corners outside the surface get a negative contact offset (minus their distance to it),
-/// so that the skin, not the hull of cells, rests on a plane. Returns the voxels and the kind of skin, for
+/// so that the skin, not the hull of cells, rests on a plane. The skin has the mesh's texture coordinates
+/// unless another surface is shown (AddedMesh::shown). Returns the voxels and the kind of skin, for
 /// reports. Throws std::invalid_argument if the mesh is empty.
 AddedMesh addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& body);
 

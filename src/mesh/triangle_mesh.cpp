@@ -85,11 +85,13 @@ void keepTriangles(TriangleMesh& mesh, const std::vector<bool>& isKept) {
         if (!isKept[i]) continue;
         if (!mesh.objects.empty()) mesh.objects[kept] = mesh.objects[i];
         if (!mesh.parts.empty()) mesh.parts[kept] = mesh.parts[i];
+        if (!mesh.textureCoordinates.empty()) mesh.textureCoordinates[kept] = mesh.textureCoordinates[i];
         mesh.triangles[kept++] = mesh.triangles[i];
     }
     mesh.triangles.resize(kept);
     if (!mesh.objects.empty()) mesh.objects.resize(kept);
     if (!mesh.parts.empty()) mesh.parts.resize(kept);
+    if (!mesh.textureCoordinates.empty()) mesh.textureCoordinates.resize(kept);
 }
 
 /// Removes vertices that no triangle uses.
@@ -98,8 +100,11 @@ TriangleMesh compacted(const TriangleMesh& mesh) {
     std::vector<std::uint32_t> number(mesh.positions.size(), unused);
     for (const Triangle& triangle : mesh.triangles)
         for (const std::uint32_t vertex : triangle) number[vertex] = 0;
-    TriangleMesh result{
-        .name = mesh.name, .objects = mesh.objects, .objectNames = mesh.objectNames, .parts = mesh.parts};
+    TriangleMesh result{.name = mesh.name,
+                        .objects = mesh.objects,
+                        .objectNames = mesh.objectNames,
+                        .parts = mesh.parts,
+                        .textureCoordinates = mesh.textureCoordinates};
     for (std::size_t vertex = 0; vertex < number.size(); ++vertex)
         if (number[vertex] != unused) {
             number[vertex] = static_cast<std::uint32_t>(result.positions.size());
@@ -112,6 +117,12 @@ TriangleMesh compacted(const TriangleMesh& mesh) {
 }
 
 } // namespace
+
+void flip(TriangleMesh& mesh, std::size_t triangle) {
+    std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+    if (mesh.textureCoordinates.empty()) return;
+    std::swap(mesh.textureCoordinates[triangle][1], mesh.textureCoordinates[triangle][2]);
+}
 
 TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects, std::vector<Vec3>* dropped) {
     defects = {};

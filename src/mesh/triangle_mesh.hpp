@@ -19,7 +19,12 @@ struct TriangleMesh {
     /// Number of the component that contained each triangle before a selection, from 1; empty without a
     /// selection.
     std::vector<std::uint32_t> parts = {};
+    /// Empty, or texture coordinates of the corners of each triangle: a seam needs no second vertex.
+    std::vector<sim::TextureCorners> textureCoordinates = {};
 };
+
+/// Reverses a triangle, with its texture coordinates.
+void flip(TriangleMesh& mesh, std::size_t triangle);
 
 /// Topology and quality of a mesh after identical vertices were joined.
 struct MeshDefects {
