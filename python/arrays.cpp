@@ -27,8 +27,8 @@ py::array outputArray(SinewDevice device, SinewSimulation simulation, std::uint3
                       py::object owner) {
     SinewBufferView view{};
     check(sinewGetView(simulation, output, &view));
-    const bool isIndices = view.stride == 4;
-    const py::ssize_t columns = isIndices ? 1 : view.stride / 4;
+    const bool isIndices = view.stride == 4 || output == SINEW_CUT_DRAWS;
+    const py::ssize_t columns = view.stride / 4;
     const py::ssize_t rows = view.stride == 0 ? 0 : static_cast<py::ssize_t>(view.size / view.stride);
     const py::dtype type = isIndices ? py::dtype::of<std::uint32_t>() : py::dtype::of<float>();
     const std::vector<py::ssize_t> shape =

@@ -274,6 +274,12 @@ void addSimulation(py::module_& module) {
         .def_property_readonly("previous_skin_vertices", output(SINEW_PREVIOUS_SKIN_VERTICES))
         .def_property_readonly("skin_vertices", output(SINEW_SKIN_VERTICES))
         .def_property_readonly("skin_indices", output(SINEW_SKIN_INDICES))
+        .def_property_readonly("texture_coordinates", output(SINEW_TEXTURE_COORDINATES))
+        .def_property_readonly("cut_vertices", output(SINEW_CUT_VERTICES))
+        .def_property_readonly("cut_rest", output(SINEW_CUT_REST))
+        .def_property_readonly("cut_indices", output(SINEW_CUT_INDICES))
+        .def_property_readonly("cut_draws", output(SINEW_CUT_DRAWS))
+        .def_property_readonly("cut_texture_coordinates", output(SINEW_CUT_TEXTURE_COORDINATES))
         .def_property_readonly("pieces", output(SINEW_PIECES))
         .def_property_readonly("substeps", [](const Simulation& self) { return self.info().substeps; })
         .def_property_readonly("steps_done", [](const Simulation& self) { return self.info().stepsDone; });
@@ -311,7 +317,8 @@ PYBIND11_MODULE(_sinew, module) {
              py::arg("friction") = 0.0f, py::arg("restitution") = 0.0f)
         .def("add_cloth", &Scene::addCloth)
         .def("add_lattice", &Scene::addLattice)
-        .def("add_mesh", &Scene::addMesh, py::arg("vertices"), py::arg("triangles"))
+        .def("add_mesh", &Scene::addMesh, py::arg("vertices"), py::arg("triangles"),
+             py::arg("texture_coordinates") = py::none())
         .def("add_mesh_file", &Scene::addMeshFile, py::arg("path"), py::arg("scale") = 1.0f)
         .def("validate", &Scene::validate, py::arg("settings") = py::none())
         .def("describe", &Scene::describe, py::arg("settings") = py::none())

@@ -250,11 +250,17 @@ struct Scene : Owned<SinewScene, sinewDestroyScene> {
         return mesh;
     }
 
-    std::uint32_t addMesh(const Floats& vertices, const Indices& triangles, const py::kwargs& given) {
+    std::uint32_t addMesh(const Floats& vertices, const Indices& triangles,
+                          const std::optional<Floats>& texture, const py::kwargs& given) {
         std::string name = "mesh";
         SinewMesh mesh = meshOf(given, name);
         mesh.vertexCount = rowsOf(vertices, 3, "vertices");
         mesh.triangleCount = rowsOf(triangles, 3, "triangles");
+        if (texture) {
+            if (rowsOf(*texture, 2, "texture_coordinates") != mesh.vertexCount)
+                throw py::value_error("texture_coordinates must have a row for each vertex");
+            mesh.textureCoordinates = texture->data();
+        }
         std::vector<SinewVec3> corners(mesh.vertexCount);
         std::memcpy(corners.data(), vertices.data(), corners.size() * sizeof(SinewVec3));
         mesh.vertices = corners.data();

@@ -322,8 +322,7 @@ typedef struct SinewLattice {
     float radius;       // of a particle in contacts [m], at most half of the spacing
     uint32_t hasBodyDiagonals, isCuttable;
     float tearStrain;  // 0 = never tears
-    uint32_t hasSkin;  // of the outer faces
-    uint32_t hasFaces; // for contacts of the surface; needs a radius
+    uint32_t hasSkin, hasFaces; // of the outer faces; hasFaces: for contacts, needs a radius
     float toughness;   // work of a blade on what it cuts [J/m^2]: SINEW_IMPULSES_BLADE
     const float* fill; // share of each cell that is material, x fastest; null = all whole
     size_t fillCount;  // 0, or cells[0] x cells[1] x cells[2]
@@ -342,9 +341,9 @@ typedef struct SinewMesh {
     float spacing;                                       // edge of a voxel [m]; 0 = by `resolution`
     uint32_t resolution;                                 // voxels along the longest side, 1 to 512
     float youngModulus, poissonRatio, recovery, density; // as in SinewLattice
-    uint32_t touches;                                    // particles have a radius of half a voxel
-    uint32_t isCuttable;
+    uint32_t touches, isCuttable; // touches: particles have a radius of half a voxel
     float tearStrain, toughness;
+    const float* textureCoordinates; // u and v of each vertex; null = none. A seam is two vertices at one place
 } SinewMesh;
 SINEW_C_API SinewMesh sinewDefaultMesh(void);
 SINEW_C_API SinewResult sinewAddMesh(SinewScene scene, const SinewMesh* mesh, uint32_t* body);
@@ -494,13 +493,14 @@ enum {
     SINEW_CUT_DRAWS = 10, // two VkDrawIndexedIndirectCommand: inside, pieces of skins
     SINEW_FORCE_SUMS = 11, // sums behind the impulses
     SINEW_PREVIOUS_POSITIONS = 12,    // at the start of the newest step; SinewSettings::keepsPrevious
-    SINEW_PREVIOUS_SKIN_VERTICES = 13 // before the newest sinewRecordSkin(); SinewSettings::keepsPrevious
+    SINEW_PREVIOUS_SKIN_VERTICES = 13, // before the newest sinewRecordSkin(); SinewSettings::keepsPrevious
+    SINEW_TEXTURE_COORDINATES = 14, // u, v of each of SINEW_SKIN_INDICES (SinewMesh::textureCoordinates)
+    SINEW_CUT_TEXTURE_COORDINATES = 15 // u, v of each of SINEW_CUT_VERTICES that pieces of skins have
 };
 typedef struct SinewBufferView {
     VkBuffer buffer;           // null if there is nothing to view
     VkDeviceSize offset, size; // [B]
-    uint32_t stride;           // [B]
-    uint32_t reserved;
+    uint32_t stride, reserved; // stride [B]
 } SinewBufferView;
 // Views stay valid as long as the simulation; sinewStep() may replace them when it needs more room.
 SINEW_C_API SinewResult sinewGetView(SinewSimulation simulation, uint32_t output, SinewBufferView* view);

@@ -78,8 +78,8 @@ class Scene:
     def add_lattice(self, **lattice: Any) -> int:
         """name, cells, origin, spacing, young_modulus, poisson_ratio, recovery, density, radius, cuttable, tear_strain, toughness, skin, faces,
         fill: as SinewLattice in sinew.h."""
-    def add_mesh(self, vertices: ArrayLike, triangles: ArrayLike, **mesh: Any) -> int:
-        """A voxel body of a triangle mesh: vertices (n, 3) [m], triangles (m, 3); name, spacing, resolution, young_modulus,
+    def add_mesh(self, vertices: ArrayLike, triangles: ArrayLike, texture_coordinates: Optional[ArrayLike] = None, **mesh: Any) -> int:
+        """A voxel body of a triangle mesh: vertices (n, 3) [m], triangles (m, 3), texture_coordinates (n, 2); name, spacing, resolution, young_modulus,
         poisson_ratio, recovery, density, touches, cuttable, tear_strain, toughness: as SinewMesh in sinew.h."""
     def add_mesh_file(self, path: str, scale: float = 1.0, **mesh: Any) -> int: ...
     def validate(self, settings: Optional[Settings] = None) -> None:
@@ -161,6 +161,23 @@ class Simulation:
         """(n, 8): position [m], 1, normal, 0 of the skins, after update_skin()."""
     @property
     def skin_indices(self) -> NDArray[np.uint32]: ...
+    @property
+    def texture_coordinates(self) -> NDArray[np.float32]:
+        """(n, 2): u, v of each of skin_indices; empty if no mesh has texture coordinates."""
+    @property
+    def cut_vertices(self) -> NDArray[np.float32]:
+        """(n, 8): as skin_vertices, of the surface of cuts."""
+    @property
+    def cut_rest(self) -> NDArray[np.float32]:
+        """(n, 16) of cut_vertices: place in the uncut body [m], index of the skin, and 12 words of the simulation's own."""
+    @property
+    def cut_indices(self) -> NDArray[np.uint32]: ...
+    @property
+    def cut_draws(self) -> NDArray[np.uint32]:
+        """(2, 5) of the inside and of pieces of skins: number of indices, 1, the first one in cut_indices, 0, 0."""
+    @property
+    def cut_texture_coordinates(self) -> NDArray[np.float32]:
+        """(n, 2): u, v of each of cut_vertices that pieces of skins have."""
     @property
     def pieces(self) -> NDArray[np.uint32]:
         """For each particle the one that names its piece; empty if nothing can be cut."""

@@ -29,6 +29,20 @@ std::uint32_t lastBody(const sim::Scene& scene, std::uint32_t* body) {
     return index;
 }
 
+void addTexture(mesh::TriangleMesh& mesh, const SinewMesh& given) {
+    if (given.textureCoordinates == nullptr) return;
+    for (std::size_t i = 0; i < std::size_t{2} * given.vertexCount; ++i)
+        if (!std::isfinite(given.textureCoordinates[i]))
+            invalidArgument("the texture coordinates of vertex " + std::to_string(i / 2) + " are not finite");
+    for (const auto& triangle : mesh.triangles) {
+        sim::TextureCorners& corners = mesh.textureCoordinates.emplace_back();
+        for (std::size_t n = 0; n < 3; ++n) {
+            const float* at = given.textureCoordinates + std::size_t{2} * triangle[n];
+            corners[n] = {at[0], at[1]};
+        }
+    }
+}
+
 mesh::TriangleMesh meshOf(const SinewMesh& given) {
     requireArray(given.vertices, given.vertexCount, "vertices");
     requireArray(given.triangles, given.triangleCount, "triangles");
@@ -50,6 +64,7 @@ mesh::TriangleMesh meshOf(const SinewMesh& given) {
                                 std::to_string(given.vertexCount));
         made.triangles.push_back({corners[0], corners[1], corners[2]});
     }
+    addTexture(made, given);
     mesh::MeshDefects defects;
     mesh::Repairs repairs;
     made = mesh::weld(made, defects);

@@ -226,6 +226,10 @@ vk::BufferView viewOf(const SimulationObject& object, std::uint32_t output) {
         return simulation.previousPositions();
     case SINEW_PREVIOUS_SKIN_VERTICES:
         return simulation.previousSkinVertices();
+    case SINEW_TEXTURE_COORDINATES:
+        return simulation.textureCoordinates();
+    case SINEW_CUT_TEXTURE_COORDINATES:
+        return simulation.cutSurface().textureCoordinates;
     default:
         invalidArgument("there is no output " + std::to_string(output));
     }
@@ -253,6 +257,10 @@ vk::BufferView viewIn(const sim::Outputs& outputs, std::uint32_t output) {
         return outputs.cutSurface.indices;
     case SINEW_CUT_DRAWS:
         return outputs.cutSurface.draws;
+    case SINEW_TEXTURE_COORDINATES:
+        return outputs.textureCoordinates;
+    case SINEW_CUT_TEXTURE_COORDINATES:
+        return outputs.cutSurface.textureCoordinates;
     default:
         invalidArgument("no frame keeps an output " + std::to_string(output));
     }

@@ -68,6 +68,44 @@ TEST_F(CApiOwnQueue, MemoryOfASoftwareDeviceIsReadInPlace) {
                           sinewMap(simulation, SINEW_PIECES, &address, &size)));
 }
 
+// A tetrahedron whose faces are islands of a texture: no two share a vertex.
+TEST_F(CApiOwnQueue, TextureCoordinatesStandBesideIndices) {
+    constexpr SinewVec3 corners[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    constexpr std::uint32_t faces[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    std::vector<SinewVec3> vertices;
+    std::vector<float> texture;
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        vertices.push_back(corners[faces[i]]);
+        texture.insert(texture.end(), {static_cast<float>(i), 0.5f * static_cast<float>(i % 3)});
+        triangles.push_back(i);
+    }
+    SinewMesh mesh = sinewDefaultMesh();
+    mesh.vertices = vertices.data();
+    mesh.vertexCount = 12;
+    mesh.triangles = triangles.data();
+    mesh.triangleCount = 4;
+    mesh.resolution = 6;
+    mesh.textureCoordinates = texture.data();
+    Scene scene;
+    ASSERT_TRUE(isOk(sinewCreateScene(&scene)));
+    ASSERT_TRUE(isOk(sinewAddMesh(scene, &mesh, nullptr)));
+    const SinewSettings settings = sinewDefaultSettings();
+    Simulation simulation;
+    ASSERT_TRUE(isOk(sinewCreateSimulation(device, scene, &settings, &simulation)));
+    SinewBufferView view{};
+    ASSERT_TRUE(isOk(sinewReset(simulation))); // fills the buffers
+    ASSERT_TRUE(isOk(sinewGetView(simulation, SINEW_TEXTURE_COORDINATES, &view)));
+    ASSERT_EQ(view.stride, 8u);
+    std::vector<float> seen(view.size / 4);
+    ASSERT_TRUE(isOk(sinewDownload(device, &view, view.size, seen.data())));
+    EXPECT_EQ(seen, texture);
+    ASSERT_TRUE(isOk(sinewGetView(simulation, SINEW_CUT_TEXTURE_COORDINATES, &view)));
+    EXPECT_EQ(view.size, 0u); // nothing can be cut
+    texture[5] = NAN;
+    EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "vertex 2", sinewAddMesh(scene, &mesh, nullptr)));
+}
+
 // Loose balls that fall onto each other need more room than one candidate for each.
 TEST_F(CApiOwnQueue, StepsThatLackRoomAreRepeatedWithMore) {
     Scene scene;

@@ -210,6 +210,32 @@ class Module(unittest.TestCase):
         self.assertGreater(scene.particle_count, 100)
         scene.validate()
 
+    def test_texture_coordinates_go_through_a_cut(self):
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]], float)
+        faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+        vertices = np.concatenate([corners[face] for face in faces])  # seams along all edges
+        texture = np.array([[2 * k + u, v] for k in range(6) for u, v in ((0, 0), (1, 0), (1, 1), (0, 1))], float)
+        triangles = np.concatenate([[[4 * k, 4 * k + 1, 4 * k + 2], [4 * k, 4 * k + 2, 4 * k + 3]] for k in range(6)])
+        scene = sinew.Scene()
+        scene.gravity = (0, 0, 0)
+        with self.assertRaisesRegex(ValueError, "a row for each vertex"):
+            scene.add_mesh(vertices, triangles, texture[:5])
+        scene.add_mesh(vertices, triangles, texture, resolution=5, cuttable=True)
+        simulation = sinew.Simulation(self.device, scene, sinew.Settings(substeps=2))
+        simulation.step(blade=sinew.Blade([(0.42, -1, -1), (0.44, -1, 2)], [(0.42, 2, -1), (0.44, 2, 2)]))
+        simulation.update_skin()
+        self.assertEqual(simulation.texture_coordinates.shape, (len(simulation.skin_indices), 2))
+        first, count = simulation.cut_draws[1, [2, 0]]
+        self.assertGreater(count, 0)
+        pieces = simulation.cut_indices[first:first + count]
+        at, places = simulation.cut_texture_coordinates[pieces], simulation.cut_rest[pieces, :3]
+        island = np.repeat(np.floor((at.reshape(-1, 3, 2)[:, :, 0].mean(axis=1)) / 2).astype(int), 3)
+        for k, face in enumerate(faces):  # linear on each face
+            a, b, d = corners[face[0]], corners[face[1]], corners[face[3]]
+            mine = island == k
+            expected = np.stack([2 * k + (places[mine] - a) @ (b - a), (places[mine] - a) @ (d - a)], axis=1)
+            np.testing.assert_allclose(at[mine], expected, atol=1e-5)
+
     def test_files_and_descriptions(self):
         scene = sinew.Scene(str(SCENES / "cube.toml"))
         self.assertGreater(scene.settings.substeps, 0)
