@@ -333,6 +333,7 @@ TEST(InputFile, BringsEveryBitBack) {
                          .from = SavedOrigin{"/a b/c d.state", 0xfedcba98u},
                          .solver = "jacobi",
                          .substeps = 7,
+                         .levels = 2,
                          .hasSharpClamp = true,
                          .room = 64,
                          .surface = 5000,

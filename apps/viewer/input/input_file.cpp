@@ -272,6 +272,7 @@ const std::array readers{
     Reader{"from", [](InputFile& to, Words& words) { to.from = readOrigin(words); }},
     Reader{"solver", [](InputFile& to, Words& words) { to.solver = words.word(); }},
     Reader{"substeps", [](InputFile& to, Words& words) { to.substeps = words.number<std::uint32_t>(); }},
+    Reader{"levels", [](InputFile& to, Words& words) { to.levels = words.number<std::uint32_t>(); }},
     Reader{"sharp_clamp",
            [](InputFile& to, Words& words) { to.hasSharpClamp = words.number<std::uint32_t>() != 0; }},
     Reader{"room", [](InputFile& to, Words& words) { to.room = words.number<std::uint32_t>(); }},
@@ -316,6 +317,7 @@ std::string toText(const InputFile& file) {
     if (file.from) all += Line("from").add(file.from->hash, 16).addWord(file.from->file).end();
     if (!file.solver.empty()) all += "solver " + file.solver + "\n";
     if (file.substeps > 0) all += Line("substeps").add(file.substeps).end();
+    if (file.levels) all += Line("levels").add(*file.levels).end();
     if (file.hasSharpClamp) all += Line("sharp_clamp").add(std::uint32_t{*file.hasSharpClamp}).end();
     if (file.room > 0) all += Line("room").add(file.room).end();
     if (file.surface > 0) all += Line("surface").add(file.surface).end();

@@ -119,11 +119,12 @@ struct InputFile {
     std::string scene;               ///< see rememberedScene(); empty = not known
     std::optional<SavedOrigin> from; ///< instead of the reset
     std::string solver;
-    std::uint32_t substeps = 0;        ///< 0 = chosen by the program
-    std::optional<bool> hasSharpClamp; ///< Settings::hasSharpClamp; empty: not known, as in older logs
-    std::uint32_t room = 0;            ///< least capacity for contacts; 0 = the scene's
-    std::uint32_t surface = 0;         ///< triangles and vertices of the surface of cuts; 0 = the scene's
-    std::optional<sim::Forms> forms;   ///< of kernels; empty = chosen by the program
+    std::uint32_t substeps = 0;          ///< 0 = chosen by the program
+    std::optional<std::uint32_t> levels; ///< Settings::levels; this and the next are empty in older logs
+    std::optional<bool> hasSharpClamp;   ///< Settings::hasSharpClamp
+    std::uint32_t room = 0;              ///< least capacity for contacts; 0 = the scene's
+    std::uint32_t surface = 0;           ///< triangles and vertices of the surface of cuts; 0 = the scene's
+    std::optional<sim::Forms> forms;     ///< of kernels; empty = chosen by the program
     std::vector<InputEvent> events;
     std::optional<std::uint64_t> hash; ///< state at the end (see stateHash())
 

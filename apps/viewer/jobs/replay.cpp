@@ -95,6 +95,7 @@ Options withReplay(Options options, const InputFile& file) {
         (file.scene.front() == '/' ? options.scene : options.builtIn) = file.scene;
     if (!options.overrides.solver && !file.solver.empty()) options.overrides.solver = file.solver;
     if (!options.overrides.substeps && file.substeps > 0) options.overrides.substeps = file.substeps;
+    if (!options.overrides.levels) options.overrides.levels = file.levels;
     if (file.substeps > 0) options.overrides.takeClamp(file.hasSharpClamp);
     if (!options.hasFrames) options.frames = file.steps();
     return options;

@@ -63,6 +63,7 @@ InputFile Journal::inputFile() const {
             .from = from_,
             .solver = sim::solverName(begun_.solver),
             .substeps = begun_.substeps,
+            .levels = player_.document.settings().levels,
             .hasSharpClamp = player_.document.settings().hasSharpClamp,
             .room = player_.document.contactRoom().room,
             .surface = player_.document.settings().cutSurfaceRoom,
