@@ -70,7 +70,6 @@ TEST_F(PanelsTest, FitTheHintInThePictureInWhichItChanges) {
     }
 }
 
-// Nothing in the panel moves under the pointer when a color map is turned on.
 // A paused scene has no next picture in which the legend would get its height.
 TEST_F(PanelsTest, FitTheLegendInThePictureInWhichItChanges) {
     settle();
@@ -94,6 +93,7 @@ TEST_F(PanelsTest, FitTheLegendInThePictureInWhichItChanges) {
     EXPECT_LT(shownWindow("legend")->Size.y, two - 10);
 }
 
+// Nothing in the panel moves under the pointer when a color map is turned on.
 TEST_F(PanelsTest, ShowLegendsOverTheHintInAWidePicture) {
     const auto height = [&](VkExtent2D extent) {
         settle(extent);

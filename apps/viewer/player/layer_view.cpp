@@ -59,7 +59,7 @@ bool LayerView::tend() {
 void LayerView::prepare(bool isCounting) {
     const WantedLayers before =
         std::exchange(drawn_, layerLoader_.ready({player_.session.layers(), isCounting}));
-    if (drawn_.layers != before.layers) hasNewLegend_ = true;
+    if (drawn_.layers.looks != before.layers.looks) hasNewLegend_ = true;
 }
 
 Overlay LayerView::record(const Presenter::Frame& frame) {
