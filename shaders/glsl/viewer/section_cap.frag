@@ -55,7 +55,7 @@ void main() {
     const bool isSkin = skins > 0.5;
     const vec3 color = sum.rgb / max(isSkin ? skins : balls, 1.0);
     if (frame.look.x > 0.5) // sums of weighted values and of weights; grey where no particle is near
-        shown = matt(position, frame.section.xyz, sum.g > 1e-3 ? mapColor(sum.r / sum.g, 1.0) : unknownValue);
+        shown = matt(position, frame.section.xyz, abs(sum.g) > 1e-3 ? mapColor(sum.r / sum.g, 1.0) : unknownValue);
     else
         shown = shade(position, frame.section.xyz, isSkin ? insideSurface(position, skinOf(color)) : tissue(color, push.color.w));
 }
