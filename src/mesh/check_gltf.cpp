@@ -121,30 +121,41 @@ std::uint64_t countTriangles(const Json& document, const Json& primitive) {
     return (mode == strip || mode == fan) && count > 2 ? count - 2 : 0;
 }
 
-/// Triangles of all meshes, including those that no node shows. The document must have passed the handler
-/// above.
-std::uint64_t countTriangles(std::string_view json) {
+bool hasWholeTexture(const Json& document, const Json& primitive) {
+    constexpr std::uint64_t floats = 5126;
+    if (!primitive.is_object()) return false;
+    const Json attributes = primitive.value("attributes", Json::object());
+    if (!attributes.is_object() || !attributes.contains("TEXCOORD_0")) return false;
+    return countAt(document, "accessors", attributes["TEXCOORD_0"], "componentType") != floats;
+}
+
+/// Of all meshes, including those that no node shows. The document must have passed the handler above.
+Announced announcedBy(std::string_view json) {
     const Json document = Json::parse(json.begin(), json.end(), nullptr, false);
-    std::uint64_t count = 0;
-    if (!document.is_object() || !document.contains("meshes") || !document["meshes"].is_array()) return 0;
-    for (const Json& mesh : document["meshes"])
-        if (mesh.is_object() && mesh.contains("primitives") && mesh["primitives"].is_array())
-            for (const Json& primitive : mesh["primitives"]) count += countTriangles(document, primitive);
-    return count;
+    Announced announced;
+    if (!document.is_object() || !document.contains("meshes") || !document["meshes"].is_array()) return {};
+    for (const Json& mesh : document["meshes"]) {
+        if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) continue;
+        for (const Json& primitive : mesh["primitives"]) {
+            announced.triangles += countTriangles(document, primitive);
+            announced.hasWholeTexture |= hasWholeTexture(document, primitive);
+        }
+    }
+    return announced;
 }
 
 } // namespace
 
-std::uint64_t checkGltf(std::string_view json, std::uint64_t fileBytes, const ImportLimits& limits) {
+Announced checkGltf(std::string_view json, std::uint64_t fileBytes, const ImportLimits& limits) {
     GltfHandler handler(fileBytes);
     nlohmann::json::sax_parse(json.begin(), json.end(), &handler);
     handler.finish();
-    const std::uint64_t triangles = countTriangles(json);
-    checkTriangleCount(triangles, limits);
-    return triangles;
+    const Announced announced = announcedBy(json);
+    checkTriangleCount(announced.triangles, limits);
+    return announced;
 }
 
-std::uint64_t checkGlb(std::string_view bytes, const ImportLimits& limits) {
+Announced checkGlb(std::string_view bytes, const ImportLimits& limits) {
     constexpr std::size_t headBytes = 12, chunkHeadBytes = 8;
     if (bytes.size() < headBytes + chunkHeadBytes)
         throw Refusal("", "the file ends too early: export the mesh again");

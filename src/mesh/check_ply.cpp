@@ -65,8 +65,8 @@ bool isCoordinate(const Property& property) {
 
 /// 0 for u, 1 for v, by the names that assimp knows; none for any other property.
 std::optional<std::size_t> textureAxis(const Property& property) {
-    const std::array<std::array<std::string_view, 4>, 2> names{
-        {{"u", "s", "tx", "texture_u"}, {"v", "t", "ty", "texture_v"}}};
+    const std::array<std::array<std::string_view, 3>, 2> names{
+        {{"u", "s", "texture_u"}, {"v", "t", "texture_v"}}};
     for (std::size_t axis = 0; axis < 2; ++axis)
         if (!property.isList() && std::ranges::find(names[axis], property.name) != names[axis].end())
             return axis;

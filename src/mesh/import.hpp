@@ -35,9 +35,9 @@ enum class Format { obj, stl, ply, glb, gltf };
 /// `defects` are those of the result, except for degenerate and duplicate triangles, which are those of the
 /// file. `weldWithin` as `weld` of repair() [units of the file]. Objects keep their names from OBJ ("o", or
 /// "g" if it has no "o"), text STL ("solid") and glTF (nodes, or meshes). The first set of texture
-/// coordinates is kept (OBJ "vt", PLY s, t or u, v, glTF TEXCOORD_0), with v upwards; (0, 0) where a part has
-/// none. Never opens a second file. Throws ImportError. Forks: call before threads that hold locks the child
-/// would need (malloc is safe).
+/// coordinates is kept (OBJ "vt", PLY s, t or u, v, glTF TEXCOORD_0 of floats), with v upwards; (0, 0) where
+/// a part has none. Never opens a second file. Throws ImportError. Forks: call before threads that hold locks
+/// the child would need (malloc is safe).
 TriangleMesh importMesh(const std::filesystem::path& file, MeshDefects& defects,
                         const ImportLimits& limits = {}, Repair how = Repair::close,
                         Repairs* repairs = nullptr, double weldWithin = 0);

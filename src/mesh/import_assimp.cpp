@@ -124,6 +124,8 @@ const aiScene& load(Assimp::Importer& assimp, const ImporterOf& importer, std::u
         if (countTriangles(*scene) < announced)
             throw Refusal("", "a face names a vertex that does not exist: export the mesh again");
         assimp.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+        // It would drop the coordinates of a part that has one texel, and of one with a single NaN.
+        assimp.SetPropertyBool(AI_CONFIG_PP_FID_IGNORE_TEXTURECOORDS, true);
         scene = assimp.ApplyPostProcessing(aiProcess_ValidateDataStructure | aiProcess_Triangulate |
                                            aiProcess_FindInvalidData | aiProcess_SortByPType);
     }
@@ -183,15 +185,16 @@ std::string nameOf(const aiNode& node, const aiMesh& mesh) {
 } // namespace
 
 Soup readTriangles(Format format, std::string_view bytes, const ImportLimits& limits,
-                   std::uint64_t announced) {
+                   const Announced& announced) {
     const ImporterOf& importer = *std::ranges::find(importers, format, &ImporterOf::format);
     Assimp::Importer assimp;
     keepOnly(assimp, importer.name);
     assimp.SetIOHandler(new OneFile(importer.file, bytes)); // owned by assimp
-    const aiScene& scene = load(assimp, importer, announced);
+    const aiScene& scene = load(assimp, importer, announced.triangles);
 
     Soup soup;
-    const bool isTextured = std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
+    const bool isTextured = !announced.hasWholeTexture &&
+                            std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
                                         [](const aiMesh* mesh) { return mesh->HasTextureCoords(0); });
     std::vector<std::pair<const aiNode*, Eigen::Affine3d>> open{
         {scene.mRootNode, Eigen::Affine3d::Identity()}};

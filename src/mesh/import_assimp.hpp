@@ -8,9 +8,8 @@ namespace sinew::mesh {
 
 /// The triangles of a file of the given format, with node transforms applied; each node is an object with its
 /// own name or that of its mesh, empty if neither has one. `bytes` must have passed the checks of
-/// import_checks.hpp. `announced`, if not 0, is the number of triangles that the file must contain, each mesh
-/// counted once. Throws Refusal.
+/// import_checks.hpp. Coordinates of a texture that are whole numbers are left out. Throws Refusal.
 Soup readTriangles(Format format, std::string_view bytes, const ImportLimits& limits,
-                   std::uint64_t announced = 0);
+                   const Announced& announced = {});
 
 } // namespace sinew::mesh

@@ -131,7 +131,7 @@ std::string plyBinaryOf(const std::vector<Corner>& corners) {
 }
 
 // Coordinates of glTF grow downwards.
-std::string glbOf(const std::vector<Corner>& corners) {
+std::string glbOf(const std::vector<Corner>& corners, const char* type = "5126") {
     std::string body;
     for (const Corner& c : corners)
         for (const float value : {c.place.x, c.place.y, c.place.z}) append(body, value);
@@ -142,9 +142,9 @@ std::string glbOf(const std::vector<Corner>& corners) {
     std::string json =
         R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{)"
         R"("attributes":{"POSITION":0,"TEXCOORD_0":1}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":)" +
-        count +
-        R"(,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},{"bufferView":1,"componentType":5126,"count":)" +
-        count + R"(,"type":"VEC2"}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":)" + places +
+        count + R"(,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},{"bufferView":1,"componentType":)" +
+        std::string(type) + R"(,"count":)" + count +
+        R"(,"type":"VEC2"}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":)" + places +
         R"(},{"buffer":0,"byteOffset":)" + places + R"(,"byteLength":)" + points +
         R"(}],"buffers":[{"byteLength":)" + std::to_string(body.size()) + "}]}";
     json.resize((json.size() + 3) / 4 * 4, ' ');
@@ -164,6 +164,30 @@ TriangleMesh import(const Folder& folder, const std::string& name, const std::st
 }
 
 } // namespace
+
+// The importer takes whole numbers for the bits of floats.
+TEST(TexturedFile, HasNoCoordinatesWhereTheyAreWholeNumbers) {
+    const Folder folder;
+    MeshDefects defects;
+    EXPECT_FALSE(import(folder, "floats.glb", glbOf(cube()), defects).textureCoordinates.empty());
+    EXPECT_TRUE(import(folder, "shorts.glb", glbOf(cube(), "5123"), defects).textureCoordinates.empty());
+}
+
+// One texel for all of an object, as of models that take their colors from a palette.
+TEST(TexturedFile, KeepsCoordinatesThatAreAllAlike) {
+    const Folder folder;
+    std::vector<Corner> corners = cube();
+    for (Corner& corner : corners) corner.at = {0.25f, 0.75f};
+    MeshDefects defects;
+    for (const auto& [name, bytes] :
+         {std::pair{"cube.obj", objOf(corners)}, std::pair{"cube.glb", glbOf(corners)}})
+        for (const sim::TextureCorners& triangle : import(folder, name, bytes, defects).textureCoordinates)
+            for (const sim::TexturePoint& at : triangle) {
+                EXPECT_NEAR(at.u, 0.25f, 1e-6) << name;
+                EXPECT_NEAR(at.v, 0.75f, 1e-6) << name;
+            }
+    EXPECT_FALSE(import(folder, "cube.obj", objOf(corners), defects).textureCoordinates.empty());
+}
 
 TEST(TexturedFile, KeepsTheCoordinatesOfEachCornerAndIsClosedAtSeams) {
     const Folder folder;
