@@ -37,11 +37,10 @@ uint wayOut(TexturedWhole whole, vec3 weights, uint before) {
     return way;
 }
 
-// The texture point of the nearest place on the triangles along the way.
-vec2 pointNear(uint home, vec3 place) {
+// The texture point of the nearest place on the triangles along the way; `found` if none of them has an area.
+vec2 pointNear(uint home, vec3 place, vec2 found) {
     uint next = home, before = NO_TEXTURE;
     float nearest = 1e30;
-    vec2 found = vec2(0.0);
     [[dont_unroll]] for (uint k = 0u; k < mostSteps; ++k) {
         const TexturedWhole whole = wholes[next];
         const vec3 a = hungAt(whole.vertices[0]).rest.xyz;
@@ -67,6 +66,6 @@ void main() {
     [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
         const vec4 to = MOVED(prisms[i].vertices[n]);
         const vec2 first = vec2(self.at[2u * n], self.at[2u * n + 1u]);
-        coordinates[3u * self.triangle + n] = to.w >= VERTEX_MOVED ? pointNear(self.homes[n], to.xyz) : first;
+        coordinates[3u * self.triangle + n] = to.w >= VERTEX_MOVED ? pointNear(self.homes[n], to.xyz, first) : first;
     }
 }

@@ -56,14 +56,37 @@ std::vector<std::array<std::uint32_t, 3>> neighbours(const Triangles& triangles,
     return beyond;
 }
 
-// One whole triangle for all corners at one vertex that have the same coordinates, so that all of them find
-// the same new place.
+// The number of the part of the texture of each triangle: parts end at seams.
+std::vector<std::uint32_t> partsOf(const std::vector<std::array<std::uint32_t, 3>>& beyond) {
+    std::vector<std::uint32_t> parts(beyond.size(), NO_TEXTURE), open;
+    for (std::uint32_t first = 0; first < beyond.size(); ++first) {
+        if (parts[first] != NO_TEXTURE) continue;
+        parts[first] = first;
+        open = {first};
+        while (!open.empty()) {
+            const std::uint32_t t = open.back();
+            open.pop_back();
+            for (const std::uint32_t other : beyond[t]) {
+                if (other == NO_TEXTURE || parts[other] != NO_TEXTURE) continue;
+                parts[other] = first;
+                open.push_back(other);
+            }
+        }
+    }
+    return parts;
+}
+
+// One whole triangle for all corners at one vertex that have the same coordinates in the same part of the
+// texture, so that all of them find the same new place. Parts may overlap: six faces of a cube, each of which
+// has the whole texture, say.
 class Homes {
 public:
+    explicit Homes(std::vector<std::uint32_t> parts) : parts_(std::move(parts)) {}
+
     std::uint32_t of(std::uint32_t vertex, const TexturePoint& at, std::uint32_t whole) {
         std::vector<Home>& homes = homes_[vertex];
         for (const Home& home : homes)
-            if (areSame(home.at, at)) return home.whole;
+            if (areSame(home.at, at) && parts_[home.whole] == parts_[whole]) return home.whole;
         homes.push_back({at, whole});
         return whole;
     }
@@ -73,6 +96,7 @@ private:
         TexturePoint at;
         std::uint32_t whole = 0;
     };
+    std::vector<std::uint32_t> parts_; // by whole triangle
     std::map<std::uint32_t, std::vector<Home>> homes_;
 };
 
@@ -129,7 +153,7 @@ void addTexturedPrisms(CutBodies& bodies, const Skin& skin, const SkinComplex& c
         }
         set(whole.at, corners[w]);
     }
-    Homes homes;
+    Homes homes(partsOf(beyond));
     for (std::uint32_t t = 0; t < complex.prisms.size(); ++t) {
         layout::TexturedPrism& prism = bodies.texturedPrisms.emplace_back();
         prism.triangle = firstTriangle + t;
