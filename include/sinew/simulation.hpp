@@ -144,8 +144,9 @@ struct SINEW_API CutSurface {
     vk::BufferView draws{};
     vk::BufferView counts{};    ///< one layout::SurfaceState: counts of what the buffers above hold
     vk::BufferView particles{}; ///< 32 bits: the particle in each slot (CutVertex::corners)
-    /// TexturePoint of each vertex of the pieces of skins, stride 8; 0 at vertices of the inside, which have
-    /// `rest` for a solid texture. Empty if no skin has Skin::textureCoordinates.
+    /// TexturePoint of each vertex of the pieces of skins, stride 8; undefined at vertices of the inside,
+    /// which have `rest` for a solid texture, and of skins without textureCoordinates. Empty if no skin has
+    /// Skin::textureCoordinates.
     vk::BufferView textureCoordinates{};
 };
 
