@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <fstream>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 namespace {
@@ -123,6 +124,21 @@ public:
         }
     }
 
+    // Whether both colors of the skin have about half of its pixels, and the inside is seen as asked.
+    bool isChecker(bool showsInside) const {
+        int light = 0, dark = 0, inside = 0;
+        for (std::size_t i = 0; i < pixels_.size(); ++i) {
+            if (depths_[i] < -1e29f) continue;
+            const Color& color = pixels_[i];
+            const bool isInside = color.b < 0.6f * color.g;
+            inside += isInside ? 1 : 0;
+            light += !isInside && color.g > 0.8f * color.r ? 1 : 0;
+            dark += !isInside && color.g < 0.4f * color.r ? 1 : 0;
+        }
+        return 3 * light > 2 * dark && 3 * dark > 2 * light && light > 5000 &&
+               (showsInside ? 50 * inside > light + dark : inside == 0);
+    }
+
 private:
     // Turned by 35 degrees about y and tilted: pixels, and the distance towards the eye.
     static std::array<float, 3> seen(const float (&x)[4]) {
@@ -224,7 +240,10 @@ int main(int argc, char** argv) try {
         uncut.writeRow(file, y);
         cut.writeRow(file, y);
     }
-    return file.flush() ? 0 : 1;
+    if (!file.flush()) throw std::runtime_error("cannot write the picture");
+    if (!uncut.isChecker(false) || !cut.isChecker(true))
+        throw std::runtime_error("the checker is not seen on the skin and in the cut");
+    return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;
