@@ -141,6 +141,15 @@ sim::Scene comingAndGoing(sim::Scene scene) {
     return scene;
 }
 
+// Skins with texture coordinates.
+sim::Scene textured(sim::Scene scene) {
+    for (sim::Skin& skin : scene.skins) {
+        skin.textureCoordinates.resize(skin.triangles.size());
+        skin.wholeTextureCoordinates.resize(skin.wholeTriangles.size());
+    }
+    return scene;
+}
+
 // Loose balls that take recoils back.
 sim::Scene takingRecoils(sim::Scene scene) {
     scene.contacts.takesRecoils = true;
@@ -200,6 +209,10 @@ void addKernelsOfAllScenes(Collector& collector) {
                 collector.add(comingAndGoing(loaded->scene), pool);
             if (file.stem() == "clutter" && loaded->settings.solver == sim::Solver::split)
                 addForms(collector, takingRecoils(loaded->scene), loaded->settings);
+            const bool hasEverySkin =
+                file.stem() == "organ" || file.stem() == "cube_quarters" || file.stem() == "cloth_cut";
+            if (hasEverySkin && loaded->settings.solver == sim::Solver::split)
+                collector.add(textured(loaded->scene), loaded->settings);
             if (file.stem() == "stirrer" && loaded->settings.solver == sim::Solver::split) // with faces
                 collector.add(takingRecoils(loaded->scene), loaded->settings);
             if (loaded->settings.solver != sim::Solver::split || loaded->scene.grids.empty()) continue;
