@@ -312,7 +312,7 @@ TEST(CApiRecording, GivesTheBitsOfTheCppInterface) {
             }
             SinewBufferView none{};
             EXPECT_TRUE(
-                failsWith(SINEW_ERROR_INVALID_ARGUMENT, "output 14", sinewGetView(simulation, 14, &none)));
+                failsWith(SINEW_ERROR_INVALID_ARGUMENT, "output 16", sinewGetView(simulation, 16, &none)));
             const char* complaint = nullptr;
             EXPECT_EQ(sinewNextComplaint(simulation, &complaint), SINEW_END) << complaint;
         }
