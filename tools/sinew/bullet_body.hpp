@@ -2,14 +2,11 @@
 // time on collision detection that the scene does not need.
 #pragma once
 
-#include "sinew/scene.hpp"
-
-#include <Eigen/Core>
-#include <memory>
+#include "sinew/cpu_program.hpp"
 
 namespace sinew::tools {
 
-class BulletBody {
+class BulletBody : public CpuProgram {
 public:
     /// Bullet's links have a stiffness k in [0, 1] per iteration, without unit; an iteration moves a position
     /// by -k C / (w_a + w_b) (PBD). With w = w_a + w_b, k = w / (w + compliance / h^2) makes one iteration
@@ -17,12 +14,12 @@ public:
     /// a single link. Bullet thus gets the material as exactly as possible. `scene` may only have springs,
     /// masses and gravity.
     BulletBody(const sim::Scene& scene, std::uint32_t substeps, std::uint32_t iterations);
-    ~BulletBody();
+    ~BulletBody() override;
     BulletBody(const BulletBody&) = delete;
     BulletBody& operator=(const BulletBody&) = delete;
 
-    void step(); ///< of the scene's length
-    std::vector<Eigen::Vector3d> positions() const;
+    void step() override;
+    std::vector<Eigen::Vector3d> positions() const override;
 
 private:
     struct Parts;

@@ -104,6 +104,10 @@ private:
 
 } // namespace
 
+bool hasJolt() {
+    return true;
+}
+
 std::unique_ptr<CpuProgram> makeJoltBody(const sim::Scene& scene, std::uint32_t substeps,
                                          std::uint32_t threads) {
     registerTypes();

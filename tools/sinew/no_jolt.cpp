@@ -3,6 +3,10 @@
 
 namespace sinew::tools {
 
+bool hasJolt() {
+    return false;
+}
+
 std::unique_ptr<CpuProgram> makeJoltBody(const sim::Scene&, std::uint32_t, std::uint32_t) {
     return nullptr;
 }

@@ -6,6 +6,7 @@
 #include "sinew/clutter/bullet.hpp"
 #include "sinew/peers/contest.hpp"
 #include "sinew/peers/scenes.hpp"
+#include "sinew/solver_names.hpp"
 #include "sinew/statistics.hpp"
 
 #include <fmt/format.h>
@@ -134,7 +135,7 @@ const Entry* fastest(const std::vector<Entry>& entries, const Row& row, double t
 
 Json settingsJson(const std::string& program, const sim::Settings& settings) {
     Json json{{"substeps", settings.substeps}, {"iterations", settings.iterations}};
-    if (program == "bullet" || program == "verlet" || program == "jolt") return json;
+    if (sim::Solver solver{}; !sim::parseSolver(program, solver)) return json;
     json["theta"] = settings.theta;
     json["levels"] = settings.levels;
     json["sharp_clamp"] = settings.hasSharpClamp;

@@ -3,7 +3,6 @@
 #include "app/guard.hpp"
 #include "sim/compile/compile.hpp"
 #include "sinew/bullet_body.hpp"
-#include "sinew/cpu_program.hpp"
 #include "sinew/gpu_tune.hpp"
 #include "sinew/native/verlet.hpp"
 #include "sinew/statistics.hpp"
@@ -21,32 +20,42 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using OnFrame = std::function<bool(const study::Positions&)>;
 
-study::Positions positionsOf(const BulletBody& body) {
-    return body.positions();
-}
-
-study::Positions positionsOf(const CpuProgram& program) {
-    return program.positions();
-}
-
-study::Positions positionsOf(const native::Verlet<float>& verlet) {
-    study::Positions result;
-    for (std::size_t i = 0; i < verlet.size(); ++i) {
-        const std::array<double, 3> x = verlet.position(i);
-        result.emplace_back(x[0], x[1], x[2]);
+/// Explicit integration as a program to compare with.
+class NativeVerlet : public CpuProgram {
+public:
+    NativeVerlet(const sim::Scene& scene, std::uint32_t substeps, std::uint32_t threads)
+        : verlet_(scene, substeps, threads) {}
+    void step() override { verlet_.step(); }
+    study::Positions positions() const override {
+        study::Positions result;
+        for (std::size_t i = 0; i < verlet_.size(); ++i) {
+            const std::array<double, 3> x = verlet_.position(i);
+            result.emplace_back(x[0], x[1], x[2]);
+        }
+        return result;
     }
-    return result;
+
+private:
+    native::Verlet<float> verlet_;
+};
+
+/// A program on the CPU by its name; null for our solvers.
+std::unique_ptr<CpuProgram> makeCpuProgram(const std::string& name, const sim::Scene& scene,
+                                           const sim::Settings& settings, std::uint32_t threads) {
+    if (name == "verlet") return std::make_unique<NativeVerlet>(scene, settings.substeps, threads);
+    if (name == "bullet") return std::make_unique<BulletBody>(scene, settings.substeps, settings.iterations);
+    if (name == "jolt") return makeJoltBody(scene, settings.substeps, threads);
+    return nullptr;
 }
 
 /// Times of the frames of a program on the CPU [ms], until `onFrame`, if there is one, returns false.
-template <typename Program>
-std::vector<double> runCpu(Program& program, std::size_t frames, const OnFrame& onFrame) {
+std::vector<double> runCpu(CpuProgram& program, std::size_t frames, const OnFrame& onFrame) {
     std::vector<double> ms;
     while (ms.size() < frames && !app::isInterrupted()) {
         const Clock::time_point start = Clock::now();
         program.step();
         ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-        if (onFrame && !onFrame(positionsOf(program))) break;
+        if (onFrame && !onFrame(program.positions())) break;
     }
     return ms;
 }
@@ -65,10 +74,8 @@ std::vector<Row> Contest::rows() const {
     std::vector<Row> rows{{"verlet", 1}};
     if (threads_ > 1) rows.push_back({"verlet", threads_});
     rows.push_back({"bullet", 1});
-    if (const bool hasJolt = makeJoltBody(scene_, 1, 1) != nullptr; hasJolt) {
-        rows.push_back({"jolt", 1});
-        if (threads_ > 1) rows.push_back({"jolt", threads_});
-    }
+    if (hasJolt()) rows.push_back({"jolt", 1});
+    if (hasJolt() && threads_ > 1) rows.push_back({"jolt", threads_});
     const bool isSoftware = session_.device.description().type == "software";
     for (const std::string& name : sim::solverNames()) {
         if (single_) rows.push_back({name, 1});
@@ -137,14 +144,8 @@ std::optional<RunError> Contest::errorOf(const std::string& program, const sim::
         squares += frameRms.back() * frameRms.back();
         return std::isfinite(squares) && squares <= most;
     };
-    if (program == "bullet") {
-        BulletBody body(scene_, settings.substeps, settings.iterations);
-        runCpu(body, frames, add);
-    } else if (program == "jolt") {
-        runCpu(*makeJoltBody(scene_, settings.substeps, threads_), frames, add);
-    } else if (program == "verlet") {
-        native::Verlet<float> verlet(scene_, settings.substeps, threads_);
-        runCpu(verlet, frames, add);
+    if (const auto body = makeCpuProgram(program, scene_, settings, threads_)) {
+        runCpu(*body, frames, add);
     } else {
         runDevice(quicker(), settings, [&](Runner& runner) {
             return runner.steps() > frameRms.size() && add(study::positionsOf(runner.readState()));
@@ -158,17 +159,8 @@ std::optional<RunError> Contest::errorOf(const std::string& program, const sim::
 }
 
 std::vector<double> Contest::time(const Row& row, const sim::Settings& settings) {
-    const std::size_t frames = truth_.frames.size();
-    if (row.program == "bullet") {
-        BulletBody body(scene_, settings.substeps, settings.iterations);
-        return runCpu(body, frames, {});
-    }
-    if (row.program == "jolt")
-        return runCpu(*makeJoltBody(scene_, settings.substeps, row.threads), frames, {});
-    if (row.program == "verlet") {
-        native::Verlet<float> verlet(scene_, settings.substeps, row.threads);
-        return runCpu(verlet, frames, {});
-    }
+    if (const auto body = makeCpuProgram(row.program, scene_, settings, row.threads))
+        return runCpu(*body, truth_.frames.size(), {});
     return runDevice(single_ && row.threads == 1 ? *single_ : session_, settings, {});
 }
 
