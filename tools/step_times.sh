@@ -7,11 +7,13 @@ cd "$(dirname "$0")/.."
 steps=${1:-120}
 (($# > 0)) && shift
 for icd in /usr/share/vulkan/icd.d/lvp_icd.*.json; do export VK_ICD_FILENAMES=$icd; done
+said=$(mktemp)
+trap 'rm -f "$said"' EXIT
 left_out='pile_100k|drop_mesh' # too large; needs a mesh
 (($# > 0)) || set -- $(ls scenes/*.toml | grep -vE "/($left_out)\.toml$")
 
-report() { # THREADS SCENE: the report of a run
-    LP_NUM_THREADS=$1 build/release/bin/sinew run "$2" --frames "$steps" --json - 2>/dev/null
+report() { # THREADS SCENE: the report of a run; ends with what the run says if it fails
+    LP_NUM_THREADS=$1 build/release/bin/sinew run "$2" --frames "$steps" --json - 2>"$said" || { cat "$said" >&2 && exit 1; }
 }
 row='def ms: . * 100 | round / 100; ([.frame_ms.p50, .frame_ms.p99] | map(ms) | map(tostring) | join(" | "))'
 echo "| scene | particles | substeps | one thread: median | 99 % | all threads: median | 99 % |"
