@@ -95,7 +95,7 @@ Textured texturedOf(const mesh::TriangleMesh& mesh) {
 
 enum class Parts { skin, all };
 
-// What is drawn, at rest: of the skin, and pieces beside cuts.
+// Drawn triangles at rest: of the skin, and pieces beside cuts.
 Textured drawnAtRest(Runner& runner, Parts parts = Parts::all) {
     const Simulation& simulation = runner.simulation();
     const CutSurfaceBuffers& cut = simulation.program().cutSurface;
@@ -241,6 +241,25 @@ Scene sceneOf(const mesh::TriangleMesh& mesh) {
     return scene;
 }
 
+// Gives the first skin, whose vertices are particles, coordinates by the places of its corners. Those of most
+// triangles are moved, so that there are seams.
+template <typename At> Textured addTexture(Scene& scene, const At& at) {
+    Skin& skin = scene.skins[0];
+    Textured original;
+    for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
+        auto& places = original.places.emplace_back();
+        TextureCorners& corners = skin.textureCoordinates.emplace_back();
+        for (std::size_t n = 0; n < 3; ++n) {
+            const Vec3& x = scene.particles[skin.particles[skin.triangles[t][n]]].position;
+            places[n] = Vector3d(double{x.x}, double{x.y}, double{x.z});
+            const TexturePoint point = at(x);
+            corners[n] = {point.u + 0.1f * static_cast<float>(t % 7), point.v - static_cast<float>(t % 5)};
+        }
+    }
+    original.corners = skin.textureCoordinates;
+    return original;
+}
+
 } // namespace
 
 TEST(TextureCoordinates, AreLinearOnFlatFacesAlsoBesideCutsAndSeams) {
@@ -332,18 +351,9 @@ TEST(TextureCoordinates, OfFacesOfCellsAreLinearInEachTriangle) {
     const Lattice lattice{
         .origin = {-0.5f, -0.5f, -0.5f}, .cells = {5, 5, 5}, .spacing = 0.2f, .isCuttable = true};
     addLatticeSkin(scene, lattice, addLattice(scene, lattice), {});
-    Skin& skin = scene.skins[0];
-    Textured original;
-    for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
-        auto& places = original.places.emplace_back();
-        TextureCorners& at = skin.textureCoordinates.emplace_back();
-        for (std::size_t n = 0; n < 3; ++n) {
-            const Vec3& x = scene.particles[skin.particles[skin.triangles[t][n]]].position;
-            places[n] = Vector3d(double{x.x}, double{x.y}, double{x.z});
-            at[n] = {x.x + 0.1f * static_cast<float>(t % 7) + x.y * x.z, x.y - static_cast<float>(t % 5)};
-        }
-    }
-    original.corners = skin.textureCoordinates;
+    const Textured original = addTexture(scene, [](const Vec3& x) {
+        return TexturePoint{x.x + x.y * x.z, x.y};
+    });
     CutBody body(scene);
     ASSERT_GT(body.cut(plane({0.03, 0.02, 0}, {1, 0.3, 0.2})).linksCutInAll, 0u);
     body.cut(plane({0, 0.01, 0.03}, {0.2, -0.1, 1}));
@@ -371,18 +381,7 @@ TEST(TextureCoordinates, OfCutClothAreLinearInEachTriangle) {
     Scene scene{.name = "cloth", .gravity = {0, 0, 0}};
     addCloth(scene, {.size = {9, 7}, .spacing = 0.1f, .isCuttable = true});
     ASSERT_EQ(scene.skins.size(), 1u);
-    Skin& skin = scene.skins[0];
-    Textured original;
-    for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
-        auto& places = original.places.emplace_back();
-        TextureCorners& at = skin.textureCoordinates.emplace_back();
-        for (std::size_t n = 0; n < 3; ++n) {
-            const Vec3& x = scene.particles[skin.particles[skin.triangles[t][n]]].position;
-            places[n] = Vector3d(double{x.x}, double{x.y}, double{x.z});
-            at[n] = {x.x + 0.1f * static_cast<float>(t % 7), x.z - static_cast<float>(t % 5)};
-        }
-    }
-    original.corners = skin.textureCoordinates;
+    const Textured original = addTexture(scene, [](const Vec3& x) { return TexturePoint{x.x, x.z}; });
     test::Runner runner(scene, {.substeps = 2});
     const Vec3& far = scene.particles.back().position;
     const Vector3d middle(double{far.x} / 2, double{far.y} / 2, double{far.z} / 2);
