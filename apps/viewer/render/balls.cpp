@@ -4,6 +4,7 @@
 #include "mesh/triangle_tree.hpp"
 #include "mesh/vector3.hpp"
 #include "sinew/inverse_masses.hpp"
+#include "viewer/frame.h"
 #include "viewer/render/geometry.hpp"
 #include "viewer/render/mesh_buffer.hpp"
 
@@ -202,7 +203,6 @@ BallList allBallsOf(const sim::Scene& scene) {
 }
 
 BallList insidesOf(const sim::Scene& scene) {
-    constexpr float inner = 0.794f; // radius of the largest ball in an icosahedron
     BallList list;
     const std::vector<Color> colors = skinColors(scene);
     std::vector<float> sums(scene.particles.size()), counts(scene.particles.size());
@@ -215,7 +215,7 @@ BallList insidesOf(const sim::Scene& scene) {
         if (skinColor(body, colors)) list.ranges.push_back({body.firstParticle, body.particleCount, {}});
     if (list.ranges.empty()) return list;
     for (std::size_t i = 0; i < sums.size(); ++i)
-        list.radii.push_back(counts[i] > 0 ? sums[i] / (inner * counts[i]) : 0);
+        list.radii.push_back(counts[i] > 0 ? sums[i] / (ICOSAHEDRON_INNER * counts[i]) : 0);
     return list;
 }
 

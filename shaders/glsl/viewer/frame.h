@@ -35,6 +35,8 @@ struct FrameParams {
     vec4 section; // unit normal and offset [m]; SECTION forms of shaders cut away everything in front of the plane
 };
 
+#define ICOSAHEDRON_INNER 0.7946f // radius of the largest ball in an icosahedron whose corners are on the unit ball
+
 struct SkinPush {
     vec4 color; // linear RGB; for a color map x: the value that has its last color; w: gloss, 1 = moist tissue
     vec4 position; // origin of the vertices' frame, 0 for skins [m]; w: 1 = sleeping bodies are paler

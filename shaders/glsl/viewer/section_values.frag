@@ -11,8 +11,6 @@ layout(location = 2) in float value; // below 0: unknown
 layout(location = 3) in float reach;
 layout(location = 0) out vec4 sum;
 
-const float inner = 0.794; // radius of the largest ball in an icosahedron whose corners are on the unit ball
-
 void main() {
     if (gl_FrontFacing || value < 0.0 || push.color.x <= 0.0 || reach <= 0.0) discard; // a back face for each ball
     const vec3 ray = worldPosition - frame.eye.xyz;
@@ -20,6 +18,6 @@ void main() {
     const float approach = -dot(frame.section.xyz, ray);
     if (height <= 0.0 || approach <= 0.0) discard;
     const vec3 place = (height / approach - 1.0) * ray / reach + worldNormal; // of the plane, from the particle
-    const float near = max(1.0 - dot(place, place) / (inner * inner), 0.0), weight = near * near;
+    const float near = max(1.0 - dot(place, place) / (ICOSAHEDRON_INNER * ICOSAHEDRON_INNER), 0.0), weight = near * near;
     sum = vec4(weight * min(value / push.color.x, 4.0), weight, 0.0, 0.0);
 }
