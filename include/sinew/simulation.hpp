@@ -323,7 +323,7 @@ public:
         vk::BufferView indices{};
         std::span<const SkinRange> ranges{};
         bool areWhole = false; ///< Skin::wholeTriangles, for skins that have them
-        /// Of `indices`, as Simulation::textureCoordinates().
+        /// A TexturePoint for each of `indices`, as Simulation::textureCoordinates().
         vk::BufferView textureCoordinates{};
     };
     DrawnSkins drawnSkins() const noexcept;

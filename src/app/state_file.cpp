@@ -25,7 +25,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "state files are little endian");
 
 // By version, from `firstVersion` on: each appends to the one before a view, levels, the substep of clamps,
-// and what became the default of scenes: the sharp clamp, recoils.
+// and the clamp.
 constexpr std::string_view titles[] = {"sinew state 2\n", "sinew state 3\n", "sinew state 4\n",
                                        "sinew state 5\n", "sinew state 6\n"};
 constexpr std::size_t firstVersion = 2, withView = 3, withLevels = 4, withClamps = 5, withSharpness = 6;

@@ -121,7 +121,7 @@ std::uint64_t countTriangles(const Json& document, const Json& primitive) {
     return (mode == strip || mode == fan) && count > 2 ? count - 2 : 0;
 }
 
-bool hasWholeTexture(const Json& document, const Json& primitive) {
+bool hasIntegerTexture(const Json& document, const Json& primitive) {
     constexpr std::uint64_t floats = 5126;
     if (!primitive.is_object()) return false;
     const Json attributes = primitive.value("attributes", Json::object());
@@ -129,7 +129,7 @@ bool hasWholeTexture(const Json& document, const Json& primitive) {
     return countAt(document, "accessors", attributes["TEXCOORD_0"], "componentType") != floats;
 }
 
-/// Of all meshes, including those that no node shows. The document must have passed the handler above.
+/// Facts of all meshes, including those that no node shows. The document must have passed the handler above.
 Announced announcedBy(std::string_view json) {
     const Json document = Json::parse(json.begin(), json.end(), nullptr, false);
     Announced announced;
@@ -138,7 +138,7 @@ Announced announcedBy(std::string_view json) {
         if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) continue;
         for (const Json& primitive : mesh["primitives"]) {
             announced.triangles += countTriangles(document, primitive);
-            announced.hasWholeTexture |= hasWholeTexture(document, primitive);
+            announced.hasIntegerTexture |= hasIntegerTexture(document, primitive);
         }
     }
     return announced;

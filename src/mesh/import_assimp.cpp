@@ -193,7 +193,7 @@ Soup readTriangles(Format format, std::string_view bytes, const ImportLimits& li
     const aiScene& scene = load(assimp, importer, announced.triangles);
 
     Soup soup;
-    const bool isTextured = !announced.hasWholeTexture &&
+    const bool isTextured = !announced.hasIntegerTexture &&
                             std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
                                         [](const aiMesh* mesh) { return mesh->HasTextureCoords(0); });
     std::vector<std::pair<const aiNode*, Eigen::Affine3d>> open{

@@ -96,13 +96,13 @@ std::string_view checkBinaryStl(std::string_view bytes, const ImportLimits& limi
 /// Empty: read the file itself.
 std::string checkPly(std::string_view bytes, const ImportLimits& limits);
 
-/// What assimp does not tell of a file.
+/// Facts of a file that assimp does not tell.
 struct Announced {
     /// Triangles that the file must contain, each mesh counted once; 0 = not known. Assimp silently drops
     /// those with an index out of range.
     std::uint64_t triangles = 0;
     /// Whether some texture coordinates are whole numbers, which assimp takes for the bits of floats.
-    bool hasWholeTexture = false;
+    bool hasIntegerTexture = false;
 };
 
 /// Check chunks and JSON of GLB, and the JSON of glTF: version 2, sizes, nesting, no buffer outside the file.
