@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# tools/check.sh: the checks that need no build: layers, figures, the gallery, documents and format. Takes a few seconds.
+# tools/check.sh: the checks that need no build: layers, costs of kernels, figures, the gallery, documents and format. Takes a few seconds.
 # As a git hook, it refuses a push that continuous integration would refuse: ln -s ../../tools/check.sh .git/hooks/pre-push
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 python3 tools/check_layers.py
+python3 tools/kernel_costs.py --check
 python3 tools/figures.py --check
 python3 tools/gallery.py --check
 python3 tools/check_docs.py
