@@ -6,6 +6,7 @@
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 #include "sinew/bodies.hpp"
+#include "support/full.hpp"
 
 #include <gtest/gtest.h>
 
@@ -442,8 +443,9 @@ TEST(RestOfFaces, EndsInTheSameBitsForAnyMarginOrderAndForm) {
     EXPECT_EQ(hash(loads), first) << "without texels";
 }
 
-// A rest distance that grew by one rounding a substep would have drifted by 2.4 mm.
-TEST(RestOfFaces, DoesNotDriftInTwentyThousandSubsteps) {
+// A rest distance that grew by one rounding a substep would have drifted by 0.5 mm in 4,000 substeps. The
+// longer form of the test has 20,000.
+TEST(RestOfFaces, DoesNotDriftInThousandsOfSubsteps) {
     const auto driftOf = [](const Scene& scene, std::size_t first, float aside) {
         Runner runner(scene, {.substeps = 100, .contactRoom = 64});
         int step = 0;
@@ -452,7 +454,8 @@ TEST(RestOfFaces, DoesNotDriftInTwentyThousandSubsteps) {
                 runner.step({.dt = scene.dt, .gravity = {step % 40 < 20 ? aside : -aside, -9.81f, 0}});
             return runner.positions();
         };
-        const auto before = placesAfter(40), away = placesAfter(10), after = placesAfter(190);
+        const auto before = placesAfter(40), away = placesAfter(10),
+                   after = placesAfter(test::isFull() ? 190 : 30);
         double drift = 0;
         for (std::size_t i = first; i < after.size(); ++i)
             drift = std::max(drift, std::abs(after[i].y() - before[i].y()));
