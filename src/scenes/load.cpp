@@ -343,6 +343,8 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
         loaded.camera = Camera{localPoint(camera, "eye", loaded.origin),
                                localPoint(camera, "target", loaded.origin), camera.number("field_of_view")};
     }
+    if (const Section tools = top.child("tools"); tools.has("blade_depth"))
+        loaded.bladeDepth = tools.number("blade_depth");
     if (loaded.settings.keepsForces) loaded.scene.holds = loaded.holds;
     requireForms(loaded, source.file);
     requireValid(loaded, source.file);

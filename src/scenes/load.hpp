@@ -57,6 +57,7 @@ struct LoadedScene {
     /// away.
     std::array<double, 3> origin{};
     std::optional<Camera> camera;
+    std::optional<float> bladeDepth; ///< with which the viewer's blade begins [m]; empty = through
     std::vector<MeshSummary> meshes;
     std::vector<sim::NamedHold> holds; ///< those with a path first
     std::vector<BladeMotion> blades;   ///< no two of them in one step; ScriptedBlades plays them

@@ -76,6 +76,7 @@ constexpr Key keys[] = {
     {"", "camera", Kind::table, "", {}, "", "viewpoint of a picture"},
     {"", "gallery", Kind::table, "", {}, "", "the scene in lists and in docs/gallery.md"},
 
+    {"", "tools", Kind::table, "", {}, "", "how the tools of the viewer begin"},
     {"solver", "name", Kind::text, "", {}, "\"split\"", "split, jacobi or gauss_seidel"},
     {"solver", "substeps", Kind::countOrAuto, "", ranges::substeps, "\"auto\"", "equal parts of a step; more are stiffer and more exact. \"auto\": as many as the tolerance requires, from 4 to 256"},
     {"solver", "tolerance", Kind::number, "", ranges::tolerance, "0.05", "substeps = \"auto\": share by which a link may be softer than requested"},
@@ -326,6 +327,8 @@ constexpr Key keys[] = {
     {"gallery", "heavy", Kind::flag, "", {}, "false", "whether it is slower than real time on a CPU"},
 };
 // clang-format on
+
+    {"tools", "blade_depth", Kind::number, "m", length, "", "depth to which the viewer's blade cuts at first, below the surface under the pointer; through the body if missing"},
 
 } // namespace
 

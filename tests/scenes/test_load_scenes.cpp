@@ -95,7 +95,8 @@ TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
         "name = \"sheet\"\norigin = [1, 2, 3]\narea_density = 0.4\n"
         "stretch_compliance = 1e-3\nshear_compliance = 2e-3\nskip_stiffness = 50\ncolor = [0.1, 0.2, 0.3]\n"
         "[[plane]]\nnormal = [0, 0, 1]\noffset = -2\nfriction = 0.25\nrestitution = 0.75\n"
-        "[camera]\neye = [9, 8, 7]\ntarget = [6, 5, 4]\nfield_of_view = 55\n");
+        "[camera]\neye = [9, 8, 7]\ntarget = [6, 5, 4]\nfield_of_view = 55\n"
+        "[tools]\nblade_depth = 0.04\n");
     const sim::Scene& scene = loaded.scene;
     EXPECT_EQ(scene.name, "n");
     EXPECT_EQ(scene.gravity.z, 3);
@@ -125,6 +126,7 @@ TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
     EXPECT_EQ(loaded.camera->eye.x, 9);
     EXPECT_EQ(loaded.camera->target.y, 5);
     EXPECT_EQ(loaded.camera->fieldOfView, 55);
+    EXPECT_EQ(loaded.bladeDepth, 0.04f);
 }
 
 TEST_F(Load, NamesASceneAfterItsFile) {

@@ -234,6 +234,46 @@ TEST(BladeDepth, LeavesWhatLiesDeeperInOnePiece) {
     EXPECT_GT(through.linksCutInAll, deep.linksCutInAll);
 }
 
+// Opens a text like a window, which plays no log.
+OpenedScene openInWindow(const std::string& text, const std::optional<float>& asked = {}) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                       ("sinew-blade-depth-" + std::to_string(::getpid()) + ".toml");
+    std::ofstream(file) << text;
+    OpenedScene opening = open({.scene = file.string(), .bladeDepth = asked}, 1.6f);
+    std::filesystem::remove(file);
+    return opening;
+}
+
+TEST(BladeDepth, OfTheSceneFileIsTheFirstAndIsLogged) {
+    const std::string text = std::string(block) + "[tools]\nblade_depth = 0.12\n";
+    Played played{openInWindow(text)};
+    EXPECT_EQ(played.tools.setting(tool::blade), 0.12f);
+    played.turn({.actions = {actionOf(tool::blade)}});
+    stroke(played);
+    const sim::Status status = played.document.simulation().status(played.document.steps());
+    EXPECT_GT(status.linksCutInAll, 0u);
+    EXPECT_EQ(status.pieces, 1u);
+    Scene again(text);
+    Replay replay(parseInput(toText(played.file()), "test"));
+    replayAll(again, replay);
+    EXPECT_EQ(again.hash(), played.hash());
+    EXPECT_EQ(Played(openInWindow(text, 0.2f)).tools.setting(tool::blade), 0.2f) << "--blade-depth";
+    played.tools.set(tool::blade, std::nullopt);
+    played.tools.reset();
+    EXPECT_FALSE(played.tools.setting(tool::blade)) << "the user's own change stays";
+}
+
+// Logs name each depth but that of a blade that goes through.
+TEST(BladeDepth, OfTheSceneFileChangesNoLogThatDoesNotNameOne) {
+    Played played;
+    played.turn({.actions = {actionOf(tool::blade)}});
+    stroke(played);
+    Scene again(std::string(block) + "[tools]\nblade_depth = 0.12\n");
+    Replay replay(parseInput(toText(played.file()), "test"));
+    replayAll(again, replay);
+    EXPECT_EQ(again.hash(), played.hash());
+}
+
 TEST(Tools, LendTheBladeWhileAKeyIsHeldAndThePointerUsed) {
     Played scene;
     Tools& tools = scene.tools;

@@ -118,6 +118,7 @@ TEST_F(SceneLoaderTest, OpensTheNextRoundTheEnd) {
     ASSERT_TRUE(a);
     EXPECT_EQ(a->loaded.scene.name, "a");
     EXPECT_EQ(sceneLoader.current(), 0u);
+    EXPECT_EQ(first.bladeDepth, 0.05f) << "an incision that gapes, not a cut that severs";
     sceneLoader.openNext(-1, 1.5f); // broken.toml
     EXPECT_THROW(await(sceneLoader), mesh::ImportError);
     EXPECT_EQ(sceneLoader.current(), 0u) << "what cannot be opened leaves the one on show";

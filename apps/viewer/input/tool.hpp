@@ -139,7 +139,7 @@ struct Tool {
 
     std::string_view setting = {};     ///< name in logs of its number, which the wheel changes; empty = none
     std::string_view settingHelp = {}; ///< "radius of the sphere"
-    bool isSettingOptional = false;    ///< it may be absent, and is so in the beginning: a dash in logs
+    bool isSettingOptional = false;    ///< it may be absent, and is so where a log begins: a dash in logs
     /// Message when the wheel has changed it.
     std::string (*settingNote)(const std::optional<float>& setting) = nullptr;
 

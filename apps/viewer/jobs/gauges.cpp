@@ -24,7 +24,8 @@ Knobs knobsOf(const scenes::LoadedScene& loaded) {
             .friction = !scene.planes.empty() ? scene.planes.front().friction
                         : hasColliders        ? scene.colliders.front().friction
                                               : scene.contacts.friction,
-            .bodies = std::vector<float>(scene.bodies.size(), 1)};
+            .bodies = std::vector<float>(scene.bodies.size(), 1),
+            .bladeDepth = loaded.bladeDepth};
 }
 
 // Removes the index: passes such as "solve_distance[3]" differ only in their range.

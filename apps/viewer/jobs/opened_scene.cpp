@@ -74,7 +74,7 @@ OpenedScene look(const Options& asked, float aspect) {
         opening.loaded.settings = app::withRun(opening.loaded.settings, *opening.run);
         app::addRoomForUser(opening.loaded.settings);
     }
-    opening.bladeDepth = options.bladeDepth;
+    opening.bladeDepth = options.bladeDepth ? options.bladeDepth : opening.loaded.bladeDepth;
     opening.camera = firstView(opening.loaded, aspect);
     opening.light = lightFor(opening.loaded.scene, opening.camera);
     opening.light.marks =

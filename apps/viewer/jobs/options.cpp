@@ -87,7 +87,7 @@ void addWindowOptions(CLI::App& app, Options& options) {
         ->group(group);
     app.add_flag("--full-screen", options.isFullScreen, "start in full screen")->group(group);
     app.add_option("--blade-depth", options.bladeDepth,
-                   "depth of the blade below the surface [m]; default: through")
+                   "depth of the blade below the surface [m]; default: that of the scene file, or through")
         ->check(CLI::PositiveNumber)
         ->excludes("--replay") // the log has its own
         ->group(group);
