@@ -50,6 +50,7 @@ TEST_F(PanelsTest, ShowALengthBesideTheHint) {
         }
     constexpr VkExtent2D narrow{800, 600};
     facts.hint.canUse.fill(true);
+    facts.hint.canUndo = true;
     settle(narrow);
     settle(narrow);
     EXPECT_EQ(shownWindow("scale"), nullptr) << "hints come first";

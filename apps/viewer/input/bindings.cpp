@@ -281,14 +281,21 @@ bool HintLine::drop() {
 
 namespace {
 
-// The offers of all tools: first that of the one without a key.
-void addOffers(HintLine& line, std::string_view Tool::*offer, const std::array<bool, mostTools>& canUse) {
-    for (const Tool* tool : toolTable())
-        if (tool->key == 0 && !(tool->*offer).empty()) line.add(tool->*offer);
-    for (std::size_t i = 0; i < toolTable().size(); ++i) {
-        const Tool& tool = *toolTable()[i];
-        if (tool.key != 0 && canUse[i] && !(tool.*offer).empty()) line.add(tool.*offer, {actionOf(tool)});
-    }
+// While nothing is in use: what a drag does, and undo once there is something to undo. The help has the rest.
+void addOffers(HintLine& line, const HintFacts& facts) {
+    for (const bool isOfKey : {false, true}) // first that of the tool without a key
+        for (std::size_t i = 0; i < toolTable().size(); ++i) {
+            const Tool& tool = *toolTable()[i];
+            const bool isOffered = !tool.offer.empty() && (tool.key == 0 || facts.canUse[i]);
+            if (isOffered && (tool.key != 0) == isOfKey) line.add(tool.offer);
+        }
+    if (facts.canUndo) line.add("undoes", {undo});
+}
+
+void addOffersHeld(HintLine& line, const HintFacts& facts) {
+    for (std::size_t i = 0; i < toolTable().size(); ++i)
+        if (const Tool& tool = *toolTable()[i]; facts.canUse[i] && !tool.offerHeld.empty())
+            line.add(tool.offerHeld, {actionOf(tool)});
 }
 
 HintLine hintsOf(const HintFacts& facts) {
@@ -301,14 +308,11 @@ HintLine hintsOf(const HintFacts& facts) {
     if (facts.inUse) {
         const Tool& tool = *toolTable()[*facts.inUse];
         if (tool.addHints != nullptr) tool.addHints(line, facts.setting);
-        if (tool.key == 0) addOffers(line, &Tool::offerHeld, facts.canUse);
+        if (tool.key == 0) addOffersHeld(line, facts);
+        line.add("panels", {Action::panels});
     } else {
-        addOffers(line, &Tool::offer, facts.canUse);
-        line.add("orbits", {orbit});
-        line.add("pauses", {pause});
-        line.add("resets", {reset});
+        addOffers(line, facts);
     }
-    line.add("panels", {Action::panels});
     return line;
 }
 

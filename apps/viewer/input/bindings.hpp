@@ -135,6 +135,7 @@ struct HintFacts {
     std::optional<std::size_t> inUse;     ///< index into toolTable(); empty = none
     std::array<bool, mostTools> canUse{}; ///< in this scene, by that index
     std::optional<float> setting;         ///< of the one in use
+    bool canUndo = false;                 ///< whether there is a cut to undo
     std::string_view awaited = {};        ///< what the next press does, if a button waits for it
 };
 /// One line on the possible actions. Hints are dropped from the right until `fits` is true; the key of the

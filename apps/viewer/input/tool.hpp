@@ -131,8 +131,8 @@ struct Tool {
     Icon icon = Icon::none;      ///< in the toolbar
     std::string_view letGo = {}; ///< what Esc does to it
 
-    /// Hints at the foot of the picture: what its key does while nothing is in use, and while something is
-    /// held; empty = none. addHints() adds those for while it is in use.
+    /// Hints at the foot of the picture: a whole one for while nothing is in use, and what its key does while
+    /// something is held; empty = none. addHints() adds those for while it is in use.
     std::string_view offer = {}, offerHeld = {};
     std::string_view awaited = {}; ///< hint while its button waits for a press (Tools::arm())
     void (*addHints)(HintLine& line, const std::optional<float>& setting) = nullptr;

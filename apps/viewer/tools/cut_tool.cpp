@@ -38,7 +38,7 @@ constinit const Tool tool::blade{
     .button = "Blade",
     .icon = Icon::cut,
     .letGo = "put the blade away",
-    .offer = "or hold Ctrl: drag to cut",
+    .offer = "hold Ctrl and drag to cut",
     .addHints =
         [](HintLine& line, const std::optional<float>& depth) {
             line.add("left drag cuts " + depthText(depth));

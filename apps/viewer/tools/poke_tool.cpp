@@ -24,7 +24,6 @@ constinit const Tool tool::poke{.name = "poke",
                                 .button = "Poke",
                                 .icon = Icon::poke,
                                 .letGo = "put the sphere away",
-                                .offer = "pokes",
                                 .addHints =
                                     [](HintLine& line, const std::optional<float>&) {
                                         line.add("left drag pushes");

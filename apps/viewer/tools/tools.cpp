@@ -92,7 +92,7 @@ std::array<bool, mostTools> Tools::shownOn() const {
 }
 
 HintFacts Tools::hintFacts() const {
-    HintFacts facts{.canUse = canUse_};
+    HintFacts facts{.canUse = canUse_, .canUndo = history_.undos() > 0};
     if (inHand().isOn() || isHolding()) facts.inUse = indexInHand();
     facts.setting = inHand().setting();
     if (armed_) facts.awaited = toolTable()[*armed_]->awaited;
