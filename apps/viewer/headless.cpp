@@ -8,7 +8,6 @@
 #include "app/progress.hpp"
 #include "app/step_parts.hpp"
 #include "scenes/recovery.hpp"
-#include "sim/core/counted.hpp"
 #include "sinew/vk/check.hpp"
 #include "sinew/vk/loader.hpp"
 #include "sinew/vk/queue.hpp"
@@ -20,6 +19,7 @@
 #include "viewer/jobs/replay.hpp"
 #include "viewer/jobs/second_simulation.hpp"
 #include "viewer/layers/inspection.hpp"
+#include "viewer/render/legend.hpp"
 #include "viewer/render/offscreen.hpp"
 #include "viewer/tools/tools.hpp"
 
@@ -98,7 +98,7 @@ public:
 
 private:
     void printCount(const std::string& where) const {
-        std::printf("%s in %s\n", sim::counted(count_, "picture").c_str(), where.c_str());
+        std::printf("%s in %s\n", countText(count_, "picture").c_str(), where.c_str());
     }
 
     const Options& options_;

@@ -1,4 +1,5 @@
 // Tests of lengths as text.
+#include "viewer/render/legend.hpp"
 #include "viewer/render/length_text.hpp"
 
 #include <gtest/gtest.h>
@@ -23,6 +24,22 @@ TEST(LengthText, HasNoMinusZeroAndNoThousandOfTheSmallerUnit) {
     EXPECT_EQ(lengthText(0), "0 cm");
     EXPECT_EQ(lengthText(0.9999f), "1 m");
     EXPECT_EQ(lengthText(0.009999f), "1 cm");
+}
+
+TEST(PointText, HasOneUnitForAllNumbers) {
+    EXPECT_EQ(pointText({0.1234f, -0.02f, 0}), "12.3, -2, 0 cm");
+    EXPECT_EQ(pointText({1.5f, 0.04f, -0.002f}), "1.5, 0.04, 0 m");
+    EXPECT_EQ(pointText({-12.34f, 100, 0}), "-12, 100, 0 m");
+    EXPECT_EQ(pointText({0.3f, -1e-5f, -0.0f}), "30, 0, 0 cm") << "no minus before a zero";
+    EXPECT_EQ(pointText({0, -1e-9f, 0}), "0, 0, 0 cm");
+}
+
+TEST(CountText, HasTheNounInTheRightNumber) {
+    EXPECT_EQ(countText(0, "link"), "0 links");
+    EXPECT_EQ(countText(1, "link"), "1 link");
+    EXPECT_EQ(countText(4211, "link"), "4,211 links");
+    EXPECT_EQ(countText(1, "class", "classes"), "1 class");
+    EXPECT_EQ(countText(18, "class", "classes"), "18 classes");
 }
 
 TEST(RoundLength, IsTheLargestRoundOneThatFits) {

@@ -58,6 +58,7 @@ TEST(BesideShape, IsReadFromTheCommandLineAndShown) {
     for (const char* bad : {"", "gauss", "split:", "split:0", "split:x", "split:4x", "split:-1", ":4"})
         EXPECT_FALSE(parseBeside(bad)) << bad;
     EXPECT_EQ(toText(BesideShape{sim::Solver::split, 7}), "split, 7 substeps");
+    EXPECT_EQ(toText(BesideShape{sim::Solver::split, 1}), "split, 1 substep");
     for (const char* text : {"jacobi:3", "split", "gauss_seidel:12"})
         EXPECT_EQ(shapeOf(knobsOf(*parseBeside(text))), *parseBeside(text));
 }

@@ -4,6 +4,7 @@
 #include "sinew/ranges.hpp"
 #include "sinew/solver_names.hpp"
 #include "viewer/jobs/prepared_player.hpp"
+#include "viewer/render/legend.hpp"
 
 #include <cstdio>
 
@@ -100,9 +101,9 @@ vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>
 
 std::string headline(const OpenedScene& opening, const vk::Device& device) {
     const sim::Settings& settings = opening.loaded.settings;
-    return opening.loaded.scene.name + ": " + grouped(opening.loaded.scene.particles.size()) +
-           " particles, solver " + sim::solverName(settings.solver) + " with " + sim::toText(settings) +
-           ", on " + device.description().name + " (" + device.description().type + ")";
+    return opening.loaded.scene.name + ": " + countText(opening.loaded.scene.particles.size(), "particle") +
+           ", solver " + sim::solverName(settings.solver) + " with " + sim::toText(settings) + ", on " +
+           device.description().name + " (" + device.description().type + ")";
 }
 
 PictureText pictureText(const OpenedScene& opening, const vk::Device& device, std::uint64_t step) {

@@ -2,6 +2,7 @@
 #include "viewer/jobs/replay.hpp"
 
 #include "app/guard.hpp"
+#include "sim/core/counted.hpp"
 #include "sim/core/hash.hpp"
 #include "viewer/document/document.hpp"
 #include "viewer/input/state_probe.hpp"
@@ -122,8 +123,8 @@ sim::Settings roomOf(const InputFile& file) {
 
 std::string hashText(std::uint64_t hash, std::uint64_t steps) {
     char text[80];
-    std::snprintf(text, sizeof text, "state hash %016" PRIx64 " after %" PRIu64 " steps", hash, steps);
-    return text;
+    std::snprintf(text, sizeof text, "state hash %016" PRIx64 " after ", hash);
+    return text + sim::counted(steps, "step");
 }
 
 std::string hashText(std::uint64_t hash, std::uint64_t steps, const InputFile& recorded) {

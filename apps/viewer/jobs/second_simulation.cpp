@@ -5,6 +5,7 @@
 #include "sinew/ranges.hpp"
 #include "sinew/solver_names.hpp"
 #include "sinew/substeps.hpp"
+#include "viewer/render/legend.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -67,7 +68,7 @@ BesideShape shapeOf(const BesideKnobs& knobs) {
 
 std::string toText(const BesideShape& shape) {
     const std::string solver = sim::solverName(shape.solver);
-    return shape.substeps == 0 ? solver : solver + ", " + std::to_string(shape.substeps) + " substeps";
+    return shape.substeps == 0 ? solver : solver + ", " + countText(shape.substeps, "substep");
 }
 
 SecondSimulation::SecondSimulation(const vk::Device& device, const scenes::LoadedScene& loaded,

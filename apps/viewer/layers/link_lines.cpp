@@ -22,9 +22,8 @@ constexpr std::array<float, 3> atOnce{0.03f, 0.05f, 0.10f}; // solvers without c
 
 std::string noteOf(sim::Solver solver, std::size_t classes) {
     if (solver == sim::Solver::gaussSeidel)
-        return std::to_string(classes) +
-               " classes, one after another; no two links of one share a particle that "
-               "moves";
+        return countText(classes, "class", "classes") +
+               ", one after another; no two links of one share a particle that moves";
     if (solver == sim::Solver::split)
         return "The split solver updates all links together, so there are no color classes.";
     return "The jacobi solver updates all links together, so there are no color classes.";
@@ -89,8 +88,8 @@ std::vector<LegendLine> linkLegend(const LinkFacts& links) {
         LegendLine classes{.kind = squares};
         for (std::size_t i = 0; i < links.classes.size(); ++i) {
             classes.colors.push_back(classColor(i));
-            classes.tips.push_back("class " + std::to_string(i + 1) + ": " + grouped(links.classes[i]) +
-                                   " links");
+            classes.tips.push_back("class " + std::to_string(i + 1) + ": " +
+                                   countText(links.classes[i], "link"));
         }
         legend.push_back(std::move(classes));
     }

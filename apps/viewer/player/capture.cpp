@@ -3,8 +3,8 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
-#include "sim/core/counted.hpp"
 #include "sinew/vk/check.hpp"
+#include "viewer/render/legend.hpp"
 
 #include <utility>
 
@@ -88,7 +88,7 @@ void Capture::endFilm() {
     if (!film_) return;
     try {
         film_->finish();
-        const std::string text = sim::counted(film_->count(), "picture") + " in " + film_->target().string();
+        const std::string text = countText(film_->count(), "picture") + " in " + film_->target().string();
         printLine(text);
         player_.session.tell(text);
         film_.reset();

@@ -23,7 +23,7 @@ constexpr double stillAfter = 0.25; // [s] without a change before a still pictu
 
 std::string softText(const SceneFacts& facts) {
     const std::string cure =
-        facts.neededSubsteps > 0 ? " " + std::to_string(facts.neededSubsteps) + " substeps would do." : "";
+        facts.neededSubsteps > 0 ? " " + countText(facts.neededSubsteps, "substep") + " would do." : "";
     return facts.stiffness + cure;
 }
 

@@ -75,6 +75,12 @@ std::string grouped(std::uint64_t number) {
     return digits;
 }
 
+std::string countText(std::uint64_t number, std::string_view one, std::string_view many) {
+    const std::string digits = grouped(number) + " ";
+    if (number == 1) return digits + std::string(one);
+    return digits + (many.empty() ? std::string(one) + "s" : std::string(many));
+}
+
 std::array<std::array<float, 3>, mapColorCount> mapColors() {
     constexpr double dark = 0.30, light = 0.92, chroma = 0.09; // chroma: the largest that stays within sRGB
     constexpr double from = 4.887, to = 1.745;                 // hues: blue, and the long way to yellow [rad]

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sinew::viewer {
@@ -21,5 +22,9 @@ struct LegendLine {
 
 /// A number with separators: "12,345".
 std::string grouped(std::uint64_t number);
+
+/// A count with its noun: "1 link", "4,211 links". `many` is the plural, also used for 0; if empty, the
+/// plural is `one` with an s.
+std::string countText(std::uint64_t number, std::string_view one, std::string_view many = {});
 
 } // namespace sinew::viewer

@@ -161,7 +161,7 @@ bool softness(const SceneFacts& scene, Knobs& turned) {
     wrapped(scene.stiffness, warning());
     if (scene.neededSubsteps == 0) return false;
     const auto needed = static_cast<int>(scene.neededSubsteps);
-    const std::string text = "Use " + std::to_string(needed) + " substeps";
+    const std::string text = "Use " + countText(scene.neededSubsteps, "substep");
     const bool isTaken = turned.substeps != needed && ImGui::Button(text.c_str(), {contentWidth(), 0});
     if (isTaken) turned.substeps = needed;
     return isTaken;

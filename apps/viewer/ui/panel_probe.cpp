@@ -1,4 +1,5 @@
 // The properties of the particle under the pointer, in a window beside it.
+#include "viewer/render/length_text.hpp"
 #include "viewer/ui/panel_parts.hpp"
 
 #include <algorithm>
@@ -11,9 +12,7 @@ namespace {
 void rows(const Found& found) {
     char text[80];
     row(found.body.c_str(), "particle " + grouped(found.particle));
-    const auto& x = found.position;
-    std::snprintf(text, sizeof text, "%.3f, %.3f, %.3f m", double{x[0]}, double{x[1]}, double{x[2]});
-    row("position", text);
+    row("position", pointText(found.position));
     row("speed", stateText(found));
     if (found.strain) {
         std::snprintf(text, sizeof text, "%.2g %%, at most %.2g %%", 100 * found.strain->rms,

@@ -26,7 +26,7 @@ void counts(const SceneFacts& scene, const Facts& facts) {
 std::string debrisText(const Facts& facts) {
     char mass[32];
     std::snprintf(mass, sizeof mass, "%.3g kg", double{facts.debrisMass});
-    return grouped(facts.debris) + ": " + grouped(facts.debrisParticles) + " particles, " + mass;
+    return grouped(facts.debris) + ": " + countText(facts.debrisParticles, "particle") + ", " + mass;
 }
 
 void cuts(const Facts& facts) {
@@ -45,7 +45,8 @@ void cuts(const Facts& facts) {
 
 void program(const SceneFacts& scene) {
     ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y});
-    const std::string name = "step program: " + grouped(scene.dispatches) + " dispatches###program";
+    const std::string name =
+        "step program: " + countText(scene.dispatches, "dispatch", "dispatches") + "###program";
     ImGui::PushStyleColor(ImGuiCol_Text, quiet());
     const bool isOpen = ImGui::CollapsingHeader(name.c_str());
     ImGui::PopStyleColor();

@@ -2,6 +2,7 @@
 #include "viewer/ui/preferences.hpp"
 
 #include "mesh/export.hpp"
+#include "viewer/render/legend.hpp"
 
 #include <algorithm>
 #include <array>
@@ -167,8 +168,8 @@ Preferences loadPreferences(const std::filesystem::path& file) {
         const Preferences preferences = parsePreferences(readWhole(file), complaints);
         if (complaints.size() == 1) warn(file, complaints.front() + ": the line is ignored");
         if (complaints.size() > 1)
-            warn(file, complaints.front() + ": this and " + std::to_string(complaints.size() - 1) +
-                           " more lines are ignored");
+            warn(file, complaints.front() + ": this and " + countText(complaints.size() - 1, "more line") +
+                           " are ignored");
         return preferences;
     } catch (const std::runtime_error& why) {
         warn(file, why.what());

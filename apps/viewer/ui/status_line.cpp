@@ -1,6 +1,7 @@
 // Builds the title.
 #include "viewer/ui/status_line.hpp"
 
+#include "viewer/render/legend.hpp"
 #include "viewer/render/renderer.hpp"
 
 #include <cstdio>
@@ -10,7 +11,7 @@ namespace sinew::viewer {
 
 StatusLine::StatusLine(const sim::Scene& scene, const vk::Device& device)
     : head_("Sinew - " + scene.name + " - " + (isSoftware(device) ? "SOFTWARE: " : "") +
-            device.description().name + " - " + std::to_string(scene.particles.size()) + " particles") {}
+            device.description().name + " - " + countText(scene.particles.size(), "particle")) {}
 
 void StatusLine::setPieces(const app::PieceCount& pieces) {
     isFresh_ = isFresh_ || pieces != pieces_;
@@ -39,9 +40,9 @@ std::optional<std::string> StatusLine::title(bool isPaused, bool isDiverged) {
     if (stepMs_ > 0) std::snprintf(numbers, sizeof numbers, " - %.2f ms/step", stepMs_);
     std::string title = head_ + numbers;
     std::snprintf(numbers, sizeof numbers, " - %.0f fps", framesPerSecond_);
-    if (sleeping_ > 0) title += " - " + std::to_string(sleeping_) + " asleep";
+    if (sleeping_ > 0) title += " - " + grouped(sleeping_) + " asleep";
     if (!pieces_.isCounted) title += " - ? pieces";
-    if (pieces_.isCounted && pieces_.pieces > 1) title += " - " + std::to_string(pieces_.pieces) + " pieces";
+    if (pieces_.isCounted && pieces_.pieces > 1) title += " - " + countText(pieces_.pieces, "piece");
     title += tool_;
     title += isDiverged ? " - DIVERGED, R resets" : isPaused ? " - paused" : numbers;
     return title;
