@@ -450,7 +450,8 @@ private:
             return redoFrom(oldest);
         if (times_) times_->stepFinished(oldest.frame);
         if (const std::optional<Divergence> divergence = document_.check(oldest.frame))
-            throw app::Failure(app::diverged, divergence->sentence());
+            throw app::Failure(app::diverged,
+                               divergence->sentence() + " Try more substeps or a softer material.");
         if (beside_) checkBeside(slotOf(oldest.frame));
         surfaceMissing_ = document_.simulation().status(oldest.frame).cutSurfaceMissing;
     }

@@ -237,7 +237,7 @@ TEST(HeldParticle, IsNoPinAndNSaysSo) {
     played.turn({.pointer = {0, 0}});
     EXPECT_EQ(played.tools.overlay().pins.size(), 0u);
     EXPECT_EQ(played.tools.takeNote(),
-              "hold \"clamp\" of the scene holds this: it needs no pin, and N does not release it");
+              "The scene already holds this point (\"clamp\"), so N can neither pin nor release it.");
 }
 
 TEST(HeldParticle, StaysHeldAfterACutAndItsUndo) {

@@ -13,11 +13,12 @@
 namespace sinew::viewer {
 
 std::string Divergence::sentence() const {
-    return "the simulation diverged: step " + std::to_string(step) + ", body \"" + body + "\", particle " +
-           std::to_string(firstParticle) + ": " + std::to_string(particles) +
-           (particles == 1 ? " particle is" : " particles are") +
-           " not finite, the last finite state was kept: use more substeps, a lower omega or a softer "
-           "material";
+    return "The simulation became unstable (body \"" + body + "\", step " + std::to_string(step) + ").";
+}
+
+std::string Divergence::advice() const {
+    return sentence() +
+           " The last good state is shown. Press R, then try more substeps or a softer material.";
 }
 
 Document::Document(const vk::Device& device, sim::Scene scene, const sim::Settings& settings,

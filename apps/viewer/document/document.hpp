@@ -23,9 +23,10 @@ struct Divergence {
     std::uint32_t particles = 0;     ///< number of particles with a non-finite state
     std::uint32_t firstParticle = 0; ///< smallest index among them
     std::string body;                ///< body of that particle
-    /// Text such as "the simulation diverged: step 12, body "organ", particle 417: 3 particles are not finite
-    /// ...: use more ..."
+    /// What happened: 'The simulation became unstable (body "organ", step 12).'
     std::string sentence() const;
+    /// The same, and what a person at the window can do.
+    std::string advice() const;
 };
 
 /// Must not outlive its Device, which must not move.

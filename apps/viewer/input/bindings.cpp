@@ -120,7 +120,7 @@ constexpr std::array afterLayers{
     Binding{{key, GLFW_KEY_F8},
             saveInput,
             "F8",
-            "save the input since the reset, or since a state, in the current folder, for --replay",
+            "save all you did since the last reset to a file; --replay FILE plays it back",
             "Save actions"},
     Binding{{key, GLFW_KEY_S, GLFW_MOD_CONTROL},
             saveState,

@@ -100,7 +100,7 @@ std::string Journal::sceneName() const {
 void Journal::saveState(bool isDiverged) {
     player_.settleAll();
     Session& session = player_.session;
-    if (isDiverged) return session.tell("not saved: the simulation has diverged");
+    if (isDiverged) return session.tell("not saved: the simulation became unstable");
     if (player_.document.lacksContactRoom())
         return session.tell("not saved: steps wait for more room; try again in a moment");
     vk::Queue queue(player_.device);

@@ -454,7 +454,7 @@ bool ScenePlayer::settleSteps(const InFlight& flight) {
             repeatFrom(step, flight);
             return false;
         }
-        if (const std::optional<Divergence> divergence = document_.check(step)) stop(divergence->sentence());
+        if (const std::optional<Divergence> divergence = document_.check(step)) stop(divergence->advice());
         const sim::Status status = document_.simulation().status(step);
         observer_.stepFinished(status);
         succession_.surfaceMissing(status.cutSurfaceMissing);
@@ -555,11 +555,12 @@ void ScenePlayer::sayWhatIsMade() {
     if (!makingSince_) makingSince_ = Clock::now();
     if (isMakingSaid_ || Clock::now() - *makingSince_ < patience) return;
     isMakingSaid_ = true;
-    session_.tell(document_.lacksContactRoom() ? "preparing room for more contacts: steps wait for it"
-                  : document_.wantsShape()     ? "preparing the solver: steps wait for it"
-                  : comparison_.isMaking()     ? "preparing the comparison"
-                  : layerLoader_.isMaking()    ? "preparing the view"
-                                               : "opening the scene");
+    session_.tell(document_.lacksContactRoom()
+                      ? "Making room for more contacts; the scene continues in a moment"
+                  : document_.wantsShape()  ? "Preparing the solver; the scene continues in a moment"
+                  : comparison_.isMaking()  ? "Preparing the comparison"
+                  : layerLoader_.isMaking() ? "Preparing the view"
+                                            : "Opening the scene");
 }
 
 } // namespace sinew::viewer

@@ -53,7 +53,7 @@ constinit const Tool tool::blade{
     .isLent = true,
     .asksMuch = true,
     .fits = [](const sim::Scene& scene) { return std::ranges::any_of(scene.grids, &sim::Grid::isCuttable); },
-    .refusal = "no body of this scene can be cut: cuttable = true allows it",
+    .refusal = "Nothing in this scene can be cut. Add `cuttable = true` to a body in the scene file.",
     .make = [](const ToolContext& of) -> std::unique_ptr<ToolState> {
         auto state = std::make_unique<CutTool>(of.light.bounds);
         state->setDepth(of.bladeDepth);

@@ -99,9 +99,8 @@ void PinTool::pin(const Hand& hand, float radius) {
 
 std::string PinTool::heldText(std::uint32_t particle) const {
     const sim::NamedHold* hold = sim::holdOf(holds_, particle);
-    return (hold != nullptr ? "hold \"" + hold->name + "\" of the scene holds this"
-                            : std::string("the scene holds this")) +
-           ": it needs no pin, and N does not release it";
+    const std::string name = hold != nullptr ? " (\"" + hold->name + "\")" : "";
+    return "The scene already holds this point" + name + ", so N can neither pin nor release it.";
 }
 
 void PinTool::clear() {

@@ -70,7 +70,7 @@ void shapeKnobs(const SceneFacts& scene, const BesideKnobs& knobs, TypedNumber& 
     ImGui::PushID("beside substeps");
     substeps(typed, turned.substeps, ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX());
     ImGui::PopID();
-    tip("substeps; 0 = as many as the scene needs");
+    tip("More substeps: stiffer but slower. 0 = automatic. Takes effect in a moment.");
     if (turned != knobs) wishes.beside = turned;
 }
 
@@ -91,7 +91,7 @@ void beside(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wis
     const BesideFacts& other = facts.beside;
     button(Action::beside, wishes, contentWidth(), other.isOn,
            other.isMaking ? "Compare: preparing ..." : nullptr);
-    wrapped("Left: the scene as it plays. Right: the same scene with the same input, by", quiet());
+    wrapped("Left: this scene. Right: the same scene and input, solved with:", quiet());
     ImGui::BeginDisabled(!other.isOn);
     shapeKnobs(scene, other.knobs, typed, wishes);
     ImGui::EndDisabled();

@@ -194,7 +194,7 @@ void solver(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wis
     ImGui::PushID("substeps");
     bool isTurned = substeps(typed, turned.substeps, (1 - nameShare) * contentWidth());
     ImGui::PopID();
-    tip("act once prepared; 0 = as many as the scene needs");
+    tip("More substeps: stiffer but slower. 0 = automatic. Takes effect in a moment.");
     knob("solver");
     const auto solver = static_cast<std::size_t>(turned.solver);
     if (ImGui::BeginCombo("##solver", solver < scene.solvers.size() ? scene.solvers[solver].c_str() : "")) {

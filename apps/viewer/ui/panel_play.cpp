@@ -39,8 +39,7 @@ void play(const Facts& facts, Wishes& wishes) {
     ImGui::SameLine();
     button(Action::slowMotion, wishes, width, facts.knobs.pace < 1);
     if (facts.isDiverged)
-        wrapped("Diverged: the last finite state was kept. " + std::string(keyOf(Action::reset)) + " resets.",
-                bad());
+        wrapped("The simulation became unstable. Press " + std::string(keyOf(Action::reset)) + ".", bad());
 }
 
 void camera(Wishes& wishes) {

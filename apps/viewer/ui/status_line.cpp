@@ -44,7 +44,7 @@ std::optional<std::string> StatusLine::title(bool isPaused, bool isDiverged) {
     if (!pieces_.isCounted) title += " - ? pieces";
     if (pieces_.isCounted && pieces_.pieces > 1) title += " - " + countText(pieces_.pieces, "piece");
     title += tool_;
-    title += isDiverged ? " - DIVERGED, R resets" : isPaused ? " - paused" : numbers;
+    title += isDiverged ? " - unstable, R resets" : isPaused ? " - paused" : numbers;
     return title;
 }
 
