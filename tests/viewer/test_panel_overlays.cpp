@@ -3,6 +3,8 @@
 
 #include "viewer/render/length_text.hpp"
 
+#include <algorithm>
+
 namespace sinew::viewer {
 namespace {
 
@@ -130,6 +132,25 @@ TEST_F(PanelsTest, ShowTooltipsBesideThePanel) {
             EXPECT_LE(tip->Pos.x + tip->Size.x, ImGui::FindWindowByName("side")->Pos.x) << y;
         }
     EXPECT_GT(seen, 10);
+}
+
+// A software device takes long for a film: its tooltip says so before it begins.
+TEST_F(PanelsTest, SayThatARecordingIsSlowBeforeItBegins) {
+    const auto heightOfTip = [&] {
+        for (float y = 100; y < 700; y += 6)
+            if (std::ranges::count(click({1200, y}).actions, Action::record) > 0) {
+                for (int i = 0; i < 3; ++i) picture({.pointer = {1200, y}});
+                const ImGuiWindow* tip = shownWindow("##Tooltip_00");
+                return tip == nullptr ? 0 : tip->Size.y;
+            }
+        return 0.0f;
+    };
+    settle();
+    scene.isSoftware = false;
+    const float onAGpu = heightOfTip();
+    EXPECT_GT(onAGpu, 0);
+    scene.isSoftware = true;
+    EXPECT_GT(heightOfTip(), onAGpu + 10);
 }
 
 } // namespace

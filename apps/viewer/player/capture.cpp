@@ -72,8 +72,9 @@ void Capture::beginFilm() {
                       extent.height, 1 / double{player_.document.scene().dt});
         for (auto& camera : cameras_) camera = std::make_unique<Shot>(player_.device, renderer(), extent);
         printLine("recording " + film_->target().string());
-        player_.session.tell("recording " + film_->target().string() + ", a picture a step; " +
-                             std::string(keyOf(Action::record)) + " stops");
+        const std::string slow = isSoftware(player_.device) ? " " + std::string(slowRecording) : "";
+        player_.session.tell("Recording " + film_->target().string() + ". " +
+                             std::string(keyOf(Action::record)) + " stops." + slow);
     } catch (const std::runtime_error& error) { // app::Failure; vk::Error: no memory for the pictures
         fail(error);
     }

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sinew::viewer {
@@ -99,6 +100,11 @@ struct BesideFacts {
     std::vector<PhaseCurve> phases;   ///< like Facts::phases
     Curve strainRms, strainMax;       ///< like those of Facts
 };
+
+/// Said before a film begins on a software device, which takes long for each picture in full quality.
+inline constexpr std::string_view slowRecording =
+    "The film will play at real speed, but recording is slow without a GPU. F8 instead saves what you do; "
+    "--headless --replay FILE --video FILM.mp4 draws it later in the same quality.";
 
 /// Facts that stay constant while a scene is shown.
 struct SceneFacts {

@@ -159,7 +159,7 @@ float buttonWidth(std::size_t inARow) {
     return (contentWidth() - (count - 1) * between) / count;
 }
 
-void button(Action action, Wishes& wishes, float width, bool isOn, const char* name) {
+void button(Action action, Wishes& wishes, float width, bool isOn, const char* name, std::string_view more) {
     const auto binding = std::ranges::find(bindings(), action, &Binding::action);
     const std::string label = name != nullptr ? name : std::string(binding->button);
     if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, lit());
@@ -169,7 +169,8 @@ void button(Action action, Wishes& wishes, float width, bool isOn, const char* n
     ImGui::PopStyleVar();
     ImGui::PopID();
     if (isOn) ImGui::PopStyleColor();
-    tip(std::string(binding->shown) + ": " + std::string(binding->help));
+    tip(std::string(binding->shown) + ": " + std::string(binding->help) + (more.empty() ? "" : "\n") +
+        std::string(more));
 }
 
 std::string fitted(const std::string& text, float width, float lines) {

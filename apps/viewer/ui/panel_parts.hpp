@@ -62,8 +62,9 @@ void tip(const std::string& text);
 /// Width of each of `inARow` buttons that fill a line [pixels].
 float buttonWidth(std::size_t inARow);
 /// A button of an action, `width` pixels wide, with its key in a tooltip. The label is from the table of
-/// bindings unless `name` is given. `isOn`: drawn as pressed.
-void button(Action action, Wishes& wishes, float width, bool isOn = false, const char* name = nullptr);
+/// bindings unless `name` is given. `isOn`: drawn as pressed. `more`: further line of the tooltip.
+void button(Action action, Wishes& wishes, float width, bool isOn = false, const char* name = nullptr,
+            std::string_view more = {});
 
 /// Numbers of buttons and of groups of the toolbar, for its size.
 std::size_t toolbarButtons();
@@ -84,7 +85,7 @@ void look(const Facts& facts, Wishes& wishes);
 bool hasLegend(const Facts& facts);
 void legend(const SceneFacts& scene, const Facts& facts);
 void camera(Wishes& wishes);
-void files(const Facts& facts, Wishes& wishes);
+void files(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void beside(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wishes& wishes);
 void cuts(const Facts& facts);
 void window(const Facts& facts, Wishes& wishes);

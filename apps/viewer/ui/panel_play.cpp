@@ -46,11 +46,12 @@ void camera(Wishes& wishes) {
     buttons({Action::frame, Action::frameBody, Action::center}, 3, wishes);
 }
 
-void files(const Facts& facts, Wishes& wishes) {
+void files(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     const float width = buttonWidth(2);
     button(Action::screenshot, wishes, width);
     ImGui::SameLine();
-    button(Action::record, wishes, width, facts.recorded.has_value(), facts.recorded ? "Stop" : nullptr);
+    button(Action::record, wishes, width, facts.recorded.has_value(), facts.recorded ? "Stop" : nullptr,
+           scene.isSoftware && !facts.recorded ? slowRecording : std::string_view());
     buttons({Action::saveState, Action::saveInput}, 2, wishes);
 }
 

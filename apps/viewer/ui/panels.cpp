@@ -407,7 +407,7 @@ void Panels::buildSections(const SceneFacts& scene, const Facts& facts, VkExtent
         parts::look(facts, wishes);
         if (!isLegendApart(extent)) parts::legend(scene, facts);
     });
-    parts::section(Fold::record, folds_, "", [&] { parts::files(facts, wishes); });
+    parts::section(Fold::record, folds_, "", [&] { parts::files(scene, facts, wishes); });
     parts::section(Fold::compare, folds_, facts.beside.isOn ? "on" : "",
                    [&] { parts::beside(scene, facts, typed_, wishes); });
     buildPerformance(scene, facts, wishes);
