@@ -14,11 +14,11 @@ cp "$driver" other.json
 export VK_ICD_FILENAMES=$driver:$folder/other.json
 
 headlines() { grep -c ' on .* (software)$' viewer.out || true; }
-listFrom() { xdotool mousemove 700 44 click 1; } # opens the list of devices, at the top of the panel
-below() { shoot list.png && convert list.png -crop 220x60+640+66 +repage "$1"; } # where the list opens
+listFrom() { xdotool mousemove 700 216 click 1; } # opens the list of devices, the first control of Performance
+below() { shoot list.png && convert list.png -crop 220x60+640+228 +repage "$1"; } # where the list opens
 isListed() { below listed.png && ! same unlisted.png listed.png; }
 choose() { # ENTRY COMMAND: repeats the click until COMMAND succeeds, because a busy machine may miss one
-    local place=$((80 + 38 * $1))
+    local place=$((242 + 38 * $1))
     shift
     for _ in {1..12}; do
         below unlisted.png
@@ -45,7 +45,7 @@ expectTheSame() { # FILE WHAT
 
 echo "devices: both are listed, the scene goes on on the other one and back"
 mkdir -p config/sinew
-echo "folded = scene material view record compare window" >config/sinew/viewer.conf # the solver is at the top
+echo "folded = scene material view record compare window" >config/sinew/viewer.conf # Performance is at the top
 start --device 0
 xdotool windowmove "$window" 0 0
 cutDown 290 100 600

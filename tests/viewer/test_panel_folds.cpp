@@ -37,9 +37,9 @@ TEST_F(PanelFoldsTest, FoldAndOpenAtAClickOnTheHeading) {
     for (std::size_t i = 0; i < foldTitles.size(); ++i) {
         panels.fold({});
         settle(tall);
-        const float open = contentHeight();
         const auto at = headingOf(static_cast<Fold>(i), tall);
         ASSERT_TRUE(at) << foldTitles[i];
+        const float open = contentHeight(); // the search may have opened the list of passes
         click(*at, tall);
         EXPECT_EQ(panels.folds(), Folds().set(i)) << foldTitles[i];
         settle(tall);
@@ -47,6 +47,26 @@ TEST_F(PanelFoldsTest, FoldAndOpenAtAClickOnTheHeading) {
         EXPECT_LT(contentHeight(), open - 20) << foldTitles[i];
         click(*at, tall);
         EXPECT_TRUE(panels.folds().none()) << "the heading has not moved: " << foldTitles[i];
+    }
+}
+
+// The name and the driver of a device take lines; they are in Performance.
+TEST_F(PanelFoldsTest, HaveOneLineOfTheDeviceAboveThem) {
+    panels.fold(Folds().set());
+    for (const bool isSoftware : {true, false}) {
+        scene.isSoftware = isSoftware;
+        scene.device = scene.driver = "device";
+        settle();
+        settle();
+        const float height = contentHeight();
+        const auto first = headingOf(Fold::scene);
+        ASSERT_TRUE(first);
+        EXPECT_LT(first->y(), 60) << "one line stands above the first heading";
+        scene.device = "llvmpipe (LLVM 15.0.7, 256 bits), a name that is longer than a line of the panel";
+        scene.driver = "Mesa 22.3.6 (LLVM 15.0.7), llvmpipe";
+        settle();
+        settle();
+        EXPECT_EQ(contentHeight(), height);
     }
 }
 

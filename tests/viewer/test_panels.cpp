@@ -338,7 +338,10 @@ TEST_F(PanelsTest, OfferOtherDevicesButNoneThatCannotBeUsed) {
     facts.devices[2].missing = {"it cannot draw to this window"};
     settle();
     std::set<std::size_t> wished;
-    for (float y = 30; y < 110; y += 8) { // the list is near the top
+    areSectionsOpen = false;
+    for (float y = 150; y < 300; y += 8) { // the list is the first control of Performance
+        panels.fold(Folds().set().reset(indexOf(Fold::performance)));
+        settle();
         click({1200, y});
         settle();
         if (openList() == nullptr) continue;

@@ -47,20 +47,28 @@ void picker(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
 
 } // namespace
 
-void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
-    if (scene.isSoftware) {
-        ImGui::TextColored(warning(), "SOFTWARE DEVICE");
-        ImGui::SameLine();
-        const bool isEnlarged = facts.reduced && *facts.reduced < 1;
-        ImGui::TextColored(quiet(), "%s",
-                           isEnlarged      ? "no GPU, fewer pixels"
-                           : facts.reduced ? "no GPU, plain shadows"
-                                           : "no GPU");
-        if (facts.reduced)
-            tip("during motion: small shadow maps, one sample per pixel, drawn at " +
-                std::to_string(std::lround(100 * *facts.reduced)) +
-                " % of the size and enlarged; full quality when paused");
+void deviceLine(const SceneFacts& scene, const Facts& facts) {
+    if (!scene.isSoftware) {
+        ImGui::TextColored(quiet(), "%s", fitted(scene.device, contentWidth(), 1).c_str());
+        return tip(scene.device + "; see Performance");
     }
+    ImGui::TextColored(warning(), "SOFTWARE DEVICE");
+    const std::string name = scene.device + ": ";
+    if (facts.reduced)
+        tip(name + "during motion small shadow maps, one sample per pixel, drawn at " +
+            std::to_string(std::lround(100 * *facts.reduced)) +
+            " % of the size and enlarged; full quality when paused");
+    else
+        tip(name + "no GPU; see Performance");
+    ImGui::SameLine();
+    const bool isEnlarged = facts.reduced && *facts.reduced < 1;
+    ImGui::TextColored(quiet(), "%s",
+                       isEnlarged      ? "no GPU, fewer pixels"
+                       : facts.reduced ? "no GPU, plain shadows"
+                                       : "no GPU");
+}
+
+void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     if (facts.devices.empty()) // not known yet
         wrapped(scene.device, ImGui::GetStyleColorVec4(ImGuiCol_Text));
     else

@@ -74,6 +74,9 @@ void toolbar(const Facts& facts, float side, Wishes& wishes);
 
 void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void scenes(const SceneFacts& scene, const Facts& facts, SceneFields& fields, Wishes& wishes);
+/// One line on the present device.
+void deviceLine(const SceneFacts& scene, const Facts& facts);
+/// The present device, and the list of all devices.
 /// Cards of all scenes over the picture, while it is open.
 void gallery(const Facts& facts, GalleryState& state, Wishes& wishes);
 /// The list of files, while it is shown.

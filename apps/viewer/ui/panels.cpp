@@ -387,7 +387,7 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     ImGui::Begin("side", nullptr, fixed | ImGuiWindowFlags_NoBackground);
     addGround();
     const Reveal::Before before{folds_, ImGui::GetScrollY()};
-    parts::device(scene, facts, wishes);
+    parts::deviceLine(scene, facts);
     buildSections(scene, facts, extent, wishes);
     if (folds_ != before.folds && ImGui::GetCurrentWindow()->ScrollTarget.y < FLT_MAX)
         reveal_.begin(before, {ImGui::GetMousePos().x, ImGui::GetMousePos().y});
@@ -419,6 +419,7 @@ void Panels::buildPerformance(const SceneFacts& scene, const Facts& facts, Wishe
     const bool isFolded = folds_[indexOf(Fold::performance)], isSoft = !scene.stiffness.empty();
     const std::string summary = !isFolded ? "" : isSoft ? "softer than asked" : parts::stepText(facts);
     const auto content = [&] {
+        parts::device(scene, facts, wishes);
         parts::solver(scene, facts, typed_, wishes);
         if (scene.canCut) parts::cuts(facts);
         parts::counts(scene, facts);
