@@ -5,7 +5,7 @@
   tools/gallery.py SCENE...   draws those alone, and writes the page
   tools/gallery.py --check    fails if the page differs from what the scene files say, or a picture is missing or superfluous
 
-[gallery] of a scene file says which moment a picture shows, and in which part of the page it stands. Needs the release build, and
+[gallery] of a scene file says which moment a picture shows, and where on the page it stands. Needs the release build, and
 imagemagick to make small files.
 """
 import pathlib
@@ -20,7 +20,7 @@ VIEWER = ROOT / "build" / "release" / "bin" / "sinew-viewer"
 PICTURES = ROOT / "docs" / "images" / "scenes"
 PAGE = ROOT / "docs" / "gallery.md"
 WITHOUT = "drop_mesh"  # has no body of its own
-FIRST = "organ_draped"  # the scene that the viewer starts with
+LAST = 1001  # after each place that a scene file may name
 SIZE, DRAWN = (480, 270), (960, 540)  # pixels of a picture; it is drawn larger, so that edges are smooth
 COLORS = 200
 MOST_BYTES = 2_500_000  # all pictures together
@@ -35,6 +35,9 @@ HEAD = """# Gallery
 `tools/gallery.py` draws these pictures from the scene files, without a window. A scene opens with
 `build/release/bin/sinew-viewer scenes/NAME.toml`. Heavy scenes are slower than real time on a CPU.
 """
+MORE = """
+## More
+"""
 STUDIES = """
 ## For studies and tests
 `sinew study` measures solvers on these scenes, or tests use them.
@@ -42,7 +45,7 @@ STUDIES = """
 
 
 def scenes():
-    """Names, first sentences and contents of the scene files: first the one that the viewer starts with."""
+    """Names, first sentences and contents of the scene files, those with a place in the list first."""
     found = []
     for file in sorted((ROOT / "scenes").glob("*.toml")):
         if file.stem == WITHOUT:
@@ -55,7 +58,7 @@ def scenes():
             comment.append(line.lstrip("# "))
         sentence = " ".join(comment).split(". ")[0].rstrip(".") + "."
         found.append((file.stem, sentence, tomllib.loads(text)))
-    return sorted(found, key=lambda one: one[0] != FIRST)
+    return sorted(found, key=lambda one: one[2].get("gallery", {}).get("order", LAST))
 
 
 def part(name, sentence, scene):
@@ -66,10 +69,9 @@ def part(name, sentence, scene):
 
 
 def page(all_scenes):
-    isStudy = lambda scene: scene.get("gallery", {}).get("study", False)
-    shown = [part(*one) for one in all_scenes if not isStudy(one[2])]
-    studies = [part(*one) for one in all_scenes if isStudy(one[2])]
-    return HEAD + "".join(shown) + STUDIES + "".join(studies)
+    group = lambda scene: "study" if scene.get("gallery", {}).get("study") else "first" if "order" in scene.get("gallery", {}) else "more"
+    parts = lambda name: "".join(part(*one) for one in all_scenes if group(one[2]) == name)
+    return HEAD + parts("first") + MORE + parts("more") + STUDIES + parts("study")
 
 
 def draw(name, scene):

@@ -24,6 +24,7 @@ constexpr Range membrane{0, 1e15}, bending{0, 1e6}, tethers{0, 8};
 constexpr Range angle{-360, 360};
 constexpr Range side{2, 4096}, chainLength{2, 100'000}, cellsAlong{1, 512}, detail{8, 256},
     particleBudget{8, 2'000'000};
+constexpr Range place{1, 1000};
 constexpr Range rowLength{1, 4096}, copies{1, 4096}, particleNumber{1, 2'000'000}, seed{0, 1e6},
     strokeCount{1, 10'000};
 constexpr Range jitter{0, 1e6}, speed{-1e6, 1e6};
@@ -75,8 +76,8 @@ constexpr Key keys[] = {
     {"", "strokes", Kind::tables, "", {}, "", "many blades at random places"},
     {"", "camera", Kind::table, "", {}, "", "viewpoint of a picture"},
     {"", "gallery", Kind::table, "", {}, "", "the scene in lists and in docs/gallery.md"},
-
     {"", "tools", Kind::table, "", {}, "", "how the tools of the viewer begin"},
+
     {"solver", "name", Kind::text, "", {}, "\"split\"", "split, jacobi or gauss_seidel"},
     {"solver", "substeps", Kind::countOrAuto, "", ranges::substeps, "\"auto\"", "equal parts of a step; more are stiffer and more exact. \"auto\": as many as the tolerance requires, from 4 to 256"},
     {"solver", "tolerance", Kind::number, "", ranges::tolerance, "0.05", "substeps = \"auto\": share by which a link may be softer than requested"},
@@ -323,12 +324,13 @@ constexpr Key keys[] = {
     {"camera", "field_of_view", Kind::number, "degrees", view, "40", "vertical angle of view"},
 
     {"gallery", "time", Kind::number, "s", moment, "0", "moment that its picture shows"},
+    {"gallery", "order", Kind::count, "", place, "", "place among the scenes that come first; if missing, after them under \"More\", by name"},
     {"gallery", "study", Kind::flag, "", {}, "false", "whether it is listed apart, with scenes for studies and tests"},
     {"gallery", "heavy", Kind::flag, "", {}, "false", "whether it is slower than real time on a CPU"},
-};
-// clang-format on
 
     {"tools", "blade_depth", Kind::number, "m", length, "", "depth to which the viewer's blade cuts at first, below the surface under the pointer; through the body if missing"},
+};
+// clang-format on
 
 } // namespace
 

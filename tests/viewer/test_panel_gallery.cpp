@@ -33,7 +33,7 @@ TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheGallery) {
 TEST_F(PanelsTest, ShowCardsOfScenesAndFilesOpenedLast) {
     facts.scenes = {"cloth", "cube", "organ", "pile", "beam"};
     facts.sentences = {"A cloth.", "A cube.", "An organ.", "A pile.", "A beam."};
-    facts.marks = {{}, {}, {}, {.isHeavy = true}, {.isStudy = true}};
+    facts.marks = {{.order = 1}, {.order = 2}, {}, {.isHeavy = true}, {.isStudy = true}};
     facts.recent = {"/elsewhere/bunny.ply"};
     settle();
     EXPECT_FALSE(panels.closeTop());
@@ -63,6 +63,22 @@ TEST_F(PanelsTest, ShowCardsOfScenesAndFilesOpenedLast) {
     EXPECT_TRUE(panels.closeTop()) << "Esc";
     settle();
     EXPECT_FALSE(panels.isGalleryShown());
+}
+
+// A folder of scenes without an order has one group.
+TEST_F(PanelsTest, SetScenesWithoutAPlaceApart) {
+    facts.scenes = {"cloth", "cube"};
+    const auto heightWith = [&](std::uint32_t order) {
+        facts.marks = {{.order = order}, {}};
+        settle();
+        if (!panels.isGalleryShown()) panels.toggleGallery();
+        settle();
+        settle();
+        return ImGui::GetCurrentContext()->OpenPopupStack.back().Window->ContentSize.y;
+    };
+    const float together = heightWith(0);
+    EXPECT_GT(heightWith(1), 1.5f * together) << "the second one is in a row of its own, under More";
+    EXPECT_EQ(parts::galleryLabel("organ"), "Scenes: organ");
 }
 
 TEST_F(PanelsTest, EndASentenceThatIsTooLongForItsCardInDots) {

@@ -66,6 +66,17 @@ TEST_F(SceneLoaderTest, ListsScenesForStudiesLast) {
     EXPECT_TRUE(builtIn.marks().back().isStudy);
 }
 
+TEST_F(SceneLoaderTest, ListsEightShippedScenesFirst) {
+    const std::string chain = "[[chain]]\nparticles = 3\nlength = 0.1\nmass = 0.1\n[gallery]\n";
+    write("a.toml", chain + "order = 2\n");
+    write("c.toml", chain + "order = 1\n");
+    EXPECT_EQ(libraryOf("a.toml").names(), (std::vector<std::string>{"c", "a", "b", "broken"}));
+    const SceneLoader builtIn = libraryOf("");
+    EXPECT_EQ(builtIn.names().front(), Options{}.builtIn) << "the scene that the viewer starts with";
+    EXPECT_EQ(std::ranges::count_if(builtIn.marks(), &scenes::Gallery::isFirst), 8);
+    EXPECT_TRUE(std::ranges::is_partitioned(builtIn.marks(), &scenes::Gallery::isFirst));
+}
+
 TEST_F(SceneLoaderTest, RemembersFilesThatTheListHasNot) {
     SceneLoader sceneLoader = libraryOf("b.toml");
     EXPECT_TRUE(sceneLoader.recent().empty()) << "the list has it";
@@ -107,6 +118,7 @@ TEST_F(SceneLoaderTest, FirstSceneCanBeCutAndItsPiecesTouch) {
     EXPECT_TRUE(first.scene.grids[0].isCuttable);
     for (const sim::Particle& particle : first.scene.particles) EXPECT_GT(particle.radius, 0);
     EXPECT_EQ(first.scene.colliders.size(), 1u) << "the roll";
+    EXPECT_EQ(first.bladeDepth, 0.05f) << "an incision that gapes, not a cut that severs";
     EXPECT_LE(first.settings.substeps, 24u) << "a software device plays it in the window";
     EXPECT_LE(first.scene.particles.size(), 2'500u);
 }
@@ -118,7 +130,6 @@ TEST_F(SceneLoaderTest, OpensTheNextRoundTheEnd) {
     ASSERT_TRUE(a);
     EXPECT_EQ(a->loaded.scene.name, "a");
     EXPECT_EQ(sceneLoader.current(), 0u);
-    EXPECT_EQ(first.bladeDepth, 0.05f) << "an incision that gapes, not a cut that severs";
     sceneLoader.openNext(-1, 1.5f); // broken.toml
     EXPECT_THROW(await(sceneLoader), mesh::ImportError);
     EXPECT_EQ(sceneLoader.current(), 0u) << "what cannot be opened leaves the one on show";

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <tuple>
 
 namespace sinew::viewer {
 
@@ -90,7 +91,9 @@ SceneLoader::SceneLoader(Options options, Prepare prepare, Draw draw)
     std::vector<Listed> all =
         opened.extension() == ".toml" ? listedFiles(opened.parent_path()) : std::vector<Listed>();
     if (all.empty()) all = listedBuiltIn();
-    std::ranges::stable_sort(all, {}, [](const Listed& one) { return one.mark.isStudy; });
+    std::ranges::stable_sort(all, {}, [](const Listed& one) {
+        return std::tuple(one.mark.isStudy, !one.mark.isFirst(), one.mark.order);
+    });
     for (const Listed& one : all) {
         const bool isOpened = one.file.empty() ? opened.empty() && one.name == options_.builtIn
                                                : fs::path(one.file).filename() == opened.filename();

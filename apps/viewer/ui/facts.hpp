@@ -152,7 +152,7 @@ struct Facts {
     std::vector<std::string> cuts;                 ///< cuts to undo, then cuts to redo
     std::size_t undos = 0;                         ///< number of cuts to undo
     std::vector<std::string> scenes, sentences;    ///< names, and what happens in each
-    std::vector<scenes::Gallery> marks;            ///< of each of `scenes`; those for studies come last
+    std::vector<scenes::Gallery> marks;            ///< of each of `scenes`: the first ones, others, studies
     std::vector<std::string> recent; ///< absolute paths of files opened last, newest first; none of `scenes`
     std::size_t scene = static_cast<std::size_t>(-1); ///< index into `scenes`; -1 = none
     std::vector<bool> previews; ///< which of the first scenes have a preview in the sheet

@@ -4,6 +4,7 @@
 #include "viewer/ui/picture_sheet.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -98,6 +99,19 @@ int cardsInARow() {
     return std::clamp(static_cast<int>(room / (cardSize().width + style.ItemSpacing.x)), 1, mostInARow);
 }
 
+// Where the scenes after the first ones begin, and where those for studies. A folder whose scenes have no
+// order has one group.
+std::array<std::size_t, 2> cardGroups(const Facts& facts) {
+    const std::size_t count = facts.scenes.size();
+    const auto before = [&](auto isOf) {
+        const auto end = std::ranges::find_if_not(facts.marks, isOf);
+        return end == facts.marks.end() ? count : static_cast<std::size_t>(end - facts.marks.begin());
+    };
+    const std::size_t first = facts.marks.empty() ? 0 : before(&scenes::Gallery::isFirst);
+    const std::size_t study = before([](const scenes::Gallery& one) { return !one.isStudy; });
+    return {first > 0 ? first : study, study};
+}
+
 } // namespace
 
 void gallery(const Facts& facts, GalleryState& state, Wishes& wishes) {
@@ -109,12 +123,12 @@ void gallery(const Facts& facts, GalleryState& state, Wishes& wishes) {
     ImGui::SetNextWindowSizeConstraints({0, 0}, {all.x - 2 * edge, all.y - top - edge});
     state.isOpen = ImGui::BeginPopup("gallery");
     if (!state.isOpen) return;
-    const auto study = std::ranges::find(facts.marks, true, &scenes::Gallery::isStudy);
-    const auto shown = std::min(static_cast<std::size_t>(study - facts.marks.begin()), facts.scenes.size());
-    const std::size_t firstStudy = facts.marks.empty() ? facts.scenes.size() : shown;
+    const auto [more, firstStudy] = cardGroups(facts);
     const int inARow = cardsInARow();
-    cards(facts, 0, firstStudy, inARow, wishes);
+    cards(facts, 0, more, inARow, wishes);
     recentFiles(facts, wishes);
+    if (more < firstStudy) heading("More");
+    cards(facts, more, firstStudy, inARow, wishes);
     if (firstStudy < facts.scenes.size()) heading("For studies and tests");
     cards(facts, firstStudy, facts.scenes.size(), inARow, wishes);
     if (std::exchange(state.closes, false)) ImGui::CloseCurrentPopup();

@@ -54,9 +54,6 @@ void heading(const char* name) {
     rule();
 }
 
-namespace {
-
-// A triangle before a heading: it points down if the section is open.
 void foldMark(const ImVec2& at, float height, bool isOpen, ImU32 color) {
     const ImVec2 middle{at.x + 0.3f * height, at.y + height / 2};
     const float half = 0.28f * height;
@@ -68,6 +65,8 @@ void foldMark(const ImVec2& at, float height, bool isOpen, ImU32 color) {
         list.AddTriangleFilled({middle.x - 0.6f * half, middle.y - half},
                                {middle.x - 0.6f * half, middle.y + half}, {middle.x + half, middle.y}, color);
 }
+
+namespace {
 
 // The heading of a section: a click folds or opens it.
 void headingOf(Fold fold, Folds& folds, const std::string& text, const ImVec4& color) {

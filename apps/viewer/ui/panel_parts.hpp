@@ -39,6 +39,8 @@ float contentWidth();
 void rule();
 /// Writes quiet text above a line, with room above.
 void heading(const char* name);
+/// A triangle in a line of text: it points down if what belongs to it is open, else to the right.
+void foldMark(const ImVec2& at, float height, bool isOpen, ImU32 color);
 /// A section with a heading, which folds or opens it when it is clicked and has a short text on its right.
 /// `content` draws an open one. The window scrolls to one that opens below what is in view.
 void section(Fold fold, Folds& folds, const std::string& text, const std::function<void()>& content,
@@ -72,11 +74,13 @@ std::size_t toolbarGroups();
 /// Icons, each in a square of `side` pixels.
 void toolbar(const Facts& facts, float side, Wishes& wishes);
 
-void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
-void scenes(const SceneFacts& scene, const Facts& facts, SceneFields& fields, Wishes& wishes);
 /// One line on the present device.
 void deviceLine(const SceneFacts& scene, const Facts& facts);
 /// The present device, and the list of all devices.
+void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+/// "Scenes: organ".
+std::string galleryLabel(const std::string& scene);
+void scenes(const SceneFacts& scene, const Facts& facts, SceneFields& fields, Wishes& wishes);
 /// Cards of all scenes over the picture, while it is open.
 void gallery(const Facts& facts, GalleryState& state, Wishes& wishes);
 /// The list of files, while it is shown.

@@ -2,19 +2,27 @@
 #include "viewer/ui/panel_parts.hpp"
 #include "viewer/ui/panels.hpp"
 
+#include <cmath>
+
 namespace sinew::viewer::parts {
 
-// The name of the scene is the button of the gallery.
+std::string galleryLabel(const std::string& scene) {
+    return "Scenes: " + scene;
+}
+
+// The name of the scene is the button of the gallery, with the arrow of a list.
 void scenes(const SceneFacts& scene, const Facts& facts, SceneFields& fields, Wishes& wishes) {
-    const float step = 0.7f * buttonWidth(4), between = ImGui::GetStyle().ItemSpacing.x;
-    button(Action::gallery, wishes, contentWidth() - 3 * (step + between), fields.gallery.isOpen,
-           scene.name.c_str());
+    button(Action::gallery, wishes, contentWidth(), fields.gallery.isOpen, galleryLabel(scene.name).c_str());
+    const float line = ImGui::GetTextLineHeight(), pad = ImGui::GetStyle().FramePadding.x;
+    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    foldMark({to.x - pad - 0.6f * line, from.y + std::floor((to.y - from.y - line) / 2)}, line, true,
+             ImGui::GetColorU32(ImGuiCol_Text));
+    const float third = buttonWidth(3);
+    button(Action::previousScene, wishes, third);
     ImGui::SameLine();
-    button(Action::previousScene, wishes, step, false, "<");
+    button(Action::nextScene, wishes, third);
     ImGui::SameLine();
-    button(Action::nextScene, wishes, step, false, ">");
-    ImGui::SameLine();
-    button(Action::open, wishes, step, fields.files.isShown);
+    button(Action::open, wishes, third, fields.files.isShown);
     gallery(facts, fields.gallery, wishes);
 }
 
