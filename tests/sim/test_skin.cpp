@@ -6,7 +6,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <vector>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -102,30 +105,57 @@ TEST(SkinOnParticles, SitsOnThem) {
         EXPECT_EQ(xyz(vertices[v].position), x[skin.particles[v]]);
 }
 
-// Bodies that touch keep two radii between their particles.
-TEST(SkinOnParticles, IsRaisedToTheSurfaceThatTouches) {
+// A box of cells whose particles have a radius of 0.04 m, moved by `stretch`.
+Scene boxThatTouches(bool isCuttable, const Eigen::Matrix3d& stretch) {
     Lattice lattice{
         .cells = {3, 2, 4}, .spacing = 0.1f, .youngModulus = 1e5f, .density = 1000, .radius = 0.04f};
+    lattice.isCuttable = isCuttable;
+    Scene scene{.gravity = {}};
+    addLatticeSkin(scene, lattice, addLattice(scene, lattice), {1, 1, 1});
+    for (Particle& particle : scene.particles) {
+        const Vector3d x = stretch * test::toVector(particle.position);
+        particle.position = {static_cast<float>(x.x()), static_cast<float>(x.y()), static_cast<float>(x.z())};
+    }
+    return scene;
+}
+
+// Bodies that touch keep two radii between their particles: faces, edges and corners stand a radius outside.
+TEST(SkinOnParticles, IsRaisedToTheSurfaceThatTouches) {
     for (const bool isCuttable : {false, true}) {
-        lattice.isCuttable = isCuttable;
-        Scene scene{.gravity = {}};
-        addLatticeSkin(scene, lattice, addLattice(scene, lattice), {1, 1, 1});
+        const Scene scene = boxThatTouches(isCuttable, Eigen::Matrix3d::Identity());
         test::Runner runner(scene);
         const auto x = runner.positions();
         const std::vector<Vertex> vertices = skinOf(runner);
         const Skin& skin = scene.skins[0];
-        std::map<std::uint32_t, Vector3d> sums;
-        for (std::size_t v = 0; v < vertices.size(); ++v) {
-            const auto sum = sums.try_emplace(skin.particles[v], Vector3d::Zero()).first;
-            sum->second += xyz(vertices[v].normal);
+        std::map<std::uint32_t, std::vector<std::size_t>> meeting; // vertices by particle, one for each face
+        for (std::size_t v = 0; v < vertices.size(); ++v) meeting[skin.particles[v]].push_back(v);
+        std::map<std::size_t, int> seen;
+        for (const auto& [particle, here] : meeting) {
+            ++seen[here.size()];
+            for (const std::size_t v : here) {
+                const Vector3d way = xyz(vertices[v].position) - x[particle];
+                EXPECT_NEAR(way.dot(xyz(vertices[v].normal)), isCuttable ? 0 : 0.04, 1e-6) << here.size();
+                EXPECT_EQ(vertices[v].position, vertices[here.front()].position) << "edges stay closed";
+            }
         }
-        for (std::size_t v = 0; v < vertices.size(); ++v) {
-            const Vector3d along =
-                isCuttable ? Vector3d(Vector3d::Zero()) : sums[skin.particles[v]].normalized();
-            const Vector3d expected = x[skin.particles[v]] + 0.04 * along;
-            EXPECT_LE((xyz(vertices[v].position) - expected).norm(), 1e-6) << v << ", " << isCuttable;
-        }
+        EXPECT_EQ(seen.at(3), 8) << "corners";
+        EXPECT_GT(seen.at(2), 0) << "edges";
+        EXPECT_GT(seen.at(1), 0) << "faces";
     }
+}
+
+// A needle of a corner would have its tip far away.
+TEST(SkinOnParticles, IsRaisedByALittleMoreThanTheRadiusAtASharpCorner) {
+    Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
+    shear(0, 1) = shear(1, 2) = 8;
+    const Scene scene = boxThatTouches(false, shear);
+    test::Runner runner(scene);
+    const auto x = runner.positions();
+    const std::vector<Vertex> vertices = skinOf(runner);
+    double farthest = 0;
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        farthest = std::max(farthest, (xyz(vertices[v].position) - x[scene.skins[0].particles[v]]).norm());
+    EXPECT_NEAR(farthest, 0.04 * std::sqrt(3.0), 1e-6);
 }
 
 TEST(SkinNormals, AreOfUnitLengthAndPointOutOfABall) {
