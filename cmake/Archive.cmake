@@ -1,4 +1,5 @@
-# The target `archive` makes sinew-<version>.tar.gz: the sources with the compiled kernels, which builds without glslang.
+# The target `archive` makes sinew-<version>.tar.gz: all sources, those of tests and examples included, with the compiled
+# kernels. With its defaults it builds without glslang: it leaves out tests and examples, whose own kernels need it.
 get_property(targets GLOBAL PROPERTY SINEW_KERNEL_TARGETS)
 set(lines "")
 set(kernels "")
@@ -18,7 +19,7 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Position based dynamics of soft bodies as
 set(CPACK_SOURCE_PACKAGE_FILE_NAME sinew-${PROJECT_VERSION})
 set(CPACK_SOURCE_IGNORE_FILES "/__pycache__/")
 set(CPACK_SOURCE_INSTALLED_DIRECTORIES ${PROJECT_BINARY_DIR}/archive/top .)
-foreach(folder .ci apps cmake debian docs include packaging python scenes shaders src tests tools)
+foreach(folder .ci apps cmake debian docs examples include packaging python scenes shaders src tests tools)
     list(APPEND CPACK_SOURCE_INSTALLED_DIRECTORIES ${PROJECT_SOURCE_DIR}/${folder} ${folder})
 endforeach()
 include(CPack)

@@ -1,5 +1,6 @@
-# Makes a release archive and builds the core of it as a shared library, while no program named like those of glslang or
-# of SPIRV-Tools can be found. Its kernels must be those of this build, and its symbols those of the public headers.
+# Makes a release archive, configures it with its defaults, and builds the core of it as a shared library, while no program
+# named like those of glslang or of SPIRV-Tools can be found. Its kernels must be those of this build, and its symbols those
+# of the public headers. With glslang it is also configured with tests and examples.
 #   cmake -DBUILD=<build folder> -DFOLDER=<folder to use> -DTYPE=<CMAKE_BUILD_TYPE> -DLAUNCHER=<CMAKE_CXX_COMPILER_LAUNCHER>
 #       -DPYTHON=<python3> -P archive.cmake
 # with the variables of steps.cmake.
@@ -27,12 +28,30 @@ endforeach()
 set(all_programs $ENV{PATH})
 set(ENV{PATH} ${programs})
 set(hidden -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF) # else CMake also looks into /usr/bin
-set(options ${hidden} -G Ninja -DCMAKE_MAKE_PROGRAM=${programs}/ninja -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
-    -DCMAKE_BUILD_TYPE=${TYPE} -DVULKAN_HEADERS=${VULKAN} -DSINEW_BUILD_APPS=OFF -DSINEW_BUILD_TESTS=OFF)
+set(machine -G Ninja -DCMAKE_MAKE_PROGRAM=${programs}/ninja -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
+    -DCMAKE_BUILD_TYPE=${TYPE} -DVULKAN_HEADERS=${VULKAN})
+set(options ${hidden} ${machine} -DSINEW_BUILD_APPS=OFF)
 
 step("the archive cannot be configured without glslang"
     ${HOST_CMAKE} -S ${sources} -B ${FOLDER}/build ${options} -DBUILD_SHARED_LIBS=ON)
 step("the archive cannot be built without glslang" ${HOST_CMAKE} --build ${FOLDER}/build -j2)
+
+# The defaults, with the programs. Libraries are found in the folders of the system, and no program in them.
+file(WRITE ${FOLDER}/hidden.cmake "set(CMAKE_IGNORE_PATH \"${folders}\" CACHE STRING \"\")\n")
+step("the archive cannot be configured with its defaults, without glslang"
+    ${HOST_CMAKE} -C ${FOLDER}/hidden.cmake -S ${sources} -B ${FOLDER}/defaults ${machine})
+step("the targets of the archive cannot be listed" ${HOST_CMAKE} --build ${FOLDER}/defaults --target help)
+file(STRINGS ${FOLDER}/defaults/CMakeCache.txt looked REGEX "^GLSLANG:")
+if(NOT step_output MATCHES "sinew-viewer: phony" OR looked)
+    message(FATAL_ERROR "by default the archive must build the programs, from its kernels:\n${step_output}")
+endif()
+set(ENV{PATH} ${all_programs})
+step("the archive cannot be configured with its tests" ${HOST_CMAKE} -S ${sources} -B ${FOLDER}/tests ${machine} -DSINEW_BUILD_TESTS=ON)
+step("the targets of the archive cannot be listed" ${HOST_CMAKE} --build ${FOLDER}/tests --target help)
+if(NOT step_output MATCHES "test_vk: phony" OR NOT step_output MATCHES "example_game: phony")
+    message(FATAL_ERROR "the archive must hold tests and examples:\n${step_output}")
+endif()
+set(ENV{PATH} ${programs})
 
 # A changed shader is not taken from the archive: without glslang there is no way to build it.
 file(APPEND ${sources}/shaders/glsl/solvers/predict.comp "// changed\n")
