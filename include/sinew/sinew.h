@@ -7,10 +7,12 @@
 // Handles are numbers. A handle that is null, destroyed or of another kind is detected and gives
 // SINEW_ERROR_INVALID_HANDLE. A device lives until everything made with it is destroyed: destroying it
 // earlier gives SINEW_ERROR_IN_USE.
-// Descriptions begin with `size`, which sinewDefault...() fills in; results of sinewGet...() begin with it
-// too, and the caller sets it. A size that the library does not know gives SINEW_ERROR_INVALID_ARGUMENT.
-// Elements of arrays have no size: they do not change before the version of the library file does. Pointers
-// are read during the call only, except those of the log and of a buffer hook. Flags are 0 or 1.
+// Descriptions begin with `size`, which sinewDefault...() fills in; results of sinewGet...() begin with it too,
+// and the caller sets it. The library knows the sizes of earlier headers: members that one lacks have their
+// defaults, and results leave them out. A larger description is accepted if all bytes beyond are 0, a larger
+// result gets zeros there. Other sizes give SINEW_ERROR_INVALID_ARGUMENT. Elements of arrays have no size: they
+// do not change before the version of the library file does. Pointers are read during the call only, except
+// those of the log and of a buffer hook. Flags are 0 or 1.
 //
 // Threads: any thread may use any object, one at a time. A second thread that uses a scene, simulation or state
 // meanwhile gets SINEW_ERROR_IN_USE; a device may be used by several threads. Scenes may be read by several ones.
@@ -31,13 +33,11 @@
 #else
 #define SINEW_C_API
 #endif
-
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 // --- Results and messages
-
 typedef int32_t SinewResult;
 enum {
     SINEW_OK = 0,
@@ -72,12 +72,19 @@ typedef void (*SinewLog)(void* user, uint32_t severity, const char* sentence);
 // and each failed call. Without a log nothing is printed.
 SINEW_C_API SinewResult sinewSetLog(SinewLog log, void* user);
 
-// --- Devices
+// Sets `size` and the defaults in a description of `size` bytes. The functions sinewDefault...() of descriptions
+// call it with the size that this header gives them.
+enum {
+    SINEW_TYPE_DEVICE_REQUEST = 0, SINEW_TYPE_HOST_DEVICE = 1, SINEW_TYPE_PLANE = 2, SINEW_TYPE_COLLIDER = 3,
+    SINEW_TYPE_CLOTH = 4, SINEW_TYPE_LATTICE = 5, SINEW_TYPE_MESH = 6, SINEW_TYPE_SETTINGS = 7, SINEW_TYPE_STEP = 8
+};
+SINEW_C_API SinewResult sinewSetDefaults(uint32_t type, void* description, size_t size);
+#define SINEW_DEFAULTS(Type, TYPE) Type made; sinewSetDefaults(SINEW_TYPE_##TYPE, &made, sizeof made); return made
 
+// --- Devices
 typedef struct SinewDevice {
     uint64_t id;
 } SinewDevice;
-
 // A device for a program without an engine. It opens the Vulkan loader and has a queue of its own.
 typedef struct SinewDeviceRequest {
     uint32_t size;
@@ -89,7 +96,7 @@ typedef struct SinewDeviceRequest {
     size_t pipelineCacheSize;  // [B]
 } SinewDeviceRequest;
 
-SINEW_C_API SinewDeviceRequest sinewDefaultDeviceRequest(void);
+static inline SinewDeviceRequest sinewDefaultDeviceRequest(void) { SINEW_DEFAULTS(SinewDeviceRequest, DEVICE_REQUEST); }
 // Errors: NO_DEVICE with what each device lacks, OUT_OF_MEMORY.
 SINEW_C_API SinewResult sinewCreateDevice(const SinewDeviceRequest* request, SinewDevice* device);
 
@@ -128,7 +135,7 @@ typedef struct SinewHostDevice {
     const VkAllocationCallbacks* allocation; // for each Vulkan object that Sinew makes; null = the driver's own
 } SinewHostDevice;
 
-SINEW_C_API SinewHostDevice sinewDefaultHostDevice(void);
+static inline SinewHostDevice sinewDefaultHostDevice(void) { SINEW_DEFAULTS(SinewHostDevice, HOST_DEVICE); }
 SINEW_C_API SinewResult sinewBorrowDevice(const SinewHostDevice* host, SinewDevice* device);
 // Errors: IN_USE while simulations of the device exist.
 SINEW_C_API SinewResult sinewDestroyDevice(SinewDevice device);
@@ -149,7 +156,6 @@ SINEW_C_API SinewResult sinewGetDeviceInfo(SinewDevice device, SinewDeviceInfo* 
 SINEW_C_API SinewResult sinewGetPipelineCache(SinewDevice device, size_t* size, void* bytes);
 
 // --- Scenes
-
 typedef struct SinewVec3 {
     float x, y, z;
 } SinewVec3;
@@ -164,7 +170,6 @@ typedef struct SinewPose {
 typedef struct SinewScene {
     uint64_t id;
 } SinewScene;
-
 // An empty scene. Indices of what is added count from 0; nothing is removed.
 SINEW_C_API SinewResult sinewCreateScene(SinewScene* scene);
 // A scene file (TOML), or a mesh file, which is dropped on a floor. Blades and camera of the file are left
@@ -261,7 +266,7 @@ typedef struct SinewPlane {
     float offset;     // normal . x >= offset [m]
     float friction, staticFriction, restitution;
 } SinewPlane;
-SINEW_C_API SinewPlane sinewDefaultPlane(void);
+static inline SinewPlane sinewDefaultPlane(void) { SINEW_DEFAULTS(SinewPlane, PLANE); }
 SINEW_C_API SinewResult sinewAddPlane(SinewScene scene, const SinewPlane* plane);
 
 enum { SINEW_SPHERE = 0, SINEW_CAPSULE = 1, SINEW_BOX = 2 };
@@ -280,7 +285,7 @@ typedef struct SinewCollider {
     uint32_t keyframeCount, loops;
     const SinewKeyframe* keyframes; // times ascending
 } SinewCollider;
-SINEW_C_API SinewCollider sinewDefaultCollider(void);
+static inline SinewCollider sinewDefaultCollider(void) { SINEW_DEFAULTS(SinewCollider, COLLIDER); }
 SINEW_C_API SinewResult sinewAddCollider(SinewScene scene, const SinewCollider* collider);
 
 // A sheet of columns x rows particles, with links along edges and diagonals, and a skin.
@@ -305,7 +310,7 @@ typedef struct SinewCloth {
     const uint32_t* pinned; // particles of the sheet that are fixed, row by row
     float toughness;        // as in SinewLattice [J/m]
 } SinewCloth;
-SINEW_C_API SinewCloth sinewDefaultCloth(void);
+static inline SinewCloth sinewDefaultCloth(void) { SINEW_DEFAULTS(SinewCloth, CLOTH); }
 SINEW_C_API SinewResult sinewAddCloth(SinewScene scene, const SinewCloth* cloth, uint32_t* body);
 
 // A body of cubic cells with particles on their corners.
@@ -327,7 +332,7 @@ typedef struct SinewLattice {
     const float* fill; // share of each cell that is material, x fastest; null = all whole
     size_t fillCount;  // 0, or cells[0] x cells[1] x cells[2]
 } SinewLattice;
-SINEW_C_API SinewLattice sinewDefaultLattice(void);
+static inline SinewLattice sinewDefaultLattice(void) { SINEW_DEFAULTS(SinewLattice, LATTICE); }
 SINEW_C_API SinewResult sinewAddLattice(SinewScene scene, const SinewLattice* lattice, uint32_t* body);
 
 // A voxel body of a triangle mesh, with the mesh as its skin. Small holes and seams are closed.
@@ -345,7 +350,7 @@ typedef struct SinewMesh {
     float tearStrain, toughness;
     const float* textureCoordinates; // u and v of each vertex; null = none. A seam is two vertices at one place
 } SinewMesh;
-SINEW_C_API SinewMesh sinewDefaultMesh(void);
+static inline SinewMesh sinewDefaultMesh(void) { SINEW_DEFAULTS(SinewMesh, MESH); }
 SINEW_C_API SinewResult sinewAddMesh(SinewScene scene, const SinewMesh* mesh, uint32_t* body);
 // The same of a mesh in an OBJ, STL, PLY, glTF 2 or GLB file: coordinates times `scale` are metres; vertices
 // and triangles of `mesh` are not used. Reads in a child process (fork). Errors as sinewLoadScene().
@@ -353,7 +358,6 @@ SINEW_C_API SinewResult sinewAddMeshFile(SinewScene scene, const char* path, flo
                                          uint32_t* body);
 
 // --- Settings
-
 enum { SINEW_SOLVER_JACOBI = 0, SINEW_SOLVER_SPLIT = 1, SINEW_SOLVER_GAUSS_SEIDEL = 2 };
 typedef struct SinewSettings {
     uint32_t size;
@@ -378,7 +382,7 @@ typedef struct SinewSettings {
     uint32_t outputFrames;                 // steps of which sinewGetFrameView() of sinew_query.h has the outputs, 0 to 8
 } SinewSettings;
 #define SINEW_AUTO_LEVELS 0xffffffffu // as many as win at equal error, by the kind and size of bodies and the substeps
-SINEW_C_API SinewSettings sinewDefaultSettings(void);
+static inline SinewSettings sinewDefaultSettings(void) { SINEW_DEFAULTS(SinewSettings, SETTINGS); }
 // The settings of a scene that sinewLoadScene() read; else the default ones.
 SINEW_C_API SinewResult sinewGetSceneSettings(SinewScene scene, SinewSettings* settings);
 // Errors: INVALID_SCENE with a sentence a line, at most 20.
@@ -388,11 +392,9 @@ SINEW_C_API SinewResult sinewValidate(SinewScene scene, const SinewSettings* set
 SINEW_C_API SinewResult sinewDescribe(SinewScene scene, const SinewSettings* settings, size_t* size, char* text);
 
 // --- Simulations
-
 typedef struct SinewSimulation {
     uint64_t id;
 } SinewSimulation;
-
 // Makes buffers and pipelines. The scene may be changed or destroyed afterwards. Errors: INVALID_SCENE,
 // OUT_OF_MEMORY with the buffer and its size, NO_DEVICE if a kernel needs more than the device has.
 SINEW_C_API SinewResult sinewCreateSimulation(SinewDevice device, SinewScene scene, const SinewSettings* settings,
@@ -466,7 +468,7 @@ typedef struct SinewStep {
     SinewVec3 rayFrom, rayTo;             // cuts links nearer than rayRadius to this segment [m]
     float rayRadius;                      // [m]; 0 = no cut
 } SinewStep;
-SINEW_C_API SinewStep sinewDefaultStep(void);
+static inline SinewStep sinewDefaultStep(void) { SINEW_DEFAULTS(SinewStep, STEP); }
 
 // Record into a command buffer of the host, which is recording, outside a render pass, and submitted once and
 // in order to one queue family. They submit, wait and allocate nothing. The first one is a reset. Afterwards
@@ -558,11 +560,9 @@ SINEW_C_API SinewResult sinewGetImpulses(SinewSimulation simulation, uint64_t fr
 SINEW_C_API SinewResult sinewNextComplaint(SinewSimulation simulation, const char** sentence);
 
 // --- Saved states
-
 typedef struct SinewState {
     uint64_t id;
 } SinewState;
-
 // Records the copy of the state into a buffer of the host, of SinewSimulationInfo::stateSize bytes, or back;
 // `state` is the host's part of it, and must be destroyed. Errors: MISMATCH if size or stateKey differ.
 SINEW_C_API SinewResult sinewRecordSaveState(SinewSimulation simulation, VkCommandBuffer commands,
@@ -593,8 +593,8 @@ SINEW_C_API SinewResult sinewUpload(SinewDevice device, const SinewBufferView* v
 // if the memory is not host visible, as on most GPUs.
 SINEW_C_API SinewResult sinewMap(SinewSimulation simulation, uint32_t output, const void** bytes, size_t* size);
 
+#undef SINEW_DEFAULTS
 #ifdef __cplusplus
 }
 #endif
-
 #endif

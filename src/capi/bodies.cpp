@@ -98,14 +98,7 @@ std::uint32_t addMeshBody(sim::Scene& scene, const mesh::TriangleMesh& mesh, con
     return lastBody(scene, nullptr);
 }
 
-} // namespace sinew::capi
-
-using namespace sinew;
-using namespace sinew::capi;
-
-extern "C" {
-
-SinewCloth sinewDefaultCloth(void) {
+SinewCloth defaultCloth() {
     const sim::ClothSheet sheet;
     SinewCloth cloth{};
     cloth.size = sizeof cloth;
@@ -118,9 +111,40 @@ SinewCloth sinewDefaultCloth(void) {
     return cloth;
 }
 
+SinewLattice defaultLattice() {
+    const sim::Lattice from;
+    SinewLattice lattice{};
+    lattice.size = sizeof lattice;
+    for (int axis = 0; axis < 3; ++axis) lattice.cells[axis] = from.cells[static_cast<std::size_t>(axis)];
+    lattice.spacing = from.spacing;
+    lattice.youngModulus = from.youngModulus;
+    lattice.poissonRatio = from.poissonRatio;
+    lattice.density = from.density;
+    return lattice;
+}
+
+SinewMesh defaultMesh() {
+    const mesh::MeshBody from;
+    SinewMesh made{};
+    made.size = sizeof made;
+    made.resolution = from.voxels.resolution;
+    made.youngModulus = from.youngModulus;
+    made.poissonRatio = from.poissonRatio;
+    made.recovery = from.recovery;
+    made.density = from.density;
+    return made;
+}
+
+} // namespace sinew::capi
+
+using namespace sinew;
+using namespace sinew::capi;
+
+extern "C" {
+
 SinewResult sinewAddCloth(SinewScene scene, const SinewCloth* cloth, uint32_t* body) {
     return call(__func__, [&] {
-        const SinewCloth& given = checked(cloth, "SinewCloth");
+        const SinewCloth given = described(cloth, "SinewCloth", defaultCloth());
         requireArray(given.pinned, given.pinnedCount, "pinned");
         const double nodes = double{1} * given.columns * given.rows;
         requireNodes(nodes, "the cloth");
@@ -156,21 +180,9 @@ SinewResult sinewAddCloth(SinewScene scene, const SinewCloth* cloth, uint32_t* b
     });
 }
 
-SinewLattice sinewDefaultLattice(void) {
-    const sim::Lattice from;
-    SinewLattice lattice{};
-    lattice.size = sizeof lattice;
-    for (int axis = 0; axis < 3; ++axis) lattice.cells[axis] = from.cells[static_cast<std::size_t>(axis)];
-    lattice.spacing = from.spacing;
-    lattice.youngModulus = from.youngModulus;
-    lattice.poissonRatio = from.poissonRatio;
-    lattice.density = from.density;
-    return lattice;
-}
-
 SinewResult sinewAddLattice(SinewScene scene, const SinewLattice* lattice, uint32_t* body) {
     return call(__func__, [&] {
-        const SinewLattice& given = checked(lattice, "SinewLattice");
+        const SinewLattice given = described(lattice, "SinewLattice", defaultLattice());
         requireArray(given.fill, given.fillCount, "fill");
         double cells = 1, nodes = 1;
         for (const std::uint32_t side : given.cells) {
@@ -214,21 +226,9 @@ SinewResult sinewAddLattice(SinewScene scene, const SinewLattice* lattice, uint3
     });
 }
 
-SinewMesh sinewDefaultMesh(void) {
-    const mesh::MeshBody from;
-    SinewMesh made{};
-    made.size = sizeof made;
-    made.resolution = from.voxels.resolution;
-    made.youngModulus = from.youngModulus;
-    made.poissonRatio = from.poissonRatio;
-    made.recovery = from.recovery;
-    made.density = from.density;
-    return made;
-}
-
 SinewResult sinewAddMesh(SinewScene scene, const SinewMesh* mesh, uint32_t* body) {
     return call(__func__, [&] {
-        const SinewMesh& given = checked(mesh, "SinewMesh");
+        const SinewMesh given = described(mesh, "SinewMesh", defaultMesh());
         const mesh::TriangleMesh made = meshOf(given);
         const Use<SceneObject> object(scene.id, Access::write);
         Addition addition(object->scene);

@@ -99,12 +99,6 @@ void requireArray(const void* pointer, std::size_t count, const char* name) {
         invalidArgument(std::string(name) + " is null, but there are " + std::to_string(count) + " elements");
 }
 
-void unknownSize(const char* type, std::uint32_t given, std::size_t known) {
-    invalidArgument("the size of " + std::string(type) + " is " + std::to_string(given) +
-                    ", and this library knows " + std::to_string(known) +
-                    ": set it by its sinewDefault function or by sizeof");
-}
-
 } // namespace sinew::capi
 
 using namespace sinew;

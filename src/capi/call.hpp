@@ -36,13 +36,5 @@ void log(std::uint32_t severity, const std::string& sentence) noexcept;
 void requireNotNull(const void* pointer, const char* name);
 /// Throws if there are elements and no pointer to them.
 void requireArray(const void* pointer, std::size_t count, const char* name);
-[[noreturn]] void unknownSize(const char* type, std::uint32_t given, std::size_t known);
-
-/// The description or result that `pointer` leads to, after a check of its size.
-template <typename T> T& checked(T* pointer, const char* type) {
-    requireNotNull(pointer, type);
-    if (pointer->size != sizeof(T)) unknownSize(type, pointer->size, sizeof(T));
-    return *pointer;
-}
 
 } // namespace sinew::capi

@@ -1,7 +1,7 @@
 // Values of the C interface to those of the core, and back.
 #pragma once
 
-#include "capi/call.hpp"
+#include "capi/sizes.hpp"
 #include "sinew/scene.hpp"
 
 #include <cstring>

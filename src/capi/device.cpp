@@ -74,6 +74,19 @@ vk::Queue& queueOf(DeviceObject& device) {
     return *device.queue;
 }
 
+SinewDeviceRequest defaultDeviceRequest() {
+    SinewDeviceRequest request{};
+    request.size = sizeof request;
+    return request;
+}
+
+SinewHostDevice defaultHostDevice() {
+    SinewHostDevice host{};
+    host.size = sizeof host;
+    host.apiVersion = VK_API_VERSION_1_2;
+    return host;
+}
+
 } // namespace sinew::capi
 
 using namespace sinew;
@@ -81,15 +94,9 @@ using namespace sinew::capi;
 
 extern "C" {
 
-SinewDeviceRequest sinewDefaultDeviceRequest(void) {
-    SinewDeviceRequest request{};
-    request.size = sizeof request;
-    return request;
-}
-
 SinewResult sinewCreateDevice(const SinewDeviceRequest* request, SinewDevice* device) {
     return call(__func__, [&] {
-        const SinewDeviceRequest& given = checked(request, "SinewDeviceRequest");
+        const SinewDeviceRequest given = described(request, "SinewDeviceRequest", defaultDeviceRequest());
         requireNotNull(device, "device");
         if (given.isSoftware != 0 && given.device != nullptr)
             invalidArgument("device names one, and isSoftware asks for any software device: set one of both");
@@ -104,16 +111,9 @@ SinewResult sinewCreateDevice(const SinewDeviceRequest* request, SinewDevice* de
     });
 }
 
-SinewHostDevice sinewDefaultHostDevice(void) {
-    SinewHostDevice host{};
-    host.size = sizeof host;
-    host.apiVersion = VK_API_VERSION_1_2;
-    return host;
-}
-
 SinewResult sinewBorrowDevice(const SinewHostDevice* host, SinewDevice* device) {
     return call(__func__, [&] {
-        const SinewHostDevice& given = checked(host, "SinewHostDevice");
+        const SinewHostDevice given = described(host, "SinewHostDevice", defaultHostDevice());
         requireNotNull(device, "device");
         requireArray(given.instanceExtensions, given.instanceExtensionCount, "instanceExtensions");
         give(nullptr,
@@ -138,18 +138,22 @@ SinewResult sinewDestroyDevice(SinewDevice device) {
 
 SinewResult sinewGetDeviceInfo(SinewDevice device, SinewDeviceInfo* info) {
     return call(__func__, [&] {
-        SinewDeviceInfo& result = checked(info, "SinewDeviceInfo");
+        const Result<SinewDeviceInfo> result(info, "SinewDeviceInfo");
         const Use<DeviceObject> object(device.id, Access::read);
         const vk::Device& made = object->device;
-        result.queueFamily = made.queueFamily();
-        result.isSoftware = made.description().type == "software" ? 1 : 0;
-        result.hasQueue = object->queue ? 1 : 0;
-        result.getInstanceProcAddr = made.getInstanceProcAddr();
-        result.instance = made.instance();
-        result.physicalDevice = made.physical();
-        result.device = made.handle();
-        copyText(made.description().name, result.name);
-        copyText(made.description().driver, result.driver);
+        SinewDeviceInfo found{.size = sizeof found,
+                              .queueFamily = made.queueFamily(),
+                              .isSoftware = made.description().type == "software" ? 1u : 0u,
+                              .hasQueue = object->queue ? 1u : 0u,
+                              .getInstanceProcAddr = made.getInstanceProcAddr(),
+                              .instance = made.instance(),
+                              .physicalDevice = made.physical(),
+                              .device = made.handle(),
+                              .name = {},
+                              .driver = {}};
+        copyText(made.description().name, found.name);
+        copyText(made.description().driver, found.driver);
+        result.give(found);
     });
 }
 

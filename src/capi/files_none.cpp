@@ -1,5 +1,5 @@
 // The functions of files.cpp in a library without files: it needs neither assimp nor TOML.
-#include "capi/call.hpp"
+#include "capi/sizes.hpp"
 
 using namespace sinew::capi;
 
@@ -22,7 +22,7 @@ SinewResult sinewLoadScene(const char* path, SinewScene* scene) {
 SinewResult sinewAddMeshFile(SinewScene, const char* path, float, const SinewMesh* mesh, uint32_t*) {
     return call(__func__, [&] {
         requireNotNull(path, "path");
-        checked(mesh, "SinewMesh");
+        described(mesh, "SinewMesh", defaultMesh());
         throw Failed{SINEW_ERROR_UNSUPPORTED, why};
     });
 }

@@ -1,4 +1,5 @@
 // Steps, copies and saved states for programs without an engine, on the queue of their device.
+#include "capi/sizes.hpp"
 #include "capi/stepper.hpp"
 
 #include "sinew/vk/check.hpp"
@@ -101,7 +102,7 @@ extern "C" {
 
 SinewResult sinewStep(SinewSimulation simulation, const SinewStep* step, uint32_t count) {
     return call(__func__, [&] {
-        const SinewStep& given = checked(step, "SinewStep");
+        const SinewStep given = described(step, "SinewStep", defaultStep());
         const Use<SimulationObject> object(simulation.id, Access::write);
         if (!object->owned)
             throw Failed{SINEW_ERROR_UNSUPPORTED, "the simulation belongs to a world: use sinewStepWorld"};

@@ -43,12 +43,11 @@ struct QueryObject final : Object {
     std::uint64_t replacements = 0;                 ///< SimulationObject::replacements of what is watched
 };
 
-const SinewQueryRoom& roomOf(const SinewQueryRoom* given) {
-    requireNotNull(given, "room");
-    if (given->size != sizeof *given) unknownSize("SinewQueryRoom", given->size, sizeof *given);
-    if (given->rays == 0 || given->slots == 0)
+SinewQueryRoom roomOf(const SinewQueryRoom* room) {
+    const SinewQueryRoom given = described(room, "SinewQueryRoom", SinewQueryRoom{});
+    if (given.rays == 0 || given.slots == 0)
         invalidArgument("SinewQueryRoom: rays and slots must be at least 1");
-    return *given;
+    return given;
 }
 
 /// A query and the simulation that it asks, in use by this call.
@@ -92,22 +91,23 @@ sim::RegionQuery toRegion(const SinewRegion& region) {
             .findsFixed = region.skipsFixed == 0};
 }
 
-void giveHit(const QueryObject& query, std::uint32_t slot, std::uint32_t ray, SinewRayHit& hit) {
-    hit = {.size = sizeof hit,
-           .isMet = 0,
-           .particle = 0xffffffffu,
-           .body = 0xffffffffu,
-           .point = {},
-           .place = {},
-           .distance = 0};
+SinewRayHit hitOf(const QueryObject& query, std::uint32_t slot, std::uint32_t ray) {
+    SinewRayHit hit{.size = sizeof hit,
+                    .isMet = 0,
+                    .particle = 0xffffffffu,
+                    .body = 0xffffffffu,
+                    .point = {},
+                    .place = {},
+                    .distance = 0};
     const std::optional<sim::RayHit> found = query.caster.hit(slot, ray);
-    if (!found) return;
+    if (!found) return hit;
     hit.isMet = 1;
     hit.particle = found->particle;
     hit.body = found->body;
     hit.point = fromVec3(found->point);
     hit.place = fromVec3(found->place);
     hit.distance = found->distance;
+    return hit;
 }
 
 void giveRegion(const QueryObject& query, std::uint32_t slot, std::uint32_t& count,
@@ -132,7 +132,7 @@ SinewResult sinewCreateQuery(SinewDevice device, SinewScene scene, const SinewQu
     return call(
         __func__,
         [&] {
-            const SinewQueryRoom& given = roomOf(room);
+            const SinewQueryRoom given = roomOf(room);
             requireNotNull(query, "query");
             const Use<DeviceObject> on(device.id, Access::read);
             const Use<SceneObject> of(scene.id, Access::read);
@@ -144,7 +144,7 @@ SinewResult sinewCreateQuery(SinewDevice device, SinewScene scene, const SinewQu
 
 SinewResult sinewCreateWorldQuery(SinewWorld world, const SinewQueryRoom* room, SinewQuery* query) {
     return call(__func__, [&] {
-        const SinewQueryRoom& given = roomOf(room);
+        const SinewQueryRoom given = roomOf(room);
         requireNotNull(query, "query");
         const UseOfWorld use(world.id);
         auto made = std::make_unique<QueryObject>(use->device, use->world.scene(), given);
@@ -184,11 +184,11 @@ SinewResult sinewRecordRays(SinewQuery query, VkCommandBuffer commands, uint32_t
 
 SinewResult sinewGetRayHit(SinewQuery query, uint32_t slot, uint32_t ray, SinewRayHit* hit) {
     return call(__func__, [&] {
-        SinewRayHit& result = checked(hit, "SinewRayHit");
+        const Result<SinewRayHit> result(hit, "SinewRayHit");
         const Use<QueryObject> use(query.id, Access::read);
         requireSlot(*use, slot);
         if (ray >= use->room.rays) invalidArgument("there is no ray " + std::to_string(ray));
-        giveHit(*use, slot, ray, result);
+        result.give(hitOf(*use, slot, ray));
     });
 }
 
@@ -216,7 +216,7 @@ SinewResult sinewGetRegion(SinewQuery query, uint32_t slot, uint32_t* count, uin
 SinewResult sinewCastRay(SinewQuery query, const SinewRay* ray, SinewRayHit* hit) {
     return call(__func__, [&] {
         requireNotNull(ray, "ray");
-        SinewRayHit& result = checked(hit, "SinewRayHit");
+        const Result<SinewRayHit> result(hit, "SinewRayHit");
         const UseOfQuery use(query.id);
         Submitting queue(use->device);
         resetOnce(use.simulation(), queue);
@@ -225,7 +225,7 @@ SinewResult sinewCastRay(SinewQuery query, const SinewRay* ray, SinewRayHit* hit
             use.simulation().simulation->recordSkin(commands);
             use->caster.record(commands, 0, std::span(use->rays).first(1));
         });
-        giveHit(use.object(), 0, 0, result);
+        result.give(hitOf(use.object(), 0, 0));
     });
 }
 

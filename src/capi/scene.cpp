@@ -66,6 +66,19 @@ void requireValid(const sim::Scene& scene, const sim::Settings& settings) {
     if (!complaints.empty()) throw Failed{SINEW_ERROR_INVALID_SCENE, joined(complaints)};
 }
 
+SinewSceneValues valuesOf(const sim::Scene& scene) {
+    return {.size = sizeof(SinewSceneValues),
+            .dt = scene.dt,
+            .gravity = fromVec3(scene.gravity),
+            .damping = scene.damping,
+            .dampingTime = scene.dampingTime,
+            .friction = scene.contacts.friction,
+            .staticFriction = scene.contacts.staticFriction,
+            .restitution = scene.contacts.restitution,
+            .recoverySpeed = scene.contacts.recoverySpeed,
+            .debris = scene.debris};
+}
+
 float limitOf(float given) {
     return given == 0 ? sim::Attachment::unlimited : given;
 }
@@ -93,7 +106,7 @@ void copyOut(std::span<const std::byte> data, std::size_t* size, void* bytes) {
 }
 
 sim::Settings toSettings(const SinewSettings* settings) {
-    const SinewSettings& given = checked(settings, "SinewSettings");
+    const SinewSettings given = described(settings, "SinewSettings", defaultSettings());
     if (given.solver > SINEW_SOLVER_GAUSS_SEIDEL)
         invalidArgument("there is no solver " + std::to_string(given.solver));
     return {.solver = static_cast<sim::Solver>(given.solver),
@@ -154,6 +167,21 @@ SinewSettings fromSettings(const sim::Settings& settings) {
             .outputFrames = settings.outputFrames};
 }
 
+SinewPlane defaultPlane() {
+    return {.size = sizeof(SinewPlane), .normal = {0, 1, 0}};
+}
+
+SinewCollider defaultCollider() {
+    SinewCollider collider{};
+    collider.size = sizeof collider;
+    collider.pose.rotation.w = 1;
+    return collider;
+}
+
+SinewSettings defaultSettings() {
+    return fromSettings({});
+}
+
 } // namespace sinew::capi
 
 using namespace sinew;
@@ -174,27 +202,18 @@ SinewResult sinewDestroyScene(SinewScene scene) {
 
 SinewResult sinewGetSceneValues(SinewScene scene, SinewSceneValues* values) {
     return call(__func__, [&] {
-        SinewSceneValues& result = checked(values, "SinewSceneValues");
+        const Result<SinewSceneValues> result(values, "SinewSceneValues");
         const Use<SceneObject> object(scene.id, Access::read);
-        const sim::Scene& from = object->scene;
-        result = {.size = sizeof result,
-                  .dt = from.dt,
-                  .gravity = fromVec3(from.gravity),
-                  .damping = from.damping,
-                  .dampingTime = from.dampingTime,
-                  .friction = from.contacts.friction,
-                  .staticFriction = from.contacts.staticFriction,
-                  .restitution = from.contacts.restitution,
-                  .recoverySpeed = from.contacts.recoverySpeed,
-                  .debris = from.debris};
+        result.give(valuesOf(object->scene));
     });
 }
 
 SinewResult sinewSetSceneValues(SinewScene scene, const SinewSceneValues* values) {
     return call(__func__, [&] {
-        const SinewSceneValues& given = checked(values, "SinewSceneValues");
         const Use<SceneObject> object(scene.id, Access::write);
         sim::Scene& to = object->scene;
+        // Values that the header of the host lacks stay.
+        const SinewSceneValues given = described(values, "SinewSceneValues", valuesOf(to));
         to.dt = given.dt;
         to.gravity = toVec3(given.gravity);
         to.damping = given.damping;
@@ -209,23 +228,23 @@ SinewResult sinewSetSceneValues(SinewScene scene, const SinewSceneValues* values
 
 SinewResult sinewGetSceneCounts(SinewScene scene, SinewSceneCounts* counts) {
     return call(__func__, [&] {
-        SinewSceneCounts& result = checked(counts, "SinewSceneCounts");
+        const Result<SinewSceneCounts> result(counts, "SinewSceneCounts");
         const Use<SceneObject> object(scene.id, Access::read);
         const sim::Scene& from = object->scene;
         const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-        result = {.size = sizeof result,
-                  .particles = count(from.particles),
-                  .links = count(from.distances),
-                  .bends = count(from.bends),
-                  .tethers = count(from.tethers),
-                  .fixed = count(from.fixed),
-                  .attachments = count(from.attachments),
-                  .faces = count(from.faces),
-                  .planes = count(from.planes),
-                  .colliders = count(from.colliders),
-                  .bodies = count(from.bodies),
-                  .grids = count(from.grids),
-                  .skins = count(from.skins)};
+        result.give({.size = sizeof(SinewSceneCounts),
+                     .particles = count(from.particles),
+                     .links = count(from.distances),
+                     .bends = count(from.bends),
+                     .tethers = count(from.tethers),
+                     .fixed = count(from.fixed),
+                     .attachments = count(from.attachments),
+                     .faces = count(from.faces),
+                     .planes = count(from.planes),
+                     .colliders = count(from.colliders),
+                     .bodies = count(from.bodies),
+                     .grids = count(from.grids),
+                     .skins = count(from.skins)});
     });
 }
 
@@ -340,14 +359,17 @@ SinewResult sinewAddBody(SinewScene scene, const char* name, uint32_t firstParti
 
 SinewResult sinewGetBody(SinewScene scene, uint32_t index, SinewBody* body) {
     return call(__func__, [&] {
-        SinewBody& result = checked(body, "SinewBody");
+        const Result<SinewBody> result(body, "SinewBody");
         const Use<SceneObject> object(scene.id, Access::read);
         if (index >= object->scene.bodies.size()) return SINEW_END;
         const sim::Body& from = object->scene.bodies[index];
-        result.firstParticle = from.firstParticle;
-        result.particleCount = from.particleCount;
-        result.restVolume = from.restVolume;
-        copyText(from.name, result.name);
+        SinewBody found{.size = sizeof found,
+                        .firstParticle = from.firstParticle,
+                        .particleCount = from.particleCount,
+                        .restVolume = from.restVolume,
+                        .name = {}};
+        copyText(from.name, found.name);
+        result.give(found);
         return SINEW_OK;
     });
 }
@@ -390,13 +412,9 @@ SinewResult sinewSetMotion(SinewScene scene, uint32_t body, SinewVec3 velocity, 
     });
 }
 
-SinewPlane sinewDefaultPlane(void) {
-    return {.size = sizeof(SinewPlane), .normal = {0, 1, 0}};
-}
-
 SinewResult sinewAddPlane(SinewScene scene, const SinewPlane* plane) {
     return call(__func__, [&] {
-        const SinewPlane& given = checked(plane, "SinewPlane");
+        const SinewPlane given = described(plane, "SinewPlane", defaultPlane());
         const Use<SceneObject> object(scene.id, Access::write);
         object->scene.planes.push_back({.normal = toVec3(given.normal),
                                         .offset = given.offset,
@@ -406,16 +424,9 @@ SinewResult sinewAddPlane(SinewScene scene, const SinewPlane* plane) {
     });
 }
 
-SinewCollider sinewDefaultCollider(void) {
-    SinewCollider collider{};
-    collider.size = sizeof collider;
-    collider.pose.rotation.w = 1;
-    return collider;
-}
-
 SinewResult sinewAddCollider(SinewScene scene, const SinewCollider* collider) {
     return call(__func__, [&] {
-        const SinewCollider& given = checked(collider, "SinewCollider");
+        const SinewCollider given = described(collider, "SinewCollider", defaultCollider());
         const Use<SceneObject> object(scene.id, Access::write);
         sim::Collider added{.shape = toShape(given.shape),
                             .radius = given.radius,
@@ -434,15 +445,11 @@ SinewResult sinewAddCollider(SinewScene scene, const SinewCollider* collider) {
     });
 }
 
-SinewSettings sinewDefaultSettings(void) {
-    return fromSettings({});
-}
-
 SinewResult sinewGetSceneSettings(SinewScene scene, SinewSettings* settings) {
     return call(__func__, [&] {
-        SinewSettings& result = checked(settings, "SinewSettings");
+        const Result<SinewSettings> result(settings, "SinewSettings");
         const Use<SceneObject> object(scene.id, Access::read);
-        result = fromSettings(object->settings);
+        result.give(fromSettings(object->settings));
     });
 }
 

@@ -268,6 +268,15 @@ vk::BufferView viewIn(const sim::Outputs& outputs, std::uint32_t output) {
 
 } // namespace
 
+SinewStep defaultStep() {
+    const sim::Step from;
+    SinewStep step{};
+    step.size = sizeof step;
+    step.dt = from.dt;
+    step.gravity = fromVec3(from.gravity);
+    return step;
+}
+
 } // namespace sinew::capi
 
 using namespace sinew;
@@ -296,22 +305,22 @@ SinewResult sinewDestroySimulation(SinewSimulation simulation) {
 
 SinewResult sinewGetSimulationInfo(SinewSimulation simulation, SinewSimulationInfo* info) {
     return call(__func__, [&] {
-        SinewSimulationInfo& result = checked(info, "SinewSimulationInfo");
+        const Result<SinewSimulationInfo> result(info, "SinewSimulationInfo");
         const Use<SimulationObject> object(simulation.id, Access::write);
         const sim::Simulation& made = *object->simulation;
-        result = {.size = sizeof result,
-                  .particles = object->particles,
-                  .bodies = object->bodies,
-                  .skins = static_cast<std::uint32_t>(made.skins().size()),
-                  .solver = static_cast<std::uint32_t>(object->settings.solver),
-                  .substeps = object->settings.substeps,
-                  .contactRoom = object->settings.contactRoom,
-                  .cutSurfaceRoom = object->settings.cutSurfaceRoom,
-                  .stepsDone = object->stepsDone,
-                  .nextFrame = object->nextFrame,
-                  .stateSize = made.stateSize(),
-                  .stateKey = made.stateKey(),
-                  .oldestInFlight = made.oldestInFlight().value_or(UINT64_MAX)};
+        result.give({.size = sizeof(SinewSimulationInfo),
+                     .particles = object->particles,
+                     .bodies = object->bodies,
+                     .skins = static_cast<std::uint32_t>(made.skins().size()),
+                     .solver = static_cast<std::uint32_t>(object->settings.solver),
+                     .substeps = object->settings.substeps,
+                     .contactRoom = object->settings.contactRoom,
+                     .cutSurfaceRoom = object->settings.cutSurfaceRoom,
+                     .stepsDone = object->stepsDone,
+                     .nextFrame = object->nextFrame,
+                     .stateSize = made.stateSize(),
+                     .stateKey = made.stateKey(),
+                     .oldestInFlight = made.oldestInFlight().value_or(UINT64_MAX)});
     });
 }
 
@@ -349,15 +358,6 @@ SinewField sinewDefaultField(void) {
     return field;
 }
 
-SinewStep sinewDefaultStep(void) {
-    const sim::Step from;
-    SinewStep step{};
-    step.size = sizeof step;
-    step.dt = from.dt;
-    step.gravity = fromVec3(from.gravity);
-    return step;
-}
-
 SinewResult sinewRecordReset(SinewSimulation simulation, VkCommandBuffer commands) {
     return call(__func__, [&] {
         requireNotNull(commands, "commands");
@@ -368,7 +368,7 @@ SinewResult sinewRecordReset(SinewSimulation simulation, VkCommandBuffer command
 
 SinewResult sinewRecordStep(SinewSimulation simulation, VkCommandBuffer commands, const SinewStep* step) {
     return call(__func__, [&] {
-        const SinewStep& given = checked(step, "SinewStep");
+        const SinewStep given = described(step, "SinewStep", defaultStep());
         requireNotNull(commands, "commands");
         const Use<SimulationObject> object(simulation.id, Access::write);
         object->simulation->record(commands, stepOf(given, *object));
@@ -421,25 +421,28 @@ SinewResult sinewGetFrameView(SinewSimulation simulation, uint64_t frame, uint32
 
 SinewResult sinewGetSkin(SinewSimulation simulation, uint32_t index, SinewSkin* skin) {
     return call(__func__, [&] {
-        SinewSkin& result = checked(skin, "SinewSkin");
+        const Result<SinewSkin> result(skin, "SinewSkin");
         const Use<SimulationObject> object(simulation.id, Access::write);
         const std::vector<sim::SkinRange>& skins = object->simulation->skins();
         if (index >= skins.size()) return SINEW_END;
-        result.firstIndex = skins[index].firstIndex;
-        result.indexCount = skins[index].indexCount;
-        result.color = fromVec3(skins[index].color);
-        copyText(skins[index].name, result.name);
+        SinewSkin found{.size = sizeof found,
+                        .firstIndex = skins[index].firstIndex,
+                        .indexCount = skins[index].indexCount,
+                        .color = fromVec3(skins[index].color),
+                        .name = {}};
+        copyText(skins[index].name, found.name);
+        result.give(found);
         return SINEW_OK;
     });
 }
 
 SinewResult sinewGetStatus(SinewSimulation simulation, uint64_t frame, SinewStatus* status) {
     return call(__func__, [&] {
-        SinewStatus& result = checked(status, "SinewStatus");
+        const Result<SinewStatus> result(status, "SinewStatus");
         const Use<SimulationObject> object(simulation.id, Access::write);
         const sim::StepStatus from = object->simulation->status(frame);
         if (!from.isFinished) return SINEW_NOT_READY;
-        result = fromStatus(from);
+        result.give(fromStatus(from));
         return SINEW_OK;
     });
 }

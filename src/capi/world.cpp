@@ -140,14 +140,14 @@ SinewResult sinewDestroyWorld(SinewWorld world) {
 
 SinewResult sinewGetWorldInfo(SinewWorld world, SinewWorldInfo* info) {
     return call(__func__, [&] {
-        SinewWorldInfo& result = checked(info, "SinewWorldInfo");
+        const Result<SinewWorldInfo> result(info, "SinewWorldInfo");
         const UseOfWorld use(world.id);
-        result = {.size = sizeof result,
-                  .isChanging = use->world.isChanging() ? 1u : 0u,
-                  .isReady = use->world.isReady() ? 1u : 0u,
-                  .substeps = use->world.settings().substeps,
-                  .takeOvers = use->takeOvers,
-                  .simulation = {companionOf(use.object())}};
+        result.give({.size = sizeof(SinewWorldInfo),
+                     .isChanging = use->world.isChanging() ? 1u : 0u,
+                     .isReady = use->world.isReady() ? 1u : 0u,
+                     .substeps = use->world.settings().substeps,
+                     .takeOvers = use->takeOvers,
+                     .simulation = {companionOf(use.object())}});
     });
 }
 
@@ -199,8 +199,8 @@ SinewResult sinewContainsPart(SinewWorld world, SinewPart part, uint32_t* isCont
 SinewResult sinewFindPart(SinewWorld world, SinewPart part, SinewSceneCounts* first,
                           SinewSceneCounts* count) {
     return call(__func__, [&] {
-        SinewSceneCounts& from = checked(first, "SinewSceneCounts");
-        SinewSceneCounts& number = checked(count, "SinewSceneCounts");
+        const Result<SinewSceneCounts> from(first, "SinewSceneCounts");
+        const Result<SinewSceneCounts> number(count, "SinewSceneCounts");
         const UseOfWorld use(world.id);
         requireOwnPart(world, part);
         const std::optional<sim::PartRange> found = use->world.find(toPart(part));
@@ -208,17 +208,17 @@ SinewResult sinewFindPart(SinewWorld world, SinewPart part, SinewSceneCounts* fi
             if (use->world.contains(toPart(part))) return SINEW_NOT_READY;
             throw Failed{SINEW_ERROR_INVALID_HANDLE, "the part is not, or no longer, in the world"};
         }
-        from = fromCounts(found->first);
-        number = fromCounts(found->count);
+        from.give(fromCounts(found->first));
+        number.give(fromCounts(found->count));
         return SINEW_OK;
     });
 }
 
 SinewResult sinewGetWorldCounts(SinewWorld world, SinewSceneCounts* counts) {
     return call(__func__, [&] {
-        SinewSceneCounts& result = checked(counts, "SinewSceneCounts");
+        const Result<SinewSceneCounts> result(counts, "SinewSceneCounts");
         const UseOfWorld use(world.id);
-        result = fromCounts(sim::countsOf(use->world.scene()));
+        result.give(fromCounts(sim::countsOf(use->world.scene())));
     });
 }
 
@@ -236,18 +236,18 @@ SinewResult sinewRecordChanges(SinewWorld world, VkCommandBuffer commands, uint3
 
 SinewResult sinewGetWorldStatus(SinewWorld world, uint64_t frame, SinewStatus* status) {
     return call(__func__, [&] {
-        SinewStatus& result = checked(status, "SinewStatus");
+        const Result<SinewStatus> result(status, "SinewStatus");
         const UseOfWorld use(world.id);
         const sim::StepStatus from = use->world.status(frame);
         if (!from.isFinished) return SINEW_NOT_READY;
-        result = fromStatus(from);
+        result.give(fromStatus(from));
         return SINEW_OK;
     });
 }
 
 SinewResult sinewObserveStatus(SinewWorld world, const SinewStatus* status, uint32_t* isEnough) {
     return call(__func__, [&] {
-        const SinewStatus& given = checked(status, "SinewStatus");
+        const SinewStatus given = described(status, "SinewStatus", SinewStatus{});
         requireNotNull(isEnough, "isEnough");
         const UseOfWorld use(world.id);
         sim::StepStatus observed;
@@ -281,7 +281,7 @@ SinewResult sinewStepWorld(SinewWorld world, const SinewStep* step, uint32_t cou
     return call(
         __func__,
         [&] {
-            const SinewStep& given = checked(step, "SinewStep");
+            const SinewStep given = described(step, "SinewStep", defaultStep());
             UseOfWorld use(world.id);
             Submitting queue(use->device);
             resetOnce(use.simulation(), queue);

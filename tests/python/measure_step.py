@@ -9,7 +9,9 @@ import time
 
 import sinew
 
-SIZES = {name: int(size) for name, size in re.findall(r"^struct (\w+) (\d+)$", pathlib.Path(sys.argv[2]).read_text(encoding="utf-8"), re.M)}
+ABI = pathlib.Path(sys.argv[2]).read_text(encoding="utf-8")
+SIZES = {name: int(size) for name, size in re.findall(r"^struct (\w+) (\d+)$", ABI, re.M)}
+TYPES = {name.replace("_", "").lower(): int(number) for name, number in re.findall(r"^SINEW_TYPE_(\w+) (\d+)$", ABI, re.M)}
 library = ctypes.CDLL(sys.argv[1])
 
 
@@ -17,9 +19,9 @@ def default(name):
     """A description as the library fills it in."""
     class Bytes(ctypes.Structure):
         _fields_ = [("bytes", ctypes.c_uint32 * (SIZES[name] // 4))]
-    function = getattr(library, "sinewDefault" + name.removeprefix("Sinew"))
-    function.restype = Bytes
-    return function()
+    made = Bytes()
+    library.sinewSetDefaults(TYPES[name.removeprefix("Sinew").lower()], ctypes.byref(made), ctypes.c_size_t(ctypes.sizeof(made)))
+    return made
 
 
 def simulation():

@@ -1,0 +1,17 @@
+# Runs two programs of former_header.c, one compiled with a former header: their structs differ, their states do not.
+#   cmake -DNOW=<program> -DFORMER=<program> -P former_header.cmake
+foreach(program NOW FORMER)
+    execute_process(COMMAND ${${program}} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT result EQUAL 0 OR NOT output MATCHES "sizes ([0-9 ]+)\nstate ([0-9a-f]+)\n")
+        message(FATAL_ERROR "${${program}} fails (${result}):\n${output}")
+    endif()
+    set(sizes_${program} "${CMAKE_MATCH_1}")
+    set(state_${program} ${CMAKE_MATCH_2})
+endforeach()
+message(STATUS "sizes ${sizes_FORMER} and ${sizes_NOW}: states ${state_FORMER} and ${state_NOW}")
+if(sizes_NOW STREQUAL sizes_FORMER)
+    message(FATAL_ERROR "both have the same structs")
+endif()
+if(NOT state_NOW STREQUAL state_FORMER)
+    message(FATAL_ERROR "the states differ")
+endif()
