@@ -142,15 +142,26 @@ void addLoad(sim::Scene& scene, double load, const sim::LatticeCorners& corners)
 struct BoxRows {
     sim::Vec3 first, pitch;
 
-    sim::Vec3 origin(std::uint64_t index, const std::array<std::uint32_t, 3>& copies) const {
+    sim::Vec3 origin(const std::array<std::uint64_t, 3>& place) const {
         const auto at = [](float low, float step, std::uint64_t i) {
             return static_cast<float>(double{low} + double{step} * static_cast<double>(i));
         };
-        const std::uint64_t layer = index / copies[0];
-        return {at(first.x, pitch.x, index % copies[0]), at(first.y, pitch.y, layer / copies[2]),
-                at(first.z, pitch.z, layer % copies[2])};
+        return {at(first.x, pitch.x, place[0]), at(first.y, pitch.y, place[1]),
+                at(first.z, pitch.z, place[2])};
     }
 };
+
+/// The place of a copy along x, y and z.
+std::array<std::uint64_t, 3> placeOf(std::uint64_t index, const std::array<std::uint32_t, 3>& copies) {
+    const std::uint64_t layer = index / copies[0];
+    return {index % copies[0], layer / copies[2], layer % copies[2]};
+}
+
+/// Every second copy is darker, as boxes that touch show no seam between equal colors.
+sim::Vec3 shadeOf(const sim::Vec3& color, const std::array<std::uint64_t, 3>& place) {
+    const float shade = (place[0] + place[1] + place[2]) % 2 == 0 ? 1 : 0.7f;
+    return {shade * color.x, shade * color.y, shade * color.z};
+}
 
 /// `center` is that of all boxes, `origin` the lowest corner of the first.
 BoxRows rowsOf(const Section& box, const sim::Lattice& lattice, const std::array<std::uint32_t, 3>& copies,
@@ -174,7 +185,7 @@ BoxRows rowsOf(const Section& box, const sim::Lattice& lattice, const std::array
     return rows;
 }
 
-void addOneBox(LoadedScene& loaded, const Section& box, const sim::Lattice& lattice) {
+void addOneBox(LoadedScene& loaded, const Section& box, const sim::Lattice& lattice, const sim::Vec3& color) {
     sim::LatticeCorners corners;
     try {
         corners = sim::addLattice(loaded.scene, lattice);
@@ -186,7 +197,7 @@ void addOneBox(LoadedScene& loaded, const Section& box, const sim::Lattice& latt
     }
     clampFaces(loaded.scene, box, corners);
     addLoad(loaded.scene, double{box.number("load")}, corners);
-    sim::addLatticeSkin(loaded.scene, lattice, corners, box.vector("color"));
+    sim::addLatticeSkin(loaded.scene, lattice, corners, color);
 }
 
 void checkParticleKeys(const Section& section, bool isRandom) {
@@ -340,9 +351,10 @@ void addBox(LoadedScene& loaded, const Section& box, FaceChoices& faces) {
                       firstBody = loaded.scene.bodies.size();
     for (std::uint64_t i = 0; i < count; ++i) {
         sim::Lattice one = lattice;
-        one.origin = rows.origin(i, copies);
+        const std::array<std::uint64_t, 3> place = placeOf(i, copies);
+        one.origin = rows.origin(place);
         if (count > 1) one.name.append(" ").append(std::to_string(i + 1));
-        addOneBox(loaded, box, one);
+        addOneBox(loaded, box, one, shadeOf(box.vector("color"), place));
         noteDefaultContacts(loaded, box, loaded.scene.bodies.size() - 1);
     }
     addSurface(loaded, box, first);

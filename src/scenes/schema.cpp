@@ -163,7 +163,7 @@ constexpr Key keys[] = {
     {"box", "spin", Kind::vector, "rad/s", speed, "[0, 0, 0]", "angular velocity about the centre of mass at the start"},
     {"box", "rotation", Kind::vector, "degrees", angle, "[0, 0, 0]", "about x, then y, then z, around the middle of the box; each copy around its own"},
     {"box", "absent", Kind::flag, "", {}, "false", "whether the body starts outside of the world, for a host that spawns it"},
-    {"box", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
+    {"box", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue; every second copy is darker"},
 
     {"mesh", "name", Kind::text, "", {}, "", "name of the body in reports and files; that of the mesh file or shape if missing"},
     {"mesh", "file", Kind::text, "", {}, "", "mesh file in the scene's folder or below, or \"argument\": the mesh of the command line"},

@@ -202,6 +202,11 @@ TEST_F(LoadContacts, ReadsThePathOfAMeshCollider) {
 TEST_F(LoadContacts, RepeatsABoxInRows) {
     const std::string corner = "[[box]]\nparticles = [2, 2, 2]\nspacing = 0.1\norigin = [1, 2, 3]\n";
     const sim::Scene one = load(corner).scene, six = load(corner + "copies = [1, 2, 3]\n").scene;
+    ASSERT_EQ(six.skins.size(), 6u);
+    for (std::size_t i = 0; i < 6; ++i) // copies along y and z, every second one darker
+        EXPECT_EQ(six.skins[i].color.x,
+                  (i / 3 + i % 3) % 2 == 0 ? one.skins[0].color.x : 0.7f * one.skins[0].color.x)
+            << i;
     EXPECT_EQ(one.bodies[0].name, "box");
     ASSERT_EQ(six.bodies.size(), 6u);
     EXPECT_EQ(six.skins.size(), 6u);
