@@ -450,8 +450,7 @@ private:
             return redoFrom(oldest);
         if (times_) times_->stepFinished(oldest.frame);
         if (const std::optional<Divergence> divergence = document_.check(oldest.frame))
-            throw app::Failure(app::diverged,
-                               divergence->sentence() + " Try more substeps or a softer material.");
+            throw app::Failure(app::diverged, divergence->report());
         if (beside_) checkBeside(slotOf(oldest.frame));
         surfaceMissing_ = document_.simulation().status(oldest.frame).cutSurfaceMissing;
     }

@@ -558,6 +558,11 @@ TEST(Document, NamesBodyParticleAndStepThatBroke) {
         divergence->advice(),
         "The simulation became unstable (body \"flag\", step 1). The last good state is shown. Press R, "
         "then try more substeps or a softer material.");
+    EXPECT_EQ(
+        divergence->report(),
+        "The simulation became unstable (body \"flag\", step 1). 1 particle is not finite, the first of them "
+        "number " +
+            std::to_string(first + 2) + ". Try more substeps or a softer material.");
 }
 
 } // namespace

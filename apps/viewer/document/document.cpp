@@ -2,6 +2,7 @@
 #include "viewer/document/document.hpp"
 
 #include "scenes/recovery.hpp"
+#include "sim/core/counted.hpp"
 #include "sinew/vk/check.hpp"
 
 #include <algorithm>
@@ -19,6 +20,12 @@ std::string Divergence::sentence() const {
 std::string Divergence::advice() const {
     return sentence() +
            " The last good state is shown. Press R, then try more substeps or a softer material.";
+}
+
+std::string Divergence::report() const {
+    return sentence() + " " + sim::counted(particles, "particle is", "particles are") +
+           " not finite, the first of them number " + std::to_string(firstParticle) +
+           ". Try more substeps or a softer material.";
 }
 
 Document::Document(const vk::Device& device, sim::Scene scene, const sim::Settings& settings,

@@ -23,10 +23,12 @@ struct Divergence {
     std::uint32_t particles = 0;     ///< number of particles with a non-finite state
     std::uint32_t firstParticle = 0; ///< smallest index among them
     std::string body;                ///< body of that particle
-    /// What happened: 'The simulation became unstable (body "organ", step 12).'
+    /// A sentence such as 'The simulation became unstable (body "organ", step 12).'
     std::string sentence() const;
     /// The same, and what a person at the window can do.
     std::string advice() const;
+    /// The same for a run without a window: how many particles, the first of them, and what to change.
+    std::string report() const;
 };
 
 /// Must not outlive its Device, which must not move.
