@@ -1,6 +1,7 @@
 // Names and colours of layers; the table is in layers/table.cpp.
 #include "viewer/render/layers.hpp"
 
+#include "sim/core/counted.hpp"
 #include "viewer/render/layer.hpp"
 
 #include <algorithm>
@@ -76,9 +77,7 @@ std::string grouped(std::uint64_t number) {
 }
 
 std::string countText(std::uint64_t number, std::string_view one, std::string_view many) {
-    const std::string digits = grouped(number) + " ";
-    if (number == 1) return digits + std::string(one);
-    return digits + (many.empty() ? std::string(one) + "s" : std::string(many));
+    return grouped(number) + " " + sim::nounFor(number, one, many);
 }
 
 std::array<std::array<float, 3>, mapColorCount> mapColors() {

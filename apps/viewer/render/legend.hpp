@@ -23,8 +23,7 @@ struct LegendLine {
 /// A number with separators: "12,345".
 std::string grouped(std::uint64_t number);
 
-/// A count with its noun: "1 link", "4,211 links". `many` is the plural, also used for 0; if empty, the
-/// plural is `one` with an s.
+/// sim::counted() with separators: "1 link", "4,211 links".
 std::string countText(std::uint64_t number, std::string_view one, std::string_view many = {});
 
 } // namespace sinew::viewer
