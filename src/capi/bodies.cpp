@@ -144,7 +144,7 @@ extern "C" {
 
 SinewResult sinewAddCloth(SinewScene scene, const SinewCloth* cloth, uint32_t* body) {
     return call(__func__, [&] {
-        const SinewCloth given = described(cloth, "SinewCloth", defaultCloth());
+        const SinewCloth given = described(cloth, "SinewCloth", defaultCloth);
         requireArray(given.pinned, given.pinnedCount, "pinned");
         const double nodes = double{1} * given.columns * given.rows;
         requireNodes(nodes, "the cloth");
@@ -182,7 +182,7 @@ SinewResult sinewAddCloth(SinewScene scene, const SinewCloth* cloth, uint32_t* b
 
 SinewResult sinewAddLattice(SinewScene scene, const SinewLattice* lattice, uint32_t* body) {
     return call(__func__, [&] {
-        const SinewLattice given = described(lattice, "SinewLattice", defaultLattice());
+        const SinewLattice given = described(lattice, "SinewLattice", defaultLattice);
         requireArray(given.fill, given.fillCount, "fill");
         double cells = 1, nodes = 1;
         for (const std::uint32_t side : given.cells) {
@@ -228,7 +228,7 @@ SinewResult sinewAddLattice(SinewScene scene, const SinewLattice* lattice, uint3
 
 SinewResult sinewAddMesh(SinewScene scene, const SinewMesh* mesh, uint32_t* body) {
     return call(__func__, [&] {
-        const SinewMesh given = described(mesh, "SinewMesh", defaultMesh());
+        const SinewMesh given = described(mesh, "SinewMesh", defaultMesh);
         const mesh::TriangleMesh made = meshOf(given);
         const Use<SceneObject> object(scene.id, Access::write);
         Addition addition(object->scene);

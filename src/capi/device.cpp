@@ -96,7 +96,7 @@ extern "C" {
 
 SinewResult sinewCreateDevice(const SinewDeviceRequest* request, SinewDevice* device) {
     return call(__func__, [&] {
-        const SinewDeviceRequest given = described(request, "SinewDeviceRequest", defaultDeviceRequest());
+        const SinewDeviceRequest given = described(request, "SinewDeviceRequest", defaultDeviceRequest);
         requireNotNull(device, "device");
         if (given.isSoftware != 0 && given.device != nullptr)
             invalidArgument("device names one, and isSoftware asks for any software device: set one of both");
@@ -113,7 +113,7 @@ SinewResult sinewCreateDevice(const SinewDeviceRequest* request, SinewDevice* de
 
 SinewResult sinewBorrowDevice(const SinewHostDevice* host, SinewDevice* device) {
     return call(__func__, [&] {
-        const SinewHostDevice given = described(host, "SinewHostDevice", defaultHostDevice());
+        const SinewHostDevice given = described(host, "SinewHostDevice", defaultHostDevice);
         requireNotNull(device, "device");
         requireArray(given.instanceExtensions, given.instanceExtensionCount, "instanceExtensions");
         give(nullptr,

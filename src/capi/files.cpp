@@ -45,7 +45,7 @@ SinewResult sinewLoadScene(const char* path, SinewScene* scene) {
 SinewResult sinewAddMeshFile(SinewScene scene, const char* path, float scale, const SinewMesh* mesh,
                              uint32_t* body) {
     return call(__func__, [&] {
-        const SinewMesh given = described(mesh, "SinewMesh", defaultMesh());
+        const SinewMesh given = described(mesh, "SinewMesh", defaultMesh);
         requireNotNull(path, "path");
         if (!(scale > 0) || !std::isfinite(scale))
             invalidArgument("scale is " + std::to_string(scale) + ", must be above 0");

@@ -22,7 +22,7 @@ SinewResult sinewLoadScene(const char* path, SinewScene* scene) {
 SinewResult sinewAddMeshFile(SinewScene, const char* path, float, const SinewMesh* mesh, uint32_t*) {
     return call(__func__, [&] {
         requireNotNull(path, "path");
-        described(mesh, "SinewMesh", defaultMesh());
+        described(mesh, "SinewMesh", defaultMesh);
         throw Failed{SINEW_ERROR_UNSUPPORTED, why};
     });
 }

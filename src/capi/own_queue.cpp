@@ -102,7 +102,7 @@ extern "C" {
 
 SinewResult sinewStep(SinewSimulation simulation, const SinewStep* step, uint32_t count) {
     return call(__func__, [&] {
-        const SinewStep given = described(step, "SinewStep", defaultStep());
+        const SinewStep given = described(step, "SinewStep", defaultStep);
         const Use<SimulationObject> object(simulation.id, Access::write);
         if (!object->owned)
             throw Failed{SINEW_ERROR_UNSUPPORTED, "the simulation belongs to a world: use sinewStepWorld"};

@@ -44,7 +44,7 @@ struct QueryObject final : Object {
 };
 
 SinewQueryRoom roomOf(const SinewQueryRoom* room) {
-    const SinewQueryRoom given = described(room, "SinewQueryRoom", SinewQueryRoom{});
+    const SinewQueryRoom given = described(room, "SinewQueryRoom");
     if (given.rays == 0 || given.slots == 0)
         invalidArgument("SinewQueryRoom: rays and slots must be at least 1");
     return given;

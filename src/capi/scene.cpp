@@ -106,7 +106,7 @@ void copyOut(std::span<const std::byte> data, std::size_t* size, void* bytes) {
 }
 
 sim::Settings toSettings(const SinewSettings* settings) {
-    const SinewSettings given = described(settings, "SinewSettings", defaultSettings());
+    const SinewSettings given = described(settings, "SinewSettings", defaultSettings);
     if (given.solver > SINEW_SOLVER_GAUSS_SEIDEL)
         invalidArgument("there is no solver " + std::to_string(given.solver));
     return {.solver = static_cast<sim::Solver>(given.solver),
@@ -213,7 +213,7 @@ SinewResult sinewSetSceneValues(SinewScene scene, const SinewSceneValues* values
         const Use<SceneObject> object(scene.id, Access::write);
         sim::Scene& to = object->scene;
         // Values that the header of the host lacks stay.
-        const SinewSceneValues given = described(values, "SinewSceneValues", valuesOf(to));
+        const SinewSceneValues given = described(values, "SinewSceneValues", [&] { return valuesOf(to); });
         to.dt = given.dt;
         to.gravity = toVec3(given.gravity);
         to.damping = given.damping;
@@ -414,7 +414,7 @@ SinewResult sinewSetMotion(SinewScene scene, uint32_t body, SinewVec3 velocity, 
 
 SinewResult sinewAddPlane(SinewScene scene, const SinewPlane* plane) {
     return call(__func__, [&] {
-        const SinewPlane given = described(plane, "SinewPlane", defaultPlane());
+        const SinewPlane given = described(plane, "SinewPlane", defaultPlane);
         const Use<SceneObject> object(scene.id, Access::write);
         object->scene.planes.push_back({.normal = toVec3(given.normal),
                                         .offset = given.offset,
@@ -426,7 +426,7 @@ SinewResult sinewAddPlane(SinewScene scene, const SinewPlane* plane) {
 
 SinewResult sinewAddCollider(SinewScene scene, const SinewCollider* collider) {
     return call(__func__, [&] {
-        const SinewCollider given = described(collider, "SinewCollider", defaultCollider());
+        const SinewCollider given = described(collider, "SinewCollider", defaultCollider);
         const Use<SceneObject> object(scene.id, Access::write);
         sim::Collider added{.shape = toShape(given.shape),
                             .radius = given.radius,

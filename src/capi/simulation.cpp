@@ -368,7 +368,7 @@ SinewResult sinewRecordReset(SinewSimulation simulation, VkCommandBuffer command
 
 SinewResult sinewRecordStep(SinewSimulation simulation, VkCommandBuffer commands, const SinewStep* step) {
     return call(__func__, [&] {
-        const SinewStep given = described(step, "SinewStep", defaultStep());
+        const SinewStep given = described(step, "SinewStep", defaultStep);
         requireNotNull(commands, "commands");
         const Use<SimulationObject> object(simulation.id, Access::write);
         object->simulation->record(commands, stepOf(given, *object));

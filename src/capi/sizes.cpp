@@ -45,6 +45,8 @@ extern "C" {
 SinewResult sinewSetDefaults(uint32_t type, void* description, size_t size) {
     return call(__func__, [&] {
         requireNotNull(description, "description");
+        if (size >= sizeof(std::uint32_t)) // a refused description is refused wherever it is used
+            std::memset(description, 0, sizeof(std::uint32_t));
         switch (type) {
         case SINEW_TYPE_DEVICE_REQUEST:
             return setDefaults(description, size, "SinewDeviceRequest", defaultDeviceRequest());

@@ -43,14 +43,20 @@ template <typename T> std::uint32_t sizeOf(const T* pointer, const char* type) {
     return size;
 }
 
-/// A copy of the description of a host. Members that the host's header lacks have the values of `defaults`.
-template <typename T> T described(const T* pointer, const char* type, const T& defaults) {
+/// A copy of the description of a host. Members that the host's header lacks have the values of `defaults()`,
+/// which is called only then.
+template <typename T, typename Defaults>
+T described(const T* pointer, const char* type, Defaults&& defaults) {
     const std::uint32_t size = sizeOf(pointer, type);
     requireZeros(type, pointer, size, sizeof(T));
-    T description = defaults;
+    T description = size < sizeof(T) ? defaults() : T{};
     std::memcpy(&description, pointer, std::min<std::size_t>(size, sizeof(T)));
     description.size = sizeof(T);
     return description;
+}
+
+template <typename T> T described(const T* pointer, const char* type) {
+    return described(pointer, type, [] { return T{}; });
 }
 
 /// Copies `from` into a struct of `size` bytes: a shorter one gets its first members, a longer one zeros

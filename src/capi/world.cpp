@@ -247,7 +247,7 @@ SinewResult sinewGetWorldStatus(SinewWorld world, uint64_t frame, SinewStatus* s
 
 SinewResult sinewObserveStatus(SinewWorld world, const SinewStatus* status, uint32_t* isEnough) {
     return call(__func__, [&] {
-        const SinewStatus given = described(status, "SinewStatus", SinewStatus{});
+        const SinewStatus given = described(status, "SinewStatus");
         requireNotNull(isEnough, "isEnough");
         const UseOfWorld use(world.id);
         sim::StepStatus observed;
@@ -281,7 +281,7 @@ SinewResult sinewStepWorld(SinewWorld world, const SinewStep* step, uint32_t cou
     return call(
         __func__,
         [&] {
-            const SinewStep given = described(step, "SinewStep", defaultStep());
+            const SinewStep given = described(step, "SinewStep", defaultStep);
             UseOfWorld use(world.id);
             Submitting queue(use->device);
             resetOnce(use.simulation(), queue);

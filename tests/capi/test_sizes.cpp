@@ -40,6 +40,7 @@ TEST(CApiSizes, OtherSizesAreRefused) {
     }
     EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "the size of SinewSettings is 12",
                           sinewSetDefaults(SINEW_TYPE_SETTINGS, &settings, 12)));
+    EXPECT_EQ(settings.size, 0u) << "sinewDefaultSettings() ignores the result";
     EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "no type 9",
                           sinewSetDefaults(9, &settings, sizeof settings)));
     EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "null", sinewSetDefaults(0, nullptr, 40)));
