@@ -99,8 +99,8 @@ int cardsInARow() {
     return std::clamp(static_cast<int>(room / (cardSize().width + style.ItemSpacing.x)), 1, mostInARow);
 }
 
-// Where the scenes after the first ones begin, and where those for studies. A folder whose scenes have no
-// order has one group.
+// Indices at which two groups begin: the scenes after the first ones, and those for studies. A folder whose
+// scenes have no order has one group.
 std::array<std::size_t, 2> cardGroups(const Facts& facts) {
     const std::size_t count = facts.scenes.size();
     const auto before = [&](auto isOf) {
