@@ -100,6 +100,7 @@ void Simulation::State::goBack() noexcept {
 }
 
 void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     vk::Commands commands(state_->device, buffer);
     state_->executor.upload(commands);
     state_->reset();
@@ -118,11 +119,13 @@ void Simulation::State::reset() noexcept {
 }
 
 void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps* timestamps) noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     record(std::span(&buffer, 1), step, timestamps);
 }
 
 void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step,
                         vk::Timestamps* timestamps) noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     const float dt = withinRange(step.dt);
     const bool isBlade = state_->blade.read(step, dt) && state_->mayBeCut();
     const bool mayCut = isBlade || state_->program.cutting.tears;
@@ -194,6 +197,7 @@ void Simulation::record(std::span<const VkCommandBuffer> parts, const Step& step
 }
 
 void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail) noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     if (!state_->hasState) state_->misuse.note(Misuse::noReset, state_->nextFrame);
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
@@ -275,6 +279,7 @@ const StepProgram& Simulation::program() const noexcept {
 }
 
 Status Simulation::status(std::uint64_t frame) const noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     const StepRing& ring = state_->ring;
     if (!ring.isFinished(frame)) return {.frame = static_cast<std::uint32_t>(frame)};
     const layout::StatusWords words = ring.words(frame);
@@ -312,6 +317,7 @@ Impulse impulseOf(const layout::ForceSum& sum) {
 } // namespace
 
 Impulses Simulation::forces(std::uint64_t frame) const {
+    SINEW_ONE_THREAD(state_->oneThread);
     const ForceBuffers& buffers = state_->program.forces;
     if (!state_->ring.isFinished(frame)) return {};
     Impulses impulses{.isFinished = true};
@@ -365,6 +371,7 @@ void setPartner(Event& event, std::uint32_t partner, const EventBuffers& of) {
 } // namespace
 
 Events Simulation::events(std::uint64_t frame) const {
+    SINEW_ONE_THREAD(state_->oneThread);
     const StepRing& ring = state_->ring;
     if (!ring.isFinished(frame)) return {};
     const StepRing::Listed listed = ring.events(frame);
@@ -387,12 +394,16 @@ const char* Simulation::faultOf(const Motion& motion) const noexcept {
 }
 
 std::vector<std::string> Simulation::complaints() {
+    SINEW_ONE_THREAD(state_->oneThread);
     state_->readSteps();
     const std::uint64_t end = state_->lackedLists.value_or(~std::uint64_t{0}); // later steps are undone
     if (const auto lack = state_->ring.lackOfRoom(state_->generation, end))
         state_->misuse.note(Misuse::contactRoom, lack->frame, lack->needed, state_->chosen.contactRoom);
     std::vector<std::string> sentences = std::exchange(state_->untold, {});
     std::ranges::move(state_->misuse.take(), std::back_inserter(sentences));
+#ifndef NDEBUG
+    state_->oneThread.takeTo(sentences);
+#endif
     return sentences;
 }
 

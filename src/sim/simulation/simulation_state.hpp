@@ -18,6 +18,7 @@
 #include "sim/simulation/calm_steps.hpp"
 #include "sim/simulation/carrying.hpp"
 #include "sim/simulation/misuse.hpp"
+#include "sim/simulation/one_thread.hpp"
 #include "sim/simulation/output_ring.hpp"
 #include "sim/simulation/pace.hpp"
 #include "sim/simulation/simulation_ring.hpp"
@@ -50,6 +51,9 @@ struct SceneChange::Parts {
 };
 
 struct Simulation::State {
+#ifndef NDEBUG
+    OneThread oneThread{"simulation"}; // and the world that owns it
+#endif
     const vk::Device& device;
     Settings chosen; // with a resolved number of substeps
     StepProgram program;
@@ -154,7 +158,9 @@ struct Simulation::State {
         return {of.cutting.counts != BufferId{}, countOf(of.forces.sums), countOf(of.events.list)};
     }
 
-    bool mayBeCut() const noexcept { return program.cutting.counts != BufferId{}; }
+    bool mayBeCut() const noexcept {
+        return program.cutting.counts != BufferId{};
+    }
 
     layout::StepParams parameters(const Step& step, float dt, std::uint32_t lists) const {
         const float h = dt / static_cast<float>(substeps), longest = pace.longestOf(dt, h);

@@ -60,6 +60,7 @@ void Simulation::checkTakeOver(const Simulation& from, const vk::BufferView& cop
 
 void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, const vk::BufferView& copy,
                                 const SavedState* saved) {
+    SINEW_ONE_THREAD(state_->oneThread);
     checkTakeOver(from, copy, saved);
     const State& other = *from.state_;
     const bool isAlike = state_->isAlike(other);
@@ -118,6 +119,7 @@ void Simulation::State::carry(const State& other, const Origins& origins) noexce
 
 void Simulation::recordCarried(VkCommandBuffer buffer, const Simulation& from, const Carrying& carrying,
                                const Origins& origins, bool wakes) noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     from.state_->goBack();
     State& own = *state_;
     const State& other = *from.state_;
@@ -178,6 +180,7 @@ std::uint64_t Simulation::handOverSize() const noexcept {
 
 void Simulation::recordHandOver(VkCommandBuffer buffer, const vk::BufferView& to,
                                 const vk::BufferView& saved) const noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     vk::BufferView target = to;
@@ -214,6 +217,7 @@ std::optional<SceneChange> Simulation::prepareChange(const Scene& scene) const {
 }
 
 bool Simulation::recordChange(VkCommandBuffer buffer, SceneChange& change) noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     SceneChange::Parts& parts = *change.parts_;
     if (parts.changes != state_->changes) return false;
     state_->noteUnsettled();
@@ -244,6 +248,7 @@ std::uint64_t Simulation::stateKey() const noexcept {
 }
 
 SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferView& to) const {
+    SINEW_ONE_THREAD(state_->oneThread);
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     state_->copy(commands, state_->written, to, State::Way::out);
@@ -258,6 +263,7 @@ SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferV
 
 void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& from,
                                  const SavedState& saved) noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     state_->copy(commands, state_->written, from, State::Way::back);
@@ -276,6 +282,7 @@ std::uint64_t Simulation::topologySize() const noexcept {
 }
 
 void Simulation::recordSaveTopology(VkCommandBuffer buffer, const vk::BufferView& to) const noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     state_->copy(commands, state_->program.cutting.topology, to, State::Way::out);
@@ -283,6 +290,7 @@ void Simulation::recordSaveTopology(VkCommandBuffer buffer, const vk::BufferView
 }
 
 void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView& from) noexcept {
+    SINEW_ONE_THREAD(state_->oneThread);
     state_->noteUnsettled();
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();

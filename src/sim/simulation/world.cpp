@@ -4,6 +4,7 @@
 
 #include "common/layout.h"
 #include "sim/simulation/carrying.hpp"
+#include "sim/simulation/simulation_state.hpp"
 #include "sinew/ranges.hpp"
 #include "sinew/substeps.hpp"
 #include "sinew/validate.hpp"
@@ -163,6 +164,7 @@ const World::Slot* World::slotOf(PartId part) const noexcept {
 }
 
 PartId World::add(Scene part) {
+    SINEW_ONE_THREAD(simulation_->state_->oneThread);
     const Scene alone = inSurroundings(*base_, part);
     requireNone(validate(alone, asked_));
     requireBodies(part);
@@ -196,6 +198,7 @@ void World::forget(Slot& slot) noexcept {
 }
 
 void World::remove(PartId part) {
+    SINEW_ONE_THREAD(simulation_->state_->oneThread);
     if (slotOf(part) == nullptr) throw std::invalid_argument("the part is not, or no longer, in the world");
     forget(slots_[part.index]);
     hasChanged_ = true;
@@ -229,6 +232,7 @@ Events World::events(std::uint64_t frame) const {
 }
 
 bool World::observe(const StepStatus& status) {
+    SINEW_ONE_THREAD(simulation_->state_->oneThread);
     if (!status.isFinished) return true;
     std::optional<Settings> more;
     if (status.contactRoom >= refusedRoom_) return false;
@@ -326,6 +330,7 @@ void World::giveUp(const Making& making) noexcept {
 }
 
 void World::release() {
+    SINEW_ONE_THREAD(simulation_->state_->oneThread);
     if (replaced_.empty()) return;
     destroying_ = std::async(std::launch::async, [before = std::move(destroying_),
                                                   replaced = std::exchange(replaced_, {})]() mutable {
@@ -342,6 +347,7 @@ bool World::mayTakeOver() const noexcept {
 }
 
 bool World::recordChanges(VkCommandBuffer commands) {
+    SINEW_ONE_THREAD(simulation_->state_->oneThread);
     if (!making_ && hasChanged_) begin();
     if (!isMade()) return false;
     try {
