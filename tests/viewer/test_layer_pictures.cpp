@@ -170,6 +170,40 @@ TEST(Cuts, DarkenNothingBesideTheirLip) {
     }
 }
 
+// Regression test. The front of a cut, where its two sides meet, has no normal. Any normal there turned
+// through a wide angle within a small triangle, so that the end of an incision had a highlight from most
+// places.
+TEST(Cuts, AreNotLitByTheNormalsOnTheirFront) {
+    sim::Scene scene = ball();
+    for (sim::Particle& particle : scene.particles)
+        particle.velocity = {particle.position.x < 0 ? -4.0f : 4.0f, 0, 0};
+    const std::array<sim::Vec3, 2> end{{{0, 0, -1}, {0, 0, 1}}}, start{{{0, 1, -1}, {0, 1, 1}}};
+    for (const Quality& quality : {quick, reducedQuality()}) {
+        LayerShot shot(scene, {}, quality);
+        shot.camera.azimuth = 0;
+        shot.camera.elevation = 1.4f;
+        shot.take(0, {.from = start, .to = end});
+        const Picture expected = shot.SceneShot::take(1);
+        const vk::BufferView view = shot.document.simulation().cutSurface().vertices;
+        const auto vertices = test::queue().download<sim::layout::SkinVertex>(view);
+        const auto pictureWith = [&](float w, const sim::layout::vec4& normal) {
+            auto turned = vertices;
+            for (sim::layout::SkinVertex& vertex : turned)
+                if (vertex.normal.w == w) vertex.normal = normal;
+            test::queue().upload(view, turned.data(), turned.size() * sizeof(turned[0]));
+            const VkCommandBuffer commands = test::queue().begin();
+            shot.offscreen.record(commands, shot.camera, shot.document.simulation(), {});
+            test::queue().wait(test::queue().submit(commands));
+            return shot.offscreen.read();
+        };
+        EXPECT_GT(std::ranges::count(vertices, 1.0f, [](const auto& vertex) { return vertex.normal.w; }), 20);
+        EXPECT_EQ(largestDifference(pictureWith(1, {0, 0, -1, 1}), expected), 0);
+        EXPECT_EQ(largestDifference(pictureWith(1, {0, 1, 0, 1}), expected), 0);
+        EXPECT_GT(largestDifference(pictureWith(0, {0, 0, -1, 0}), expected), 20)
+            << "the other normals light it";
+    }
+}
+
 // Normals and materials are rounded on their way to the shading: a color may change by a step, and a few
 // pixels in a penumbra by more.
 TEST(Cuts, LookTheSameWhereEachPixelIsShadedOnce) {

@@ -226,7 +226,7 @@ struct CellVertex {
 
 struct SkinVertex {
     vec4 position; // xyz [m], w = 0 if none of the particles that carry the vertex can move, else 1
-    vec4 normal;   // xyz unit length
+    vec4 normal;   // xyz unit length; w = 1 on the front of a cut, where its two sides meet and there is no normal, else 0
 };
 
 // A skin vertex's triangles: entries first .. first + count - 1 of the triangle-of-vertex list.

@@ -63,6 +63,8 @@ vec3 placeAt(CutVertex vertex, int c, out mat3 turn) {
     return AT(corner) + turn * (point - HOME(corner));
 }
 
+const float leastArea = 1e-4; // of a side of a cut around a point [cells^2]
+
 void main() {
     const uint count = min(push.count, state.points), i = itemIndex(count);
     if (i >= count) return;
@@ -81,8 +83,9 @@ void main() {
         moving += vertex.shares[c] * POSITION(PARTICLE(vertex.corners[c])).w;
         turn += vertex.shares[c] * mat3(cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1]));
     }
-    const vec3 normal = turn * vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / SURFACE_NORMAL;
+    const vec3 atRest = vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / SURFACE_NORMAL, normal = turn * atRest;
     const float size = length(normal);
-    vertices[i] = SkinVertex(vec4(x, moving > 0.0 ? 1.0 : 0.0), vec4(size > 0.0 ? normal / size : vec3(0.0, 1.0, 0.0), 0.0));
+    const bool isFront = dot(atRest, atRest) < leastArea * leastArea; // the normals of the two sides cancel out
+    vertices[i] = SkinVertex(vec4(x, moving > 0.0 ? 1.0 : 0.0), vec4(size > 0.0 ? normal / size : vec3(0.0, 1.0, 0.0), isFront ? 1.0 : 0.0));
     turns[i] = Gradient(vec4(turn[0], 0.0), vec4(turn[1], 0.0), vec4(turn[2], 0.0));
 }

@@ -30,6 +30,9 @@ void main() {
     value = valueIn;
 #else
     inBody = rest;
+    // The front of a cut has no normal: both of its sides keep theirs up to there. Any normal there would turn through a
+    // wide angle within a small triangle, and so through that of a highlight.
+    worldNormal = (1.0 - normal.w) * normal.xyz;
 #endif
 #ifdef PIECES
     const int n = gl_VertexIndex % 3;

@@ -11,8 +11,16 @@ layout(location = 0) in vec3 worldPosition;
 layout(location = 1) in vec3 worldNormal;
 layout(location = 2) in vec4 inBody;
 
+// The normal, or, in a triangle that has none, the direction across it, towards the eye.
+vec3 normalHere() {
+    const vec3 across = cross(dFdx(worldPosition), dFdy(worldPosition));
+    if (dot(worldNormal, worldNormal) > 1e-12) return worldNormal;
+    return dot(across, frame.eye.xyz - worldPosition) < 0.0 ? -across : across;
+}
+
 void main() {
+    const vec3 normal = normalHere(); // before anything is discarded: it needs neighbouring pixels
     keepBehindSection(worldPosition);
     const vec4 skin = frame.skins[min(uint(inBody.w + 0.5), SKIN_COLORS - 1u)];
-    show(worldPosition, worldNormal, insideSurface(inBody.xyz, skin));
+    show(worldPosition, normal, insideSurface(inBody.xyz, skin));
 }

@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <random>
@@ -349,6 +350,48 @@ TEST(CutSkin, OfAStepThatIsUndoneIsUndoneWithItAndComesBackWithTheTopology) {
     body.runner().reset();
     body.runner().run(1);
     EXPECT_EQ(ClosedSurface(body).triangles().size(), body.scene().skins[0].triangles.size());
+}
+
+// On the front of a cut its two sides share their points: the normals of both cancel out, and the vertex says
+// so.
+TEST(CutSkin, HasNoNormalOnItsFront) {
+    for (const Shape& shape : {sphere, organ}) {
+        CutBody body(sceneOf(shape));
+        const Vector3d ahead = Vector3d(-0.17, 0.42, 0.89).normalized(), along(0, -0.9, 0.42);
+        const auto edge = [&](double way) -> std::vector<Vec3> {
+            return {test::toFloats(way * ahead - along), test::toFloats(way * ahead + along)};
+        };
+        ASSERT_EQ(body.cut({.from = edge(-1), .to = edge(0)}).pieces, 1u);
+        body.runner().skin();
+        const CutSurface cut = body.runner().simulation().cutSurface();
+        const auto inside = test::queue().download<layout::DrawArguments>(cut.draws)[0];
+        const auto indices = test::queue().download<std::uint32_t>(cut.indices);
+        const auto vertices = test::queue().download<layout::SkinVertex>(cut.vertices);
+        const auto rest = test::queue().download<layout::CutVertex>(cut.rest);
+        const auto placeOf = [&](std::uint32_t v) -> Vector3d {
+            return {double{rest[v].rest.x}, double{rest[v].rest.y}, double{rest[v].rest.z}};
+        };
+        std::map<std::uint32_t, std::pair<Vector3d, double>>
+            areas; // sums by vertex: with direction, and without
+        for (std::uint32_t n = inside.firstIndex; n < inside.firstIndex + inside.indexCount; n += 3) {
+            const Vector3d a = placeOf(indices[n]),
+                           area = (placeOf(indices[n + 1]) - a).cross(placeOf(indices[n + 2]) - a);
+            for (std::uint32_t corner = 0; corner < 3; ++corner) {
+                auto& [sum, size] =
+                    areas.try_emplace(indices[n + corner], Vector3d::Zero(), 0.0).first->second;
+                sum += area;
+                size += area.norm();
+            }
+        }
+        std::size_t front = 0;
+        for (const auto& [v, area] : areas) {
+            const bool isFront = area.first.norm() < 1e-3 * area.second;
+            EXPECT_EQ(vertices[v].normal.w, isFront ? 1 : 0) << shape.name << ", vertex " << v;
+            front += isFront ? 1 : 0;
+        }
+        EXPECT_GT(front, 10u);
+        EXPECT_GT(areas.size(), 5 * front);
+    }
 }
 
 // A skin with invalid anchors is not clipped and stretches over a cut.
