@@ -20,6 +20,7 @@
 #include "viewer/jobs/second_simulation.hpp"
 #include "viewer/layers/inspection.hpp"
 #include "viewer/render/legend.hpp"
+#include "viewer/render/length_text.hpp"
 #include "viewer/render/offscreen.hpp"
 #include "viewer/tools/tools.hpp"
 
@@ -180,7 +181,7 @@ public:
         std::printf("%s\n", hashText(stateHash(device_, document_, queue_), document_.steps()).c_str());
     }
 
-    /// Prints the errors of the two solvers of a comparison.
+    /// Prints the errors of the two solvers of a comparison, and their distance.
     void printBeside() {
         if (!beside_) return;
         StateProbe probe(device_, document_.scene(), document_.settings(), document_.simulation());
@@ -189,7 +190,7 @@ public:
         probe.record(commands);
         beside_->recordPicture(commands, 0, true);
         queue_.wait(queue_.submit(commands));
-        checkBeside(0);
+        checkBeside(0, &probe);
         const Strain strain = measureStrain(document_.scene(), probe);
         const Facts other = beside_->facts();
         const sim::Settings& settings = document_.settings();
@@ -198,6 +199,9 @@ public:
                     100 * strain.largest);
         std::printf("%s: strain of links rms %.3f %%, largest %.2f %%\n", toText(beside_->shape()).c_str(),
                     100 * double{other.strainRms.newest()}, 100 * double{other.strainMax.newest()});
+        if (const std::optional<Distance>& apart = beside_->apart())
+            std::printf("distance of particles rms %s, largest %s\n", lengthText(apart->rms).c_str(),
+                        lengthText(apart->largest).c_str());
     }
 
     /// After a cut, prints the number of cut links and of pieces.
@@ -258,8 +262,8 @@ private:
     }
 
     // If contacts need more room, the second simulation is made anew and continues from the first.
-    void checkBeside(std::uint32_t slot) {
-        const auto trouble = beside_->settle(slot);
+    void checkBeside(std::uint32_t slot, const StateProbe* first = nullptr) {
+        const auto trouble = beside_->settle(slot, first);
         if (!trouble) return;
         if (trouble->room == 0) throw app::Failure(app::diverged, "beside: " + trouble->why);
         queue_.waitIdle();

@@ -2,6 +2,7 @@
 #include "panels_test.hpp"
 
 #include "viewer/ui/folds.hpp"
+#include "viewer/ui/panel_parts.hpp"
 
 #include <cmath>
 #include <optional>
@@ -172,15 +173,35 @@ TEST_F(PanelFoldsTest, TakeTheRoomOfAComparisonBeforeItIsThere) {
         settle({1280, 2000});
         return contentHeight();
     };
+    PhaseCurve solve{"solve", {}};
+    solve.ms.add(2);
+    facts.phases = {solve};
     const float off = height();
     facts.beside.isOn = facts.beside.isMaking = true;
     EXPECT_EQ(height(), off);
     facts.beside.isMaking = false;
     facts.beside.names = {"split, 24 substeps", "gauss_seidel, 24 substeps"};
-    facts.phases = facts.beside.phases = {};
+    facts.beside.phases = {};
     facts.beside.strainRms.add(0.01f);
     facts.beside.strainMax.add(0.1f);
     EXPECT_EQ(height(), off);
+    facts.beside.apart = Distance{.rms = 1.2e-3f, .largest = 4.7e-3f};
+    facts.beside.phases = {solve};
+    EXPECT_EQ(height(), off) << "a result of two lines";
+}
+
+TEST(ComparisonText, SaysCostAndDistanceAsFarAsTheyAreKnown) {
+    Curve none, slow, fast;
+    slow.add(2);
+    fast.add(0.92f);
+    const std::optional<Distance> apart = Distance{.rms = 1.2e-3f, .largest = 4.7e-3f};
+    EXPECT_EQ(parts::comparisonText(none, none, {}), "");
+    EXPECT_EQ(parts::comparisonText(slow, none, {}), "");
+    EXPECT_EQ(parts::comparisonText(slow, fast, {}), "The right one takes 0.46 times as long.");
+    EXPECT_EQ(parts::comparisonText(none, none, apart), "Particles are 1.2 mm apart (rms), at most 4.7 mm.");
+    EXPECT_EQ(parts::comparisonText(fast, slow, apart),
+              "The right one takes 2.2 times as long; particles are 1.2 mm apart (rms), at most 4.7 mm.");
+    EXPECT_EQ(parts::comparisonText(none, none, Distance{}), "Particles are in the same places.");
 }
 
 TEST_F(PanelFoldsTest, NameWhatPlaysInEachHalfOfAComparison) {

@@ -32,7 +32,7 @@ struct Pair : Played {
                 beside.recordPicture(commands, 0, true);
                 probe.record(commands);
             });
-            if (auto trouble = beside.settle(0)) return trouble;
+            if (auto trouble = beside.settle(0, &probe)) return trouble;
         }
         return std::nullopt;
     }
@@ -77,6 +77,8 @@ TEST(SecondSimulation, OfTheSameShapeHasTheSameBits) {
     Pair pair({sim::Solver::split, 4});
     ASSERT_FALSE(pair.play(5));
     EXPECT_EQ(pair.apart(), 0);
+    ASSERT_TRUE(pair.beside.apart());
+    EXPECT_EQ(pair.beside.apart()->largest, 0);
     EXPECT_EQ(pair.beside.document().steps(), 5u);
 }
 
@@ -86,6 +88,10 @@ TEST(SecondSimulation, OfAnotherSolverFallsAlikeAndIsMeasured) {
     EXPECT_EQ(pair.beside.shape(), (BesideShape{sim::Solver::gaussSeidel, 6}));
     const double fallen = 0.5 * 9.81 * std::pow(10.0 / 60, 2);
     EXPECT_LT(pair.apart(), 0.1 * fallen) << "free fall is the same for all";
+    ASSERT_TRUE(pair.beside.apart());
+    EXPECT_GT(pair.beside.apart()->rms, 0);
+    EXPECT_LT(pair.beside.apart()->rms, pair.beside.apart()->largest);
+    EXPECT_NEAR(pair.beside.apart()->largest, pair.apart(), 1e-6 * pair.apart());
     EXPECT_EQ(pair.beside.facts().strainRms.count(), 10u);
     EXPECT_LT(pair.beside.facts().strainRms.newest(), 0.01f);
     EXPECT_FALSE(pair.beside.facts().phases.empty());
@@ -127,6 +133,7 @@ TEST(SecondSimulation, GoesOnWhereTheFirstStands) {
     pair.run([&](VkCommandBuffer commands) { pair.beside.recordTakeOver(commands, pair.document); });
     EXPECT_EQ(pair.apart(), 0);
     EXPECT_EQ(pair.beside.document().steps(), pair.document.steps());
+    EXPECT_FALSE(pair.beside.apart());
     EXPECT_EQ(pair.beside.facts().strainRms.count(), 0u) << "what was measured was of another state";
     ASSERT_FALSE(pair.play(2, hands));
 }

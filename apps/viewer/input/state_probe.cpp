@@ -61,13 +61,15 @@ Box StateProbe::bounds() const {
 Box StateProbe::bounds(const sim::Body& body) const {
     Box box;
     for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i) {
-        if (isRemoved(pieces(), i)) continue;
         const sim::layout::vec4& place = positions()[i];
-        if (isAway(place)) continue;
-        const Vector3 position(place.x, place.y, place.z);
-        if (position.allFinite()) box.extend(position);
+        if (isShown(i)) box.extend(Vector3(place.x, place.y, place.z));
     }
     return box;
+}
+
+bool StateProbe::isShown(std::uint32_t particle) const noexcept {
+    const sim::layout::vec4& place = positions()[particle];
+    return !isRemoved(pieces(), particle) && !isAway(place) && Vector3(place.x, place.y, place.z).allFinite();
 }
 
 std::span<const sim::layout::vec4> StateProbe::positions() const noexcept {

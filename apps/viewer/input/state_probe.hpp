@@ -31,6 +31,9 @@ public:
     Box bounds() const;
     /// The box of one body.
     Box bounds(const sim::Body& body) const;
+    /// Whether a particle is to be seen: its body is present, it is in no removed fragment, and its position
+    /// is finite.
+    bool isShown(std::uint32_t particle) const noexcept;
     /// Position of every particle [m].
     std::span<const sim::layout::vec4> positions() const noexcept;
     /// Velocity of every particle [m/s]; empty if the simulation has none.

@@ -131,6 +131,22 @@ Strain measureStrain(const sim::Scene& scene, StateProbe& probe) {
     return {strain.rms, strain.largest};
 }
 
+Distance measureDistance(const StateProbe& first, const StateProbe& second) {
+    double squares = 0, most = 0;
+    std::size_t count = 0;
+    for (std::uint32_t i = 0; i < first.positions().size(); ++i) {
+        if (!first.isShown(i) || !second.isShown(i)) continue;
+        const sim::layout::vec4 &a = first.positions()[i], &b = second.positions()[i];
+        const double distance =
+            std::hypot(double{a.x} - double{b.x}, double{a.y} - double{b.y}, double{a.z} - double{b.z});
+        squares += distance * distance;
+        most = std::max(most, distance);
+        ++count;
+    }
+    if (count == 0) return {};
+    return {static_cast<float>(std::sqrt(squares / static_cast<double>(count))), static_cast<float>(most)};
+}
+
 Gauges::Gauges(const Document& document, double dt) : dt_(dt) {
     for (const std::string& phase : document.simulation().phases()) facts_.phases.push_back({phase, {}});
 }

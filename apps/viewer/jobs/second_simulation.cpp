@@ -86,16 +86,20 @@ SecondSimulation::SecondSimulation(const vk::Device& device, const scenes::Loade
     for (std::uint32_t slot = 0; slot < slots; ++slot) times_.emplace_back(device, spans);
 }
 
+void SecondSimulation::restart() noexcept {
+    gauges_.restart();
+    apart_.reset();
+    for (Flight& flight : flights_) flight = {};
+}
+
 void SecondSimulation::recordReset(VkCommandBuffer commands) noexcept {
     document_.recordReset(commands);
-    gauges_.restart();
-    for (Flight& flight : flights_) flight = {};
+    restart();
 }
 
 void SecondSimulation::recordTakeOver(VkCommandBuffer commands, const Document& first) {
     document_.recordTakeOver(commands, first);
-    gauges_.restart();
-    for (Flight& flight : flights_) flight = {};
+    restart();
 }
 
 void SecondSimulation::recordStep(VkCommandBuffer commands, const Document& first, const StepHands& hands,
@@ -113,7 +117,8 @@ void SecondSimulation::recordPicture(VkCommandBuffer commands, std::uint32_t slo
     if (isMeasured) probe_.record(commands);
 }
 
-std::optional<SecondSimulation::Trouble> SecondSimulation::settle(std::uint32_t slot) {
+std::optional<SecondSimulation::Trouble> SecondSimulation::settle(std::uint32_t slot,
+                                                                  const StateProbe* first) {
     const Flight flight = std::exchange(flights_[slot], {});
     for (std::uint32_t i = 0; i < flight.steps; ++i) {
         const std::uint64_t step = flight.firstStep + i;
@@ -130,6 +135,7 @@ std::optional<SecondSimulation::Trouble> SecondSimulation::settle(std::uint32_t 
     }
     if (flight.isTimed) gauges_.stepTimed(times_[slot].milliseconds());
     if (flight.isMeasured) gauges_.strainMeasured(measureStrain(document_.scene(), probe_));
+    if (flight.isMeasured && first) apart_ = measureDistance(*first, probe_);
     return std::nullopt;
 }
 

@@ -53,8 +53,9 @@ public:
         std::string why;
         std::uint32_t room = 0;
     };
-    /// Call when the picture in the slot has finished. Empty if all is well.
-    std::optional<Trouble> settle(std::uint32_t slot);
+    /// Call when the picture in the slot has finished. `first`: the state that the first had in that picture,
+    /// if it was measured too; null = it is not to be compared. Empty if all is well.
+    std::optional<Trouble> settle(std::uint32_t slot, const StateProbe* first);
 
     const sim::Simulation& simulation() const noexcept { return document_.simulation(); }
     const Document& document() const noexcept { return document_; }
@@ -65,6 +66,8 @@ public:
     const std::vector<std::string>& notes() const noexcept { return notes_; }
     /// The facts that gauges know.
     Facts facts() const { return gauges_.facts(document_); }
+    /// How far it is from the first; empty until it is measured.
+    const std::optional<Distance>& apart() const noexcept { return apart_; }
 
 private:
     struct Flight {
@@ -72,11 +75,13 @@ private:
         std::uint32_t steps = 0;
         bool isTimed = false, isMeasured = false;
     };
+    void restart() noexcept;
     BesideShape shape_; // with the number of substeps filled in
     Document document_;
     std::vector<std::string> warnings_, notes_;
     Gauges gauges_;
     StateProbe probe_;
+    std::optional<Distance> apart_;
     std::vector<vk::Timestamps> times_;
     std::vector<Flight> flights_;
 };

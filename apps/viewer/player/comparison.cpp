@@ -146,9 +146,9 @@ void Comparison::recordPicture(const Presenter::Frame& frame, bool isMeasured) n
     if (beside_) beside_->recordPicture(frame.commands, frame.slot, isMeasured);
 }
 
-void Comparison::settle(std::uint32_t slot) {
+void Comparison::settle(std::uint32_t slot, const StateProbe* first) {
     if (!beside_) return;
-    const std::optional<SecondSimulation::Trouble> trouble = beside_->settle(slot);
+    const auto trouble = beside_->settle(slot, isBehind_ ? nullptr : first);
     if (!trouble || isBehind_) return;
     player_.session.presenter().waitIdle();
     sim::Settings room = beside_->document().settings();
@@ -247,6 +247,7 @@ BesideFacts Comparison::facts() const {
     facts.phases = measured.phases;
     facts.strainRms = measured.strainRms;
     facts.strainMax = measured.strainMax;
+    facts.apart = beside_->apart();
     return facts;
 }
 

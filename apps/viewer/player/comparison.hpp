@@ -35,8 +35,9 @@ public:
     void recordStep(const Presenter::Frame& frame, const StepHands& hands, bool isTimed) noexcept;
     /// Records the skins of a picture, and the copy that measures its strain if it `isMeasured`.
     void recordPicture(const Presenter::Frame& frame, bool isMeasured) noexcept;
-    /// Takes the results of a slot that has finished.
-    void settle(std::uint32_t slot);
+    /// Takes the results of a slot that has finished. `first`: the state of the first, as
+    /// SecondSimulation::settle() takes it.
+    void settle(std::uint32_t slot, const StateProbe* first);
 
     /// Width over height of the area that panels leave to one picture: a half of it while there are two.
     float pictureAspect() const;

@@ -51,6 +51,8 @@ public:
     void ask(std::uint32_t slot, std::uint32_t steps, bool asksTools);
     /// Records the copies that these questions need; call it after the skins were recorded.
     void record(const Presenter::Frame& frame);
+    /// The copy of the state that settle() has read last; null before the first.
+    const StateProbe* probe() const noexcept { return probe_ ? &*probe_ : nullptr; }
     bool isMeasured(std::uint32_t slot) const noexcept { return pending_[slot].isMeasured; }
     /// Answers the questions of a slot that has finished.
     void settle(std::uint32_t slot);

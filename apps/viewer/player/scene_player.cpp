@@ -433,7 +433,7 @@ void ScenePlayer::settle(std::uint32_t slot) {
     }
     observer_.settle(slot);
     layers_.settle(slot);
-    comparison_.settle(slot);
+    comparison_.settle(slot, observer_.probe());
     const bool isUndone = !settleSteps(flight);
     if (observer_.settleCount(slot, isUndone)) {
         status_.setPieces(gauges_.pieces());

@@ -93,12 +93,18 @@ struct BesideKnobs {
 };
 constexpr int mostSubsteps = 1000;
 
+/// A distance between two states [m]: the root mean square over particles, and the largest.
+struct Distance {
+    float rms = 0, largest = 0;
+};
+
 struct BesideFacts {
     bool isOn = false, isMaking = false;
     BesideKnobs knobs;                ///< of the comparison, or of the next one
     std::array<std::string, 2> names; ///< of the first and the second; empty until the second is ready
     std::vector<PhaseCurve> phases;   ///< like Facts::phases
     Curve strainRms, strainMax;       ///< like those of Facts
+    std::optional<Distance> apart;    ///< between the two; empty until it is measured
 };
 
 /// Said before a film begins on a software device, which takes long for each picture in full quality.

@@ -1,4 +1,5 @@
 // Comparison of two solvers: time of a step, and error.
+#include "viewer/render/length_text.hpp"
 #include "viewer/ui/panel_numbers.hpp"
 #include "viewer/ui/panel_parts.hpp"
 
@@ -74,6 +75,13 @@ void shapeKnobs(const SceneFacts& scene, const BesideKnobs& knobs, TypedNumber& 
     if (turned != knobs) wishes.beside = turned;
 }
 
+// Two lines high, with or without text.
+void result(const std::string& text) {
+    const float from = ImGui::GetCursorPosY(), lines = 2 * ImGui::GetTextLineHeightWithSpacing();
+    wrapped(fitted(text, contentWidth(), 2), ImGui::GetStyleColorVec4(ImGuiCol_Text));
+    ImGui::SetCursorPosY(from + lines);
+}
+
 constexpr std::array<const char*, 2> sides{"left", "right"};
 
 // "left: split, 24 substeps"
@@ -85,6 +93,16 @@ std::string nameOf(const BesideFacts& other, std::size_t side) {
 }
 
 } // namespace
+
+std::string comparisonText(const Curve& left, const Curve& right, const std::optional<Distance>& apart) {
+    std::string text;
+    if (left.median() > 0 && right.median() > 0)
+        text = figure("The right one takes %.2g times as long", double{right.median() / left.median()});
+    if (!apart) return text.empty() ? text : text + ".";
+    text += text.empty() ? "Particles are " : "; particles are ";
+    if (apart->largest == 0) return text + "in the same places.";
+    return text + lengthText(apart->rms) + " apart (rms), at most " + lengthText(apart->largest) + ".";
+}
 
 // Off and on have the same height, also while the second simulation is made: nothing below moves.
 void beside(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wishes& wishes) {
@@ -98,6 +116,7 @@ void beside(const SceneFacts& scene, const Facts& facts, TypedNumber& typed, Wis
     const Curve none, left = other.isOn ? sumOfPhases(facts.phases) : none, right = sumOfPhases(other.phases);
     lineOf(nameOf(other, 0), 0, left, other.isOn ? facts.strainRms : none, facts.strainMax);
     lineOf(nameOf(other, 1), 1, right, other.strainRms, other.strainMax);
+    result(comparisonText(left, right, other.apart));
     bothPlot(left, right, "%.3g ms a step", 1);
     bothPlot(other.isOn ? facts.strainRms : none, other.strainRms, "%.3g %% strain", 100);
 }
@@ -114,7 +133,11 @@ void halves(const Facts& facts, float scale, std::uint32_t width) {
                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav |
                          ImGuiWindowFlags_NoInputs);
-        ImGui::TextUnformatted(nameOf(facts.beside, side).c_str());
+        const Curve ms = sumOfPhases(side == 0 ? facts.phases : facts.beside.phases);
+        std::string text = nameOf(facts.beside, side);
+        if (ms.count() > 0) text += figure(", %.3g ms a step", double{ms.median()});
+        if (side == 1 && facts.beside.apart) text += ", " + lengthText(facts.beside.apart->rms) + " apart";
+        ImGui::TextUnformatted(text.c_str());
         ImGui::End();
         ImGui::PopStyleVar();
     }
