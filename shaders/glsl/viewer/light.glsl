@@ -52,24 +52,30 @@ MapPoint mapPoint(vec3 position, vec3 normal) {
     return MapPoint(clip.xy * 0.5 + 0.5, clip.z - texel / frame.shadow.y, texel, slope);
 }
 
-// Depth to compare at an offset [m]. Points behind the map's volume are compared with its end.
-float depthAt(MapPoint point, vec2 offset) {
-    return min(point.depth + dot(point.slope, offset) / frame.shadow.y, 1.0);
+const float curvature = 0.15; // depth that a surface may rise above its plane without shading itself, per offset
+
+// Depth to compare at an offset [m] of this length. Points behind the map's volume are compared with its end.
+float depthAt(MapPoint point, vec2 offset, float away) {
+    return min(point.depth + (dot(point.slope, offset) - curvature * away) / frame.shadow.y, 1.0);
 }
 
-// Mean depth of the blockers between the light and a disc around the point; 1 if there are none. The first tap is at
-// the point: otherwise few taps, turned differently in each pixel, miss a small blocker here and there.
-float blockerDepth(MapPoint point, float radius, uint taps, vec2 turn) {
-    const float margin = 0.15 / frame.shadow.y; // per offset, because of the surface's own curvature
-    float blockers = 0.0, depth = 0.0;
+// Mean depth of the blockers between the light and a disc around the point, and their weight: 0 if there are none. The
+// first tap is at the point: otherwise few taps, turned differently in each pixel, miss a small blocker here and there.
+// One or two blockers in the rest of the disc count in part: where some pixels meet one and others none, the latter
+// would else be lit in full, and a crease would be speckled.
+vec2 blockersAround(MapPoint point, float radius, uint taps, vec2 turn) {
+    const float fewBlockers = 2.0 + float(taps) / 8.0;
+    float blockers = 0.0, depth = 0.0, isShaded = 0.0; // at the point itself
     for (uint i = 0u; i < taps; ++i, turn = nextTurn(turn)) {
-        const vec2 offset = i == 0u ? vec2(0.0) : radius * discRadius(i, taps) * turn;
+        const float away = i == 0u ? 0.0 : radius * discRadius(i, taps);
+        const vec2 offset = away * turn;
         const float here = textureLod(shadowDepth, point.uv + offset / frame.shadow.x, 0.0).r;
-        const float isBlocker = float(here < depthAt(point, offset) - margin * length(offset));
+        const float isBlocker = float(here < depthAt(point, offset, away));
+        if (i == 0u) isShaded = isBlocker;
         blockers += isBlocker;
         depth += isBlocker * here;
     }
-    return blockers > 0.0 ? depth / blockers : 1.0;
+    return vec2(depth / max(blockers, 1.0), min(max(fewBlockers * isShaded, blockers) / fewBlockers, 1.0));
 }
 
 // Share of the key light that reaches a surface: percentage-closer soft shadows [Fernando 2005]. Blockers near the
@@ -79,17 +85,18 @@ float keyShadow(vec3 position, vec3 normal, uint taps, float phase) {
     if (any(notEqual(point.uv, clamp(point.uv, 0.0, 1.0)))) return 1.0;
     const vec2 start = firstTurn(phase);
     const float search = min(0.10 * frame.shadow.x, lightRadius * frame.shadow.y * point.depth);
-    const float blocker = blockerDepth(point, search, taps / 2u, start);
-    if (blocker >= 1.0) return 1.0;
-    const float gap = max(point.depth - blocker, 0.0) * frame.shadow.y;
+    const vec2 blockers = blockersAround(point, search, taps, start);
+    if (blockers.y == 0.0) return 1.0;
+    const float gap = max(point.depth - blockers.x, 0.0) * frame.shadow.y;
     const float radius = clamp(lightRadius * gap, 1.5 * point.texel, search);
     float lit = 0.0;
     vec2 turn = start;
     for (uint i = 0u; i < taps; ++i, turn = nextTurn(turn)) {
-        const vec2 offset = radius * discRadius(i, taps) * turn;
-        lit += textureLod(shadowMap, vec3(point.uv + offset / frame.shadow.x, depthAt(point, offset)), 0.0);
+        const float away = radius * discRadius(i, taps);
+        const vec2 offset = away * turn;
+        lit += textureLod(shadowMap, vec3(point.uv + offset / frame.shadow.x, depthAt(point, offset, away)), 0.0);
     }
-    return lit / float(taps);
+    return mix(1.0, lit / float(taps), blockers.y);
 }
 
 // The target's encoding, with noise of half a step against banding in the sky.
