@@ -32,7 +32,7 @@ build_packages=(ca-certificates cmake ninja-build g++ libc6-dev
     libgtest-dev) # required by the configure step, even without tests
 # Further packages for the tests.
 test_packages=(clang libx11-dev vulkan-validationlayers spirv-cross xvfb xauth xdotool imagemagick x11-apps
-    assimp-testmodels python3-minimal python3-pip python3-venv binutils pkg-config clang-format)
+    qt6-base-dev assimp-testmodels python3-minimal python3-pip python3-venv binutils pkg-config clang-format)
 
 # build PRESET [TARGET...]: configures at the first call, then builds.
 build() {
