@@ -78,7 +78,8 @@ SINEW_C_API SinewResult sinewGetWorldCounts(SinewWorld world, SinewSceneCounts* 
 // those of a scene with colliders that move or with host colliders, and all after sinewObserveStatus() has
 // asked for more room for contacts. No step may wait to be repeated. Does not wait. The host resets the first
 // simulation by sinewRecordReset(); a take-over needs no reset. Errors: those of sinewCreateSimulation() if
-// the making failed: parts that were to arrive are then removed, and the world goes on without them.
+// the making failed: parts that were to arrive are then removed, and the world goes on without them; that
+// parts leave is tried again by the next call.
 SINEW_C_API SinewResult sinewRecordChanges(SinewWorld world, VkCommandBuffer commands, uint32_t* isTakenOver);
 // The status of any step since the last sinewReleaseReplaced(), before a take-over or after. As
 // sinewGetStatus().

@@ -82,7 +82,8 @@ public:
     /// with Step::repeats, those of another length than the last that was finished, those of a scene with
     /// colliders that move or with Settings::hostColliders, and all after observe() has asked for more room
     /// for contacts. No step may wait to be recorded again. Throws what the making threw, after which the
-    /// world goes on without the parts that were to arrive. `commands` as in Simulation::recordReset().
+    /// world goes on without the parts that were to arrive; parts that were to leave do so with a later
+    /// take-over, which the next call begins. `commands` as in Simulation::recordReset().
     bool recordChanges(VkCommandBuffer commands);
     /// Whether recordChanges() would take over if no step were in flight: let these finish.
     bool isReady() const;

@@ -1,8 +1,13 @@
 // Lack of memory at every allocation: a result and a sentence, and objects that stay usable. Allocations of
 // this program and of Sinew fail, which is linked into it; those of the driver do not.
 #include "capi/support.hpp"
+#include "sinew/sinew_query.h"
+#include "sinew/sinew_world.h"
 
+#include <atomic>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <new>
 
@@ -10,12 +15,15 @@ extern "C" const char __executable_start, etext; // of the linker: the code of t
 
 namespace {
 
-thread_local std::size_t left = ~std::size_t{0}; // allocations that succeed
+constexpr std::size_t all = ~std::size_t{0};
+std::atomic<std::size_t> left = all; // allocations that succeed, in any thread
 
 void* allocate(std::size_t size, const void* caller) {
     const bool isOurs = caller >= &__executable_start && caller < &etext;
-    if (isOurs && left == 0) throw std::bad_alloc();
-    if (isOurs && left != ~std::size_t{0}) --left;
+    for (std::size_t now = left; isOurs && now != all;) {
+        if (now == 0) throw std::bad_alloc();
+        if (left.compare_exchange_weak(now, now - 1)) break;
+    }
     if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
     throw std::bad_alloc();
 }
@@ -48,12 +56,14 @@ void operator delete[](void* memory, std::size_t) noexcept {
 namespace sinew::test {
 namespace {
 
-/// Calls `function` with room for 0, 1, ... allocations, until it succeeds. Returns how often it failed.
-int failAtEveryAllocation(const std::function<SinewResult()>& function, const std::function<void()>& check) {
+/// Calls `function` with room for 0, 1, ... allocations, or for each `apart`-th of these numbers, until it
+/// succeeds. Returns how often it failed.
+int failAtEveryAllocation(const std::function<SinewResult()>& function, const std::function<void()>& check,
+                          std::size_t apart = 1) {
     for (int failures = 0;; ++failures) {
-        left = static_cast<std::size_t>(failures);
+        left = static_cast<std::size_t>(failures) * apart;
         const SinewResult result = function();
-        left = ~std::size_t{0};
+        left = all;
         if (result == SINEW_OK) return failures;
         EXPECT_EQ(result, SINEW_ERROR_OUT_OF_MEMORY) << sinewLastError();
         EXPECT_NE(std::string(sinewLastError()).find("memory"), std::string::npos) << sinewLastError();
@@ -91,26 +101,25 @@ TEST(CApiMemory, ScenesStayAsTheyWereWhereThereIsNone) {
               100);
 }
 
-TEST(CApiMemory, ASimulationIsMadeWholeOrNotAtAll) {
-    Device device;
+constexpr std::size_t alike = 29; // most allocations of a simulation are
+
+void open(Device& device) {
     SinewDeviceRequest request = sinewDefaultDeviceRequest();
     request.isSoftware = 1;
     ASSERT_TRUE(isOk(sinewCreateDevice(&request, &device)));
+}
+
+TEST(CApiMemory, ASimulationIsMadeWholeOrNotAtAll) {
+    Device device;
+    open(device);
     Scene scene;
     makeCube(scene, 1);
     SinewSettings settings = sinewDefaultSettings();
     settings.substeps = 2;
     SinewSimulation made{};
-    // Most of the allocations are alike, so that a failure of every 29th one suffices.
-    int failures = 0;
-    for (std::size_t allowed = 0; made.id == 0; allowed += 29, ++failures) {
-        left = allowed;
-        const SinewResult result = sinewCreateSimulation(device, scene, &settings, &made);
-        left = ~std::size_t{0};
-        ASSERT_TRUE(result == SINEW_OK || result == SINEW_ERROR_OUT_OF_MEMORY) << sinewLastError();
-        ASSERT_EQ(made.id != 0, result == SINEW_OK);
-    }
-    EXPECT_GT(failures, 20);
+    EXPECT_GT(failAtEveryAllocation([&] { return sinewCreateSimulation(device, scene, &settings, &made); },
+                                    [&] { EXPECT_EQ(made.id, 0u); }, alike),
+              20);
     Simulation simulation;
     simulation.handle = made;
     const SinewStep step = sinewDefaultStep();
@@ -120,6 +129,88 @@ TEST(CApiMemory, ASimulationIsMadeWholeOrNotAtAll) {
     EXPECT_GT(failAtEveryAllocation([&] { return sinewSaveState(simulation, &state); }, [] {}), 0);
     EXPECT_TRUE(isOk(sinewLoadState(simulation, state)));
     EXPECT_TRUE(isOk(sinewDestroyState(state)));
+}
+
+// A part that cannot arrive is given up; all that is there stays.
+TEST(CApiMemory, AWorldGoesOnWithWhatItHas) {
+    Device device;
+    open(device);
+    Scene ground, cube;
+    ASSERT_TRUE(isOk(sinewCreateScene(&ground)));
+    const SinewPlane plane = sinewDefaultPlane();
+    ASSERT_TRUE(isOk(sinewAddPlane(ground, &plane)));
+    makeCube(cube, 1);
+    SinewSettings settings = sinewDefaultSettings();
+    settings.substeps = 2;
+    Owned<SinewWorld, sinewDestroyWorld> world;
+    EXPECT_GT(
+        failAtEveryAllocation([&] { return sinewCreateWorld(device, ground, &settings, &world.handle); },
+                              [&] { EXPECT_EQ(world.handle.id, 0u); }, alike),
+        2);
+    SinewPart part{};
+    const auto particles = [&] {
+        SinewSceneCounts counts{};
+        counts.size = sizeof counts;
+        EXPECT_TRUE(isOk(sinewGetWorldCounts(world, &counts)));
+        return counts.particles;
+    };
+    SinewWorldInfo info{};
+    info.size = sizeof info;
+    EXPECT_GT(failAtEveryAllocation([&] { return sinewAddPart(world, cube, &part); },
+                                    [&] {
+                                        EXPECT_EQ(part.world, 0u);
+                                        EXPECT_TRUE(isOk(sinewGetWorldInfo(world, &info)));
+                                        EXPECT_EQ(info.isChanging, 0u);
+                                    }),
+              20);
+    const auto update = [&] { return sinewUpdateWorld(world); };
+    const auto addAgain = [&] {
+        std::uint32_t isContained = 0;
+        EXPECT_TRUE(isOk(sinewContainsPart(world, part, &isContained)));
+        if (isContained == 0) {
+            EXPECT_TRUE(isOk(sinewAddPart(world, cube, &part)));
+        }
+        EXPECT_EQ(particles(), 0u);
+    };
+    EXPECT_GT(failAtEveryAllocation(update, addAgain, alike), 20);
+    EXPECT_GT(particles(), 0u);
+    const SinewStep step = sinewDefaultStep();
+    EXPECT_GT(failAtEveryAllocation([&] { return sinewStepWorld(world, &step, 1); }, [] {}), 0);
+    EXPECT_TRUE(isOk(sinewStepWorld(world, &step, 10)));
+
+    constexpr SinewQueryRoom room{sizeof(SinewQueryRoom), 1, 10, 1};
+    Owned<SinewQuery, sinewDestroyQuery> query;
+    EXPECT_GT(failAtEveryAllocation([&] { return sinewCreateWorldQuery(world, &room, &query.handle); },
+                                    [&] { EXPECT_EQ(query.handle.id, 0u); }, 3),
+              20);
+    const SinewRay down{{0.05f, 3, 0.05f}, {0, -1, 0}, 0, 0};
+    SinewRayHit hit{};
+    hit.size = sizeof hit;
+    failAtEveryAllocation([&] { return sinewCastRay(query, &down, &hit); }, [] {});
+    EXPECT_EQ(hit.isMet, 1u);
+
+    EXPECT_GE(failAtEveryAllocation([&] { return sinewRemovePart(world, part); },
+                                    [&] { EXPECT_GT(particles(), 0u); }),
+              0);
+    const auto remains = [&] { EXPECT_GT(particles(), 0u) << "until it leaves"; };
+    EXPECT_GT(failAtEveryAllocation(update, remains, alike), 1);
+    EXPECT_EQ(particles(), 0u);
+    EXPECT_TRUE(isOk(sinewStepWorld(world, &step, 2)));
+}
+
+TEST(CApiMemory, AFileIsLoadedWholeOrNotAtAll) {
+    const std::string file = ::testing::TempDir() + "sinew_memory.toml";
+    std::ofstream(file) << "name = \"one\"\n[[box]]\nname = \"box\"\nparticles = [3, 3, 3]\nspacing = "
+                           "0.1\ncenter = [0, 1, 0]\n"
+                           "young_modulus = 1e5\n";
+    SinewScene made{};
+    EXPECT_GT(failAtEveryAllocation([&] { return sinewLoadScene(file.c_str(), &made); },
+                                    [&] { EXPECT_EQ(made.id, 0u); }, 3),
+              20);
+    Scene scene;
+    scene.handle = made;
+    EXPECT_GT(particlesOf(scene), 27u);
+    std::filesystem::remove(file);
 }
 
 } // namespace

@@ -316,7 +316,8 @@ std::uint32_t World::contactRoomFor(std::size_t particles, std::size_t faces) co
         std::min(room, std::max<double>(asked_.contactRoom, ranges::mostContactRoom)));
 }
 
-// The world goes on as it is. Only a failure without other changes says that a room is too large.
+// The world goes on as it is, and tries again to let parts leave. Only a failure without other changes says
+// that a room is too large.
 void World::giveUp(const Making& making) noexcept {
     for (const Placed& placed : making.arriving)
         if (slotOf(placed.part) != nullptr) forget(slots_[placed.part.index]);
@@ -326,7 +327,7 @@ void World::giveUp(const Making& making) noexcept {
     }
     asked_.contactRoom = std::min(asked_.contactRoom, settings_.contactRoom);
     asked_.cutSurfaceRoom = std::min(asked_.cutSurfaceRoom, settings_.cutSurfaceRoom);
-    hasChanged_ = hasChanged_ || (making.hasLost && !making.arriving.empty());
+    hasChanged_ = hasChanged_ || making.hasLost;
 }
 
 void World::release() {
