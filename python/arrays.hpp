@@ -31,8 +31,8 @@ inline SinewVec3 toVec3(const Vector& v) {
 std::uint32_t rowsOf(const py::array& array, std::size_t columns, const char* name);
 
 /// Names of the kinds of events, by bit of SinewSettings::events.
-inline constexpr std::array<const char*, 8> eventNames{
-    "contact_begins", "contact_ends", "cut", "tear", "pieces", "sleeps", "wakes", "lacks_room"};
+inline constexpr std::array<const char*, 9> eventNames{
+    "contact_begins", "contact_ends", "cut", "tear", "pieces", "sleeps", "wakes", "lacks_room", "fragments"};
 /// Events of the newest steps of a simulation, as a list of dicts.
 py::list eventsOf(SinewSimulation simulation);
 

@@ -18,6 +18,7 @@ enum class EventKind : std::uint8_t {
     sleeps,        ///< the last awake particle of a body has fallen asleep
     wakes,         ///< particles of a body that slept have woken
     lacksRoom,     ///< the step is undone for lack of Settings::contactRoom
+    fragments,     ///< a cut or a tear has left fragments of a body that were removed (Scene::debris)
 };
 
 /// Bits of Settings::events.
@@ -27,7 +28,7 @@ constexpr std::uint32_t bitOf(EventKind kind) {
 inline constexpr std::uint32_t contactEvents =
     bitOf(EventKind::contactBegins) | bitOf(EventKind::contactEnds);
 inline constexpr std::uint32_t cutEvents =
-    bitOf(EventKind::cut) | bitOf(EventKind::tear) | bitOf(EventKind::pieces);
+    bitOf(EventKind::cut) | bitOf(EventKind::tear) | bitOf(EventKind::pieces) | bitOf(EventKind::fragments);
 inline constexpr std::uint32_t sleepEvents = bitOf(EventKind::sleeps) | bitOf(EventKind::wakes);
 inline constexpr std::uint32_t allEvents =
     contactEvents | cutEvents | sleepEvents | bitOf(EventKind::lacksRoom);
@@ -47,7 +48,8 @@ struct SINEW_API Event {
     std::uint32_t other = 0;
     /// contactBegins: the number of touching pairs of particles, of particles and faces, and of edges, or of
     /// particles at a plane or collider: the mean of the substeps of the step, rounded up. cut, tear: links,
-    /// as in Status::linksCut. pieces: their number now. lacksRoom: Status::contactRoom. Else 0.
+    /// as in Status::linksCut. pieces: their number now. fragments: removed in this step. lacksRoom:
+    /// Status::contactRoom. Else 0.
     std::uint32_t count = 0;
     bool operator==(const Event&) const = default;
 };

@@ -21,9 +21,10 @@ enum {
     SINEW_EVENT_PIECES = 4,         // the number of pieces of a body has changed by a cut or a tear
     SINEW_EVENT_SLEEPS = 5,         // the last awake particle of a body has fallen asleep
     SINEW_EVENT_WAKES = 6,          // particles of a body that slept have woken
-    SINEW_EVENT_LACKS_ROOM = 7      // the step is undone: it needs more SinewSettings::contactRoom
+    SINEW_EVENT_LACKS_ROOM = 7,     // the step is undone: it needs more SinewSettings::contactRoom
+    SINEW_EVENT_FRAGMENTS = 8       // a cut or a tear has left fragments of a body that were removed
 };
-#define SINEW_ALL_EVENTS 0xffu
+#define SINEW_ALL_EVENTS 0x1ffu
 
 enum {
     SINEW_PARTNER_NONE = 0,
@@ -40,7 +41,8 @@ typedef struct SinewEvent {
     uint32_t partner; // kind of the partner of a contact
     uint32_t other;   // its index
     // CONTACT_BEGINS: touching pairs of particles, faces and edges, or particles at the partner, the mean of the
-    // substeps rounded up. CUT, TEAR: links. PIECES: their number now. LACKS_ROOM: the room needed. Else 0.
+    // substeps rounded up. CUT, TEAR: links. PIECES: their number now. LACKS_ROOM: the room needed. FRAGMENTS:
+    // those of this step. Else 0.
     uint32_t count;
     uint32_t reserved;
 } SinewEvent;

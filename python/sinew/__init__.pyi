@@ -46,7 +46,7 @@ class Settings:
     keeps_forces: bool
     keeps_previous: bool  # for previous_positions and previous_skin_vertices
     sharp_clamp: bool  # of split: links are clamped by the directions in which they meet (docs/clamp.md)
-    events: Sequence[str]  # kinds that events() lists: contact_begins, contact_ends, cut, tear, pieces, sleeps, wakes, lacks_room
+    events: Sequence[str]  # kinds that events() lists: contact_begins, contact_ends, cut, tear, pieces, sleeps, wakes, lacks_room, fragments
     event_room: int  # events kept of a step, at most 65536
 
 class Scene:

@@ -11,6 +11,7 @@ namespace sinew::capi {
 namespace {
 
 static_assert(static_cast<int>(sim::EventKind::lacksRoom) == SINEW_EVENT_LACKS_ROOM &&
+              static_cast<int>(sim::EventKind::fragments) == SINEW_EVENT_FRAGMENTS &&
               static_cast<int>(sim::EventPartner::collider) == SINEW_PARTNER_COLLIDER &&
               sim::allEvents == SINEW_ALL_EVENTS);
 

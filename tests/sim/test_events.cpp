@@ -224,6 +224,46 @@ TEST(Events, ACutIsToldWithTheLinksAndThePieces) {
     EXPECT_EQ(eventsOf(runner.simulation(), second.frame).back().event.count, 4u);
 }
 
+// Pieces of 16 of 64 particles are removed; the number of pieces stays while another one is there.
+TEST(Events, RemovedFragmentsAreToldOnceAndAgainAfterAnUndo) {
+    Scene scene = weightless();
+    scene.debris = 17;
+    addBall(scene, {5, 5, 5});
+    Lattice lattice = blockAt({0, 0, 0});
+    lattice.isCuttable = true;
+    addLattice(scene, lattice);
+    test::Runner runner(scene, listing(cutEvents));
+    run(runner, 1);
+    const vk::Buffer whole = runner.saveTopology();
+    const test::Sweep low = test::sweepOf({{0.05, 0.15, 0.15}, {1, 0, 0}}, 1),
+                      high = test::sweepOf({{0.25, 0.15, 0.15}, {1, 0, 0}}, 1),
+                      middle = test::sweepOf({{0.15, 0.15, 0.15}, {0, 1, 0}}, 1);
+    const auto cut = [&](const test::Sweep& sweep) {
+        const Status status = runner.cut(sweep.blade());
+        std::vector<Event> events;
+        for (const Timed& timed : eventsOf(runner.simulation(), status.frame)) events.push_back(timed.event);
+        EXPECT_EQ(events.front(), (Event{Kind::cut, Partner::none, 1, 0, status.linksCut}));
+        events.erase(events.begin());
+        return events;
+    };
+    const std::vector<Event> one{{Kind::fragments, Partner::none, 1, 0, 1}};
+    EXPECT_EQ(cut(low), one);
+    EXPECT_TRUE(run(runner, 2).empty());
+    EXPECT_EQ(cut(high), one) << "of this step";
+    EXPECT_EQ(cut(middle), (std::vector<Event>{{Kind::pieces, Partner::none, 1, 0, 0},
+                                               {Kind::fragments, Partner::none, 1, 0, 2}}))
+        << "the rest, in halves";
+    runner.loadTopology(whole);
+    EXPECT_TRUE(run(runner, 1).empty());
+    EXPECT_EQ(cut(low), one);
+    test::Runner without(scene, listing(cutEvents & ~bitOf(Kind::fragments)));
+    EXPECT_EQ(without.cut(low.blade()).frame, 0u);
+    EXPECT_EQ(eventsOf(without.simulation(), 0).size(), 1u) << "they were not asked for";
+    test::Runner alone(scene, listing(bitOf(Kind::fragments)));
+    alone.cut(low.blade());
+    EXPECT_EQ(eventsOf(alone.simulation(), 0), (std::vector<Timed>{{0, one[0]}}));
+}
+
 // An undo of a cut is no event, and the next cut is compared with what it left.
 TEST(Events, AnUndoneCutCutsAgain) {
     Scene scene = weightless();

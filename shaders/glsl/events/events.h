@@ -11,7 +11,7 @@ namespace sinew::sim::layout {
 // The body of a slot whose particle belongs to none, or that holds no particle.
 #define NO_BODY 0xffffffffu
 
-// Kinds of events that the device lists: as sim::EventKind.
+// Kinds of events that the device lists: as sim::EventKind, but for the last (events::kindOf).
 #define EVENT_CONTACT_BEGINS 0
 #define EVENT_CONTACT_ENDS 1
 #define EVENT_CUT 2
@@ -19,7 +19,8 @@ namespace sinew::sim::layout {
 #define EVENT_PIECES 4
 #define EVENT_SLEEPS 5
 #define EVENT_WAKES 6
-#define EVENT_KINDS 7
+#define EVENT_FRAGMENTS 7
+#define EVENT_KINDS 8
 
 // A contact ends in the step in which nothing has touched for so many steps: a contact at rest opens and closes.
 #define EVENT_STEPS_APART 2u
@@ -28,6 +29,7 @@ namespace sinew::sim::layout {
 struct BodyEvents {
     uint awake, asleep; // 1 = some of its particles are, at the end of the step
     uint cut, torn;     // links
+    uint fragments;     // that were removed
 };
 
 // An event. The first entry of a list is its head: the number of events as `kind`.
@@ -54,6 +56,7 @@ struct EventCutPush {
     uint first, count;
     uint stiffLinks; // bits of the links that count
     uint run;
+    uint bodies;
 };
 
 #ifdef __cplusplus

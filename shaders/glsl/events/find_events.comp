@@ -8,9 +8,9 @@
 
 layout(std430, binding = 0) readonly buffer Contacts { uint contacts[]; }; // of this step, by body and partner
 layout(std430, binding = 1) buffer Touching { uint touching[]; }; // 0 = they do not touch, else 1 + steps since they did
-layout(std430, binding = 2) readonly buffer Noted { BodyEvents noted[]; };
+layout(std430, binding = 2) buffer Noted { BodyEvents noted[]; };
 layout(std430, binding = 3) buffer Slept { uint slept[]; };           // by body: 1 = it slept after the step before
-layout(std430, binding = 4) readonly buffer Pieces { uint pieces[]; }; // by body, where links died
+layout(std430, binding = 4) readonly buffer Pieces { uint pieces[]; }; // by body, where links died; then fragments
 layout(std430, binding = 5) buffer PiecesBefore { uint piecesBefore[]; };
 layout(std430, binding = 6) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 7) writeonly buffer Found { uint found[]; };
@@ -55,30 +55,36 @@ bool hasSlept(uint body) {
     return slept[body] != before && noted[body].awake != EVENT_ABSENT;
 }
 
-bool hasParted(uint body) {
-    if (!mayBeCut) return false;
-    if (mayComeBack && changes[body] >= POOL_GONE) piecesBefore[body] = wholePieces[body];
-    if ((noted[body].cut | noted[body].torn) == 0u) return false;
-    const uint before = piecesBefore[body];
-    piecesBefore[body] = pieces[body];
-    return pieces[body] != before;
+// Notes the change of a count since the last cut of a body: of its pieces, or of its removed fragments.
+uint change(uint body, uint index) {
+    if (!mayBeCut) return 0u;
+    if (mayComeBack && changes[body] >= POOL_GONE) piecesBefore[index] = wholePieces[index];
+    if ((noted[body].cut | noted[body].torn) == 0u) return 0u;
+    const uint before = piecesBefore[index];
+    piecesBefore[index] = pieces[index];
+    return pieces[index] - before;
 }
 
 void findOthers(uint word, uint words) {
-    uint cut = 0u, torn = 0u, parted = 0u, sleeps = 0u, wakes = 0u;
+    uint cut = 0u, torn = 0u, parted = 0u, sleeps = 0u, wakes = 0u, crumbled = 0u;
     for (uint body = 32u * word; body < min(32u * word + 32u, push.bodies); ++body) {
         const uint bit = 1u << (body & 31u);
         if (noted[body].cut > 0u) cut |= bit;
         if (noted[body].torn > 0u) torn |= bit;
-        if (hasParted(body)) parted |= bit;
+        if (change(body, body) != 0u) parted |= bit;
+        const uint fragments = change(body, push.bodies + body);
+        if (int(fragments) > 0) {
+            crumbled |= bit;
+            noted[body].fragments = fragments;
+        }
         if (hasSlept(body)) {
             if (slept[body] != 0u) sleeps |= bit;
             else wakes |= bit;
         }
     }
-    const uint sets[5] = uint[](cut, torn, parted, sleeps, wakes);
+    const uint sets[6] = uint[](cut, torn, parted, sleeps, wakes, crumbled);
     const uint start = (haveContacts ? 2u * push.bodies * push.rowWords : 0u) + word;
-    for (uint k = 0u; k < 5u; ++k)
+    for (uint k = 0u; k < 6u; ++k)
         found[start + k * words] = isListed(EVENT_CUT + k) ? sets[k] : 0u;
 }
 

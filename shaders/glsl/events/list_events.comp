@@ -22,6 +22,7 @@ uint setWords(uint kind) { return kind <= EVENT_CONTACT_ENDS ? push.bodies * pus
 uint countOf(uint kind, uint body) {
     if (kind == EVENT_CUT) return noted[body].cut;
     if (kind == EVENT_TEAR) return noted[body].torn;
+    if (kind == EVENT_FRAGMENTS) return noted[body].fragments;
     return kind == EVENT_PIECES && mayBeCut ? pieces[body] : 0u;
 }
 

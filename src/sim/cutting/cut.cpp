@@ -186,7 +186,7 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuf
     addDebrisRemoval(program, cut, particles);
     for (std::uint32_t r = 0; r < runs; ++r)
         events::addPieces(program, particles, cut.runs[r].push,
-                          {cut.arguments, 2 * runs + r, cut.runs[r].push.count});
+                          {cut.arguments, 2 * runs + r, cut.runs[r].push.count}, cut.labels);
 }
 
 // Draws what the links leave: debris, the surface of cuts, the skins of sheets.

@@ -22,7 +22,7 @@ static_assert(static_cast<int>(EventKind::contactBegins) == EVENT_CONTACT_BEGINS
               static_cast<int>(EventKind::pieces) == EVENT_PIECES &&
               static_cast<int>(EventKind::sleeps) == EVENT_SLEEPS &&
               static_cast<int>(EventKind::wakes) == EVENT_WAKES &&
-              static_cast<int>(EventKind::lacksRoom) == EVENT_KINDS);
+              static_cast<int>(EventKind::lacksRoom) == EVENT_FRAGMENTS);
 
 // constant_ids of the kernels of events, and of colliders.glsl
 constexpr std::uint32_t maySleepId = 1, haveContactsId = 2, mayBeCutId = 3, mayComeBackId = 4, tearsId = 1,
@@ -79,8 +79,16 @@ void addContactBuffers(Build& build, Events& events) {
     events.planeTable = uploadPlanes(program, scene);
 }
 
-layout::EventCutPush pushOf(const layout::CutPush& run) {
-    return {run.first, run.count, run.stiffLinks, run.run};
+layout::EventCutPush pushOf(const layout::CutPush& run, const Events& events) {
+    return {run.first, run.count, run.stiffLinks, run.run, events.push.bodies};
+}
+
+// Bits of the kinds that the device lists.
+std::uint32_t listedKinds(std::uint32_t asked) {
+    std::uint32_t kinds = 0;
+    for (std::uint32_t kind = 0; kind < EVENT_KINDS; ++kind)
+        if ((asked & bitOf(kindOf(kind))) != 0) kinds |= 1u << kind;
+    return kinds;
 }
 
 ProgramBuilder::Constants constantsOf(const Events& events) {
@@ -96,6 +104,10 @@ const Events* contactEventsOf(const ParticleBuffers& particles) {
 }
 
 } // namespace
+
+EventKind kindOf(std::uint32_t listed) {
+    return listed == EVENT_FRAGMENTS ? EventKind::fragments : static_cast<EventKind>(listed);
+}
 
 void check(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if ((settings.events & ~allEvents) != 0)
@@ -113,7 +125,7 @@ void check(const Scene& scene, const Settings& settings, Complaints& complaints)
 void add(Build& build) {
     const SceneModel& model = build.model;
     const Settings& settings = model.settings;
-    const std::uint32_t kinds = settings.events & ((1u << EVENT_KINDS) - 1);
+    const std::uint32_t kinds = listedKinds(settings.events);
     if (kinds == 0 || model.scene.bodies.empty()) return;
     ProgramBuilder& program = build.program;
     auto events = std::make_shared<Events>();
@@ -194,17 +206,17 @@ void addRows(ProgramBuilder& program, const ParticleBuffers& predicted, const sl
 }
 
 void addCutBuffers(ProgramBuilder& program, const ParticleBuffers& particles) {
-    if (!particles.events || (particles.events->push.kinds & cutEvents) == 0) return;
+    if (!particles.events || (particles.events->push.kinds & listedKinds(cutEvents)) == 0) return;
     Events& events = *particles.events;
     const auto sizes = firstContents<std::uint32_t>(program, program.program().cutting.pieceSizes);
     const auto bodies = firstContents<std::uint32_t>(program, events.bodies);
-    std::vector<std::uint32_t> pieces(events.push.bodies);
+    std::vector<std::uint32_t> pieces(2 * std::size_t{events.push.bodies}); // then fragments: none
     for (std::size_t i = 0; i < sizes.size(); ++i) {
         const std::uint32_t body = bodies[program.program().slots[i]];
         if (sizes[i] > 0 && body != NO_BODY) ++pieces[body];
     }
     events.mayBeCut = true;
-    events.pieces = program.scratch<std::uint32_t>("events.pieces", events.push.bodies);
+    events.pieces = program.scratch<std::uint32_t>("events.pieces", pieces.size());
     events.piecesBefore = program.upload("events.pieces_before", pieces);
     events.wholePieces = program.upload("events.whole_pieces", pieces);
     program.addToState(events.piecesBefore, events.piecesBefore);
@@ -231,17 +243,18 @@ void addCut(ProgramBuilder& program, const ParticleBuffers& particles, const lay
     program.dispatchIndirect(k::noteCuts, {cutting.listedArguments, run.run, run.count},
                              {events->bodies, cutting.savedLinks, boundIf(tears, events->cutLinks),
                               cutting.links, cutting.listedCounts, cutting.listed, events->noted},
-                             pushOf(run), {{tearsId, tears}});
+                             pushOf(run, *events), {{tearsId, tears}});
 }
 
 void addPieces(ProgramBuilder& program, const ParticleBuffers& particles, const layout::CutPush& run,
-               const IndirectItems& items) {
+               const IndirectItems& items, BufferId labels) {
     const Events* events = cutEventsOf(particles);
     if (!events) return;
     const CuttingBuffers& cutting = program.program().cutting;
-    program.dispatchIndirect(k::notePieces, items,
-                             {events->bodies, cutting.particles, cutting.pieceSizes, events->pieces},
-                             pushOf(run));
+    program.dispatchIndirect(
+        k::notePieces, items,
+        {events->bodies, cutting.particles, cutting.pieceSizes, events->pieces, cutting.pieces, labels},
+        pushOf(run, *events));
 }
 
 void addPiecesKept(ProgramBuilder& program, const ParticleBuffers& particles) {

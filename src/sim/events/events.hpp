@@ -10,6 +10,7 @@
 #include "sim/core/complaints.hpp"
 #include "sim/model/feature.hpp"
 #include "sim/sleep/sleep.hpp"
+#include "sinew/events.hpp"
 
 namespace sinew::sim::events {
 
@@ -24,16 +25,20 @@ struct Events {
     BufferId noted;                          ///< layout::BodyEvents, by body, of this step
     BufferId contacts, touching;             ///< by body and partner: of this step; state (find_events.comp)
     BufferId reaches, planeTable;
-    BufferId slept;                ///< by body: state
-    BufferId cutLinks;             ///< by slot: links after the blade, if others may tear
-    BufferId pieces, piecesBefore; ///< by body: of this step, where links died; state
-    BufferId wholePieces;          ///< by body: uncut
+    BufferId slept;    ///< by body: state
+    BufferId cutLinks; ///< by slot: links after the blade, if others may tear
+    /// By body, then removed fragments by body: of this step, where links died; state.
+    BufferId pieces, piecesBefore;
+    BufferId wholePieces;       ///< the same, uncut
     BufferId changes = unbound; ///< by body: POOL_...; unbound if none comes back whole (cutting/restoring)
     BufferId found, list;       ///< sets; layout::EventEntry
     /// Words of the sets of contacts, of those that begin and of those that end, and of one of bodies.
     std::uint32_t contactWords() const { return haveContacts ? 2 * push.bodies * push.rowWords : 0; }
     std::uint32_t bodyWords() const { return (push.bodies + 31) / 32; }
 };
+
+/// The kind of an entry that the device lists as EVENT_....
+EventKind kindOf(std::uint32_t listed);
 
 /// Complains about the settings of events, and about more pairs than ranges::mostEventPairs.
 void check(const Scene& scene, const Settings& settings, Complaints& complaints);
@@ -66,9 +71,9 @@ void addBladeEnd(ProgramBuilder& program, const ParticleBuffers& particles);
 /// Appends the count of links that died among the slots of a run, after all of them have.
 void addCut(ProgramBuilder& program, const ParticleBuffers& particles, const layout::CutPush& run);
 /// Appends the count of pieces among the slots of a run, after pieces were found. `items`: of a pass over
-/// them.
+/// them. `labels`: by slot, the slot that its piece is named after.
 void addPieces(ProgramBuilder& program, const ParticleBuffers& particles, const layout::CutPush& run,
-               const IndirectItems& items);
+               const IndirectItems& items, BufferId labels);
 /// Appends, to the list `rewrite`, what makes these counts the state, so that they cause no event.
 void addPiecesKept(ProgramBuilder& program, const ParticleBuffers& particles);
 

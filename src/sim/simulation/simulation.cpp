@@ -1,6 +1,8 @@
 // The façade: validates, compiles, owns the executor, and turns a Step into the parameters that kernels read.
 #include "sim/simulation/simulation_state.hpp"
 
+#include "sim/events/events.hpp"
+
 #include "sinew/validate.hpp"
 
 #include <algorithm>
@@ -378,7 +380,7 @@ Events Simulation::events(std::uint64_t frame) const {
     Events events{.isFinished = true, .list = {}, .lost = listed.lost};
     for (const layout::EventEntry& entry : listed.entries) {
         Event& event = events.list.emplace_back(
-            Event{.kind = static_cast<EventKind>(entry.kind), .body = entry.body, .count = entry.count});
+            Event{.kind = events::kindOf(entry.kind), .body = entry.body, .count = entry.count});
         if ((bitOf(event.kind) & contactEvents) == 0) continue;
         setPartner(event, entry.partner, state_->program.events);
         event.count = (entry.count + state_->substeps - 1) / state_->substeps;
