@@ -260,10 +260,10 @@ TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
     }
     facts.cuts = {"at 1.00 s", "at 2.00 s"};
     facts.undos = 1;
-    constexpr VkExtent2D tall{1280, 1400};
+    constexpr VkExtent2D tall{1280, 1480};
     settle(tall);
     std::set<Action> clicked;
-    for (float y = 20; y < 1390; y += 12)
+    for (float y = 20; y < 1470; y += 12)
         for (const float x :
              {30.0f, 1010.0f, 1040.0f, 1070.0f, 1100.0f, 1130.0f, 1160.0f, 1190.0f, 1220.0f, 1250.0f})
             for (const Action action : click({x, y}, tall).actions) clicked.insert(action);
