@@ -190,6 +190,14 @@ TEST_F(PanelFoldsTest, TakeTheRoomOfAComparisonBeforeItIsThere) {
     EXPECT_EQ(height(), off) << "a result of two lines";
 }
 
+// A cut adds phases, and another solver removes some: the colors of the others stay.
+TEST(PhaseColor, IsOfTheNameAndDistinct) {
+    std::set<ImU32> colors;
+    for (const char* name : {"begin", "cut", "solve", "publish", "skin", "whole skin", "of a later version"})
+        colors.insert(parts::phaseColor(name));
+    EXPECT_EQ(colors.size(), 7u);
+}
+
 TEST(ComparisonText, SaysCostAndDistanceAsFarAsTheyAreKnown) {
     Curve none, slow, fast;
     slow.add(2);

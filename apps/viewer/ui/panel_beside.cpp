@@ -42,7 +42,7 @@ void bothPlot(const Curve& left, const Curve& right, const char* format, double 
             list.PathLineTo(
                 {from.x + width * static_cast<float>(first + i) / static_cast<float>(Curve::length),
                  from.y + height * (1 - std::min(curve->at(i) / most, 1.0f))});
-        list.PathStroke(phaseColor(curve == &left ? 0 : 1), 0, 1.5f);
+        list.PathStroke(curveColor(curve == &left ? 0 : 1), 0, 1.5f);
     }
     if (left.count() + right.count() > 0)
         list.AddText(from, ImGui::GetColorU32(quiet()), figure(format, factor * double{most}).c_str());
@@ -51,7 +51,7 @@ void bothPlot(const Curve& left, const Curve& right, const char* format, double 
 
 void lineOf(const std::string& name, std::size_t color, const Curve& ms, const Curve& rms,
             const Curve& largest) {
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(phaseColor(color)), "%s", name.c_str());
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(curveColor(color)), "%s", name.c_str());
     const std::string cost = ms.count() > 0 ? figure("%.2f ms", double{ms.median()}) : "";
     row(cost.c_str(), rms.count() == 0 ? ""
                                        : figure("rms %.2f %%", 100.0 * double{rms.newest()}) +

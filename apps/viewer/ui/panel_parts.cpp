@@ -7,12 +7,17 @@
 
 namespace sinew::viewer::parts {
 
-ImU32 phaseColor(std::size_t phase) {
+ImU32 curveColor(std::size_t curve) {
     constexpr std::array<ImU32, 7> colors{IM_COL32(86, 180, 233, 255), IM_COL32(230, 159, 0, 255),
                                           IM_COL32(0, 158, 115, 255),  IM_COL32(204, 121, 167, 255),
                                           IM_COL32(240, 228, 66, 255), IM_COL32(0, 114, 178, 255),
                                           IM_COL32(213, 94, 0, 255)};
-    return colors[phase % colors.size()];
+    return colors[curve % colors.size()];
+}
+
+ImU32 phaseColor(std::string_view name) {
+    constexpr std::array<std::string_view, 6> names{"begin", "solve", "publish", "cut", "skin", "whole skin"};
+    return curveColor(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
 }
 
 ImVec4 quiet() {

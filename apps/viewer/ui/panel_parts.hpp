@@ -19,8 +19,10 @@ struct TypedNumber;
 
 namespace sinew::viewer::parts {
 
-/// Colour of a phase by its index; distinct for most colour-blind eyes (Okabe and Ito 2008).
-ImU32 phaseColor(std::size_t phase);
+/// Colour of a curve by its index; distinct for most colour-blind eyes (Okabe and Ito 2008).
+ImU32 curveColor(std::size_t curve);
+/// Colour of a phase of a step: it is the same in every scene.
+ImU32 phaseColor(std::string_view name);
 
 /// Text colours: quiet text; the next two stand out, the second more.
 ImVec4 quiet();

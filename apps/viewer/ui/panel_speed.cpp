@@ -72,7 +72,8 @@ void phasePlot(const std::vector<PhaseCurve>& phases) {
             const float above = below + phases[p].ms.at(i);
             const float top = field.y(above), bottom = field.y(below);
             if (bottom - top > 0.25f)
-                list.AddRectFilled({field.x(place), top}, {field.x(place + 1), bottom}, phaseColor(p));
+                list.AddRectFilled({field.x(place), top}, {field.x(place + 1), bottom},
+                                   phaseColor(phases[p].name));
             below = above;
         }
     }
@@ -91,7 +92,7 @@ void swatch(ImU32 color) {
 
 void legend(const std::vector<PhaseCurve>& phases) {
     for (std::size_t p = 0; p < phases.size(); ++p) {
-        swatch(phaseColor(p));
+        swatch(phaseColor(phases[p].name));
         row(phases[p].name.c_str(), number("%.2f ms", double{phases[p].ms.median()}));
     }
 }
@@ -110,13 +111,13 @@ void strainPlot(const Facts& facts) {
     float most = 1e-4f;
     for (std::size_t i = 0; i < facts.strainMax.count(); ++i) most = std::max(most, facts.strainMax.at(i));
     const Field field = makeField(4 * ImGui::GetTextLineHeight(), most);
-    line(field, facts.strainMax, phaseColor(1));
-    line(field, facts.strainRms, phaseColor(0));
+    line(field, facts.strainMax, curveColor(1));
+    line(field, facts.strainRms, curveColor(0));
     label(field, number("%g %%", 100.0 * double{field.most}));
     const double rms = double{facts.strainRms.newest()}, largest = double{facts.strainMax.newest()};
-    swatch(phaseColor(0));
+    swatch(curveColor(0));
     pair("rms", number("%.2f %%", 100 * rms), "largest", number("%.1f %%", 100 * largest),
-         ImGui::ColorConvertU32ToFloat4(phaseColor(1)));
+         ImGui::ColorConvertU32ToFloat4(curveColor(1)));
 }
 
 } // namespace
