@@ -1,4 +1,4 @@
-# The libraries as hosts use them, and their installation as a CMake package (docs/embedding.md, "Install").
+# The libraries as hosts use them, and their installation as a CMake package (docs/packages.md, "Install").
 #
 #   sinew_package(<component> <name> [STATIC] OUTPUT <file name> [MAP <symbols>] OBJECTS <targets...> [LINKS <targets...>])
 #

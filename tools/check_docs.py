@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Pages that explain, with limits of length and width.
 PAGES = ["README.md"] + [f"docs/{name}.md" for name in (
     "overview", "step", "features", "contacts", "contact-lists", "self-contact", "contact-rules", "cutting", "skins", "import",
-    "embedding", "c-and-python", "gallery", "viewer", "viewer-inside", "extending", "extending-viewer", "limits", "glossary")]
+    "embedding", "packages", "c-and-python", "gallery", "viewer", "viewer-inside", "extending", "extending-viewer", "limits", "glossary")]
 MOST_LINES, MOST_COLUMNS = 150, 110
 # Pages of figures: limits of length and width for all but rows of tables. They name parts of Sinew that are gone, too.
 FIGURES = ["docs/performance.md"] + sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs" / "performance").glob("*.md"))
