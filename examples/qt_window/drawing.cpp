@@ -1,6 +1,7 @@
 #include "qt_window/drawing.hpp"
 
 #include "qt_window_shaders.hpp"
+#include "sinew/vk/spirv.hpp"
 
 #include <array>
 #include <cstring>
@@ -47,8 +48,8 @@ VkShaderModule Drawing::makeModule(std::span<const std::uint32_t> code) const {
 }
 
 void Drawing::makePipeline(const QVulkanWindow& window) {
-    const VkShaderModule vertex = makeModule(example::organVert.words),
-                         fragment = makeModule(example::organFrag.words);
+    const VkShaderModule vertex = makeModule(sinew::vk::wordsOf(example::organVert)),
+                         fragment = makeModule(sinew::vk::wordsOf(example::organFrag));
     const std::array<VkPipelineShaderStageCreateInfo, 2> stages{
         {{.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
           .stage = VK_SHADER_STAGE_VERTEX_BIT,

@@ -21,7 +21,7 @@ std::uint64_t kernelHash() {
     static const std::uint64_t hash = [] {
         std::uint64_t all = 0;
         for (const vk::ShaderCode* code : sim::kernels::all)
-            all = sim::fnv1a(std::as_bytes(code->words), all);
+            all = sim::fnv1a(std::as_bytes(code->packed), all);
         return all;
     }();
     return hash;

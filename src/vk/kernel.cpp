@@ -137,12 +137,14 @@ VkPipeline createPipeline(const Device& device, const ShaderCode& code, VkPipeli
 
 Kernel::Kernel(const Device& device, const ShaderCode& code,
                std::span<const SpecialisationConstant> constants)
-    : device_(device.handle()), functions_(&device.functions()), interface_(readInterface(code, constants)),
-      name_(code.name) {
+    : device_(device.handle()), functions_(&device.functions()), name_(code.name) {
+    const std::vector<std::uint32_t> words = wordsOf(code);
+    const ShaderCode unpacked{name_.c_str(), words};
+    interface_ = readInterface(unpacked, constants);
     checkConstants(interface_, name_, constants);
     checkLimits(interface_, name_, device.limits());
     try {
-        create(device, code, constants);
+        create(device, unpacked, constants);
     } catch (...) {
         release();
         throw;

@@ -10,7 +10,7 @@ namespace sinew::vk {
 
 std::shared_ptr<const Kernel> KernelStore::get(const Device& device, const ShaderCode& code,
                                                std::span<const SpecialisationConstant> constants) {
-    Key key{code.words.data(), {}};
+    Key key{code.identity(), {}};
     for (const SpecialisationConstant& constant : constants)
         key.second.emplace_back(constant.id, constant.value);
     const auto find = [&]() -> std::shared_ptr<const Kernel> {

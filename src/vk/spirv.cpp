@@ -1,9 +1,12 @@
 // Derives the interface of a kernel from a parsed module.
 #include "sinew/vk/spirv.hpp"
 
+#include "vk/inflate.hpp"
 #include "vk/spirv_module.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <stdexcept>
 
 namespace sinew::vk {
 
@@ -172,8 +175,21 @@ void readGroupSize(const Module& module, KernelInterface& interface) {
 
 } // namespace
 
+std::vector<std::uint32_t> wordsOf(const ShaderCode& code) {
+    if (code.packed.empty()) return {code.words.begin(), code.words.end()};
+    std::vector<std::uint32_t> words(code.wordCount);
+    auto* const bytes = reinterpret_cast<std::uint8_t*>(words.data());
+    if (!inflate(code.packed, {bytes, words.size() * sizeof(std::uint32_t)}))
+        throw std::runtime_error(std::string("kernel ") + code.name + ": its packed bytes are damaged");
+    if constexpr (std::endian::native == std::endian::big) // the bytes are little-endian
+        for (std::uint32_t& word : words)
+            word = word >> 24 | (word >> 8 & 0xff00) | (word << 8 & 0xff0000) | word << 24;
+    return words;
+}
+
 KernelInterface readInterface(const ShaderCode& code, std::span<const SpecialisationConstant> constants) {
-    const Module module = spirv::parse(code, constants);
+    const std::vector<std::uint32_t> words = wordsOf(code); // the module refers to them
+    const Module module = spirv::parse({code.name, words}, constants);
     checkCapabilities(module);
     if (module.entryPoints != 1)
         module.fail("it has " + std::to_string(module.entryPoints) + " entry points instead of one");

@@ -1,5 +1,7 @@
 #include "scenes/specialised.hpp"
 
+#include "sinew/vk/spirv.hpp"
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -72,7 +74,7 @@ accessedBindings(const vk::ShaderCode& code, const std::map<std::uint32_t, std::
     const fs::path folder = fs::temp_directory_path();
     const std::string stem = "sinew_specialised_" + std::to_string(::getpid()) + "_" + code.name;
     const fs::path from = folder / (stem + ".spv"), to = folder / (stem + ".out.spv");
-    write(from, withDefaults({code.words.begin(), code.words.end()}, constants));
+    write(from, withDefaults(vk::wordsOf(code), constants));
     const std::string command =
         "spirv-opt --freeze-spec-const --fold-spec-const-op-composite "
         "--merge-return --inline-entry-points-exhaustive --convert-local-access-chains "

@@ -2,6 +2,7 @@
 #include "support/null_hardware.hpp"
 
 #include "sinew/vk/check.hpp"
+#include "sinew/vk/spirv.hpp"
 #include "vk/environment.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ struct Capture {
     PFN_vkCreateGraphicsPipelines createGraphics = nullptr;
     PFN_vkGetPipelineExecutablePropertiesKHR properties = nullptr;
     PFN_vkGetPipelineExecutableStatisticsKHR statistics = nullptr;
-    std::set<const std::uint32_t*> codes; // code of all modules
+    std::set<std::vector<std::uint32_t>> codes; // of all modules
     std::vector<PipelineFacts> pipelines;
     std::multimap<VkPipeline, std::size_t> newest; // the driver reuses the handles of destroyed pipelines
 };
@@ -87,7 +88,7 @@ void read(VkDevice device, VkPipeline pipeline, const std::vector<std::uint32_t>
 
 VKAPI_ATTR VkResult VKAPI_CALL createModule(VkDevice device, const VkShaderModuleCreateInfo* info,
                                             const VkAllocationCallbacks* allocator, VkShaderModule* module) {
-    capture.codes.insert(info->pCode);
+    capture.codes.emplace(info->pCode, info->pCode + info->codeSize / sizeof(std::uint32_t));
     return capture.createModule(device, info, allocator, module);
 }
 
@@ -314,7 +315,7 @@ void NullHardware::borrow() {
 }
 
 bool NullHardware::hasModuleOf(const vk::ShaderCode& code) const {
-    return capture.codes.contains(code.words.data());
+    return capture.codes.contains(vk::wordsOf(code));
 }
 
 const std::vector<PipelineFacts>& NullHardware::pipelines() const {

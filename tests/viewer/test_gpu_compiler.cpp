@@ -3,6 +3,7 @@
 // SINEW_FULL=1. SINEW_KERNEL_TABLE names a folder for a table of all shaders.
 #include "all_viewer_shaders.hpp"
 #include "sinew/vk/kernel_store.hpp"
+#include "sinew/vk/spirv.hpp"
 #include "support/full.hpp"
 #include "support/null_hardware.hpp"
 #include "viewer/render/renderer.hpp"
@@ -24,8 +25,9 @@ using test::PipelineFacts;
 // By the execution model of the entry point in its SPIR-V.
 bool isKernel(const vk::ShaderCode& code) {
     constexpr std::uint32_t header = 5, entryPoint = 15, compute = 5;
-    for (std::size_t at = header; at < code.words.size(); at += code.words[at] >> 16)
-        if ((code.words[at] & 0xffff) == entryPoint) return code.words[at + 1] == compute;
+    const std::vector<std::uint32_t> words = vk::wordsOf(code);
+    for (std::size_t at = header; at < words.size(); at += words[at] >> 16)
+        if ((words[at] & 0xffff) == entryPoint) return words[at + 1] == compute;
     return false;
 }
 

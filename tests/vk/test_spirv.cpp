@@ -114,15 +114,16 @@ TEST(KernelInterface, IsRefusedByNameWhereAKernelBreaksARule) {
 }
 
 TEST(KernelInterface, IsRefusedForEveryTruncationBeforeTheCode) {
-    const auto words = kernels::everything.words;
+    const std::vector<std::uint32_t> words = vk::wordsOf(kernels::everything);
     const std::size_t end = interfaceLength(words);
     for (std::size_t length = 0; length <= end; ++length)
-        EXPECT_NE(complaintAbout({"cut", words.first(length)}), "none") << length << " words of " << end;
+        EXPECT_NE(complaintAbout({"cut", std::span(words).first(length)}), "none")
+            << length << " words of " << end;
 }
 
 TEST(KernelInterface, SurvivesEverySingleDamagedWord) {
-    const auto words = kernels::everything.words;
-    std::vector<std::uint32_t> damaged(words.begin(), words.end());
+    const std::vector<std::uint32_t> words = vk::wordsOf(kernels::everything);
+    std::vector<std::uint32_t> damaged = words;
     std::size_t refused = 0;
     for (std::size_t at = 0; at < interfaceLength(words); ++at)
         for (const std::uint32_t wrong : {0u, 0xffffffffu, words[at] ^ 0x10000u, words[at] + 1}) {

@@ -16,9 +16,10 @@ namespace {
 class Module {
 public:
     Module(const vk::Device& device, const vk::ShaderCode& code) : device_(device) {
+        const std::vector<std::uint32_t> words = vk::wordsOf(code);
         const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                            .codeSize = code.words.size_bytes(),
-                                            .pCode = code.words.data()};
+                                            .codeSize = words.size() * sizeof(std::uint32_t),
+                                            .pCode = words.data()};
         vk::check(device.functions().vkCreateShaderModule(device.handle(), &info, nullptr, &module_),
                   "vkCreateShaderModule", code.name);
     }

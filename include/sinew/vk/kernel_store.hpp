@@ -19,8 +19,9 @@ namespace sinew::vk {
 class SINEW_API KernelStore {
 public:
     /// Returns the kernel for this code and these constants, in their order, if it is in use or kept, else
-    /// makes a new one. Code is identified by the address of its words: these must stay valid as long as the
-    /// store, like compiled-in code. Must not outlive `device`, the owner of this store. Throws as Kernel.
+    /// makes a new one. Code is identified by ShaderCode::identity(): its words or bytes must stay valid as
+    /// long as the store, like compiled-in code. Must not outlive `device`, the owner of this store. Throws
+    /// as Kernel.
     std::shared_ptr<const Kernel> get(const Device& device, const ShaderCode& code,
                                       std::span<const SpecialisationConstant> constants);
 
@@ -45,7 +46,7 @@ private:
     void addKeeper();
     void removeKeeper() noexcept;
 
-    using Key = std::pair<const std::uint32_t*, std::vector<std::pair<std::uint32_t, std::uint32_t>>>;
+    using Key = std::pair<const void*, std::vector<std::pair<std::uint32_t, std::uint32_t>>>;
     struct Entry {
         std::weak_ptr<const Kernel> users;
         std::shared_ptr<const Kernel> kept; // set while there are KeptKernels

@@ -80,6 +80,9 @@ struct SINEW_API KernelInterface {
     bool hasConstant(std::uint32_t id) const { return std::ranges::binary_search(specialisationIds, id); }
 };
 
+/// The SPIR-V of `code`. Throws std::runtime_error with the shader's name if its packed bytes are damaged.
+SINEW_API std::vector<std::uint32_t> wordsOf(const ShaderCode& code);
+
 /// Reads the interface of `code`. `constants` replace the defaults in the module; unknown ids are ignored.
 /// Throws std::runtime_error with the shader's name if the module breaks a rule: a set other than 0, a gap in
 /// the bindings, anything but buffers, a block of fixed members and a run-time array, a row-major matrix, a

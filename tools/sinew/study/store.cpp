@@ -8,6 +8,7 @@
 #include "sim/model/links.hpp"
 #include "sinew/json.hpp"
 #include "sinew/validate.hpp"
+#include "sinew/vk/spirv.hpp"
 
 #include <fmt/format.h>
 
@@ -78,7 +79,7 @@ std::string hashOf(const sim::Scene& scene) {
 std::string hashOf(const sim::StepProgram& program) {
     Hash hash;
     for (const sim::KernelUse& kernel : program.kernels) {
-        hash.add(std::as_bytes(kernel.code->words));
+        hash.add(std::as_bytes(std::span<const std::uint32_t>(vk::wordsOf(*kernel.code))));
         for (const auto& [id, value] : kernel.constants) hash.addValues(id, value);
     }
     for (const sim::BufferSpec& buffer : program.buffers) {
