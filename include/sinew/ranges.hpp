@@ -104,6 +104,10 @@ inline constexpr std::uint32_t mostInOneSpot = 256;
 inline constexpr Range framesInFlight{1, 64};
 inline constexpr Range outputFrames{0, 8};
 inline constexpr Range eventRoom{1, 65536};
+/// The flags that Settings::outputUsage may have: those of Vulkan 1.0 (bits 0 to 8), device addresses (bit
+/// 17), for which buffers must come from a host's BufferHook, and the input of acceleration structures (bit
+/// 19).
+inline constexpr std::uint32_t outputUsages = 0x1ff | 1u << 17 | 1u << 19;
 /// Limit of the pairs of a body and what it may touch whose contacts are events.
 inline constexpr std::uint64_t mostEventPairs = 1u << 24;
 inline constexpr std::uint32_t mostCutSurfaceRoom = 16'000'000; // the next number is exact in float too

@@ -425,6 +425,14 @@ struct SINEW_API Settings {
     /// Keeps the outputs of as many of the newest steps, each in buffers of its own, 0..8; 0 = none. With 2 a
     /// host draws step N while step N + 1 is computed (Simulation::outputs). Costs a copy of each output.
     std::uint32_t outputFrames = 0;
+    /// VkBufferUsageFlags that a host needs of outputs, such as those of a build of acceleration structures,
+    /// beyond what they have: storage, uniform and texel buffer, source and target of copies, and vertex,
+    /// index or indirect buffer by their contents. Outputs are all buffers that the views of a Simulation
+    /// show. Allowed are ranges::outputUsages.
+    std::uint32_t outputUsage = 0;
+    /// Queue families that use outputs besides the family of the device: bit i = family i; 0 = none. Outputs
+    /// are then shared (VK_SHARING_MODE_CONCURRENT), and a semaphore suffices to hand them over.
+    std::uint32_t outputFamilies = 0;
     /// Makes each kind of pass a phase of its own in the `timestamps` of a step (Simulation::phases).
     bool timesPasses = false;
     bool isReversed = false; ///< runs every kernel in reversed invocation order; the state must not change

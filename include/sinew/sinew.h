@@ -65,8 +65,7 @@ SINEW_C_API const char* sinewResultName(SinewResult result);
 SINEW_C_API const char* sinewLastError(void);
 
 enum { SINEW_LOG_INFO = 0, SINEW_LOG_WARNING = 1, SINEW_LOG_ERROR = 2 };
-// Gets a sentence. Called in the thread of the call that it is about; must not call Sinew, throw or return
-// by longjmp.
+// Gets a sentence, in the thread of the call that it is about. Must not call Sinew, throw or return by longjmp.
 typedef void (*SinewLog)(void* user, uint32_t severity, const char* sentence);
 // Sets the log of the process, null for none: the chosen device, messages of validation, warnings of scenes,
 // and each failed call. Without a log nothing is printed.
@@ -380,6 +379,7 @@ typedef struct SinewSettings {
     uint32_t keepsPrevious;                // keeps SINEW_PREVIOUS_POSITIONS and SINEW_PREVIOUS_SKIN_VERTICES
     uint32_t hasSharpClamp;                // of `split`: links are clamped by the directions in which they meet
     uint32_t outputFrames;                 // steps of which sinewGetFrameView() of sinew_query.h has the outputs, 0 to 8
+    uint32_t outputUsage, outputFamilies;  // of outputs: further VkBufferUsageFlags; bits of queue families that share them
 } SinewSettings;
 #define SINEW_AUTO_LEVELS 0xffffffffu // as many as win at equal error, by the kind and size of bodies and the substeps
 static inline SinewSettings sinewDefaultSettings(void) { SINEW_DEFAULTS(SinewSettings, SETTINGS); }

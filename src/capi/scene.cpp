@@ -133,6 +133,8 @@ sim::Settings toSettings(const SinewSettings* settings) {
             .motions = given.motions,
             .keepsPrevious = given.keepsPrevious != 0,
             .outputFrames = given.outputFrames,
+            .outputUsage = given.outputUsage,
+            .outputFamilies = given.outputFamilies,
             .isReversed = given.isReversed != 0,
             .framesInFlight = given.framesInFlight};
 }
@@ -164,7 +166,9 @@ SinewSettings fromSettings(const sim::Settings& settings) {
             .eventRoom = settings.eventRoom,
             .keepsPrevious = settings.keepsPrevious ? 1u : 0u,
             .hasSharpClamp = settings.hasSharpClamp ? 1u : 0u,
-            .outputFrames = settings.outputFrames};
+            .outputFrames = settings.outputFrames,
+            .outputUsage = settings.outputUsage,
+            .outputFamilies = settings.outputFamilies};
 }
 
 SinewPlane defaultPlane() {

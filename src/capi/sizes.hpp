@@ -25,8 +25,9 @@ template <>
 inline constexpr std::array<std::uint32_t, 2> formerSizes<SinewMesh>{offsetof(SinewMesh, toughness),
                                                                      offsetof(SinewMesh, textureCoordinates)};
 template <>
-inline constexpr std::array<std::uint32_t, 2> formerSizes<SinewSettings>{
-    offsetof(SinewSettings, hasSharpClamp), offsetof(SinewSettings, outputFrames)};
+inline constexpr std::array<std::uint32_t, 3> formerSizes<SinewSettings>{
+    offsetof(SinewSettings, hasSharpClamp), offsetof(SinewSettings, outputFrames),
+    offsetof(SinewSettings, outputUsage)};
 
 /// Throws unless `size` is `known`, one of `former`, or larger than `known` and at most that of a page.
 void requireSize(const char* type, std::uint32_t size, std::size_t known,

@@ -83,6 +83,9 @@ private:
 };
 
 BufferAllocation BlockAllocator::create(const VkBufferCreateInfo& info, MemoryKind kind, const char* name) {
+    if ((info.usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0)
+        throw Error(Failure::misuse, std::string("buffer ") + name +
+                                         ": a device address needs memory from the host: set a BufferHook");
     const std::lock_guard lock(mutex_);
     BufferAllocation allocation{.token = nextToken_++};
     Placement& placement = placements_[allocation.token]; // first: what has a place must be found again

@@ -34,7 +34,9 @@ Buffer::Buffer(const Device& device, const BufferRequest& request)
         .usage = request.usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                  VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                  VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-        .sharingMode = VK_SHARING_MODE_EXCLUSIVE};
+        .sharingMode = request.families.empty() ? VK_SHARING_MODE_EXCLUSIVE : VK_SHARING_MODE_CONCURRENT,
+        .queueFamilyIndexCount = static_cast<std::uint32_t>(request.families.size()),
+        .pQueueFamilyIndices = request.families.data()};
     allocation_ = allocator_->create(info, request.kind, name_.c_str());
     device.name(VK_OBJECT_TYPE_BUFFER, handleValue(allocation_.buffer), name_);
 }

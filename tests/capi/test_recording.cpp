@@ -401,6 +401,14 @@ TEST(CApiRecording, FramesHaveOutputsOfTheirOwn) {
         EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_SCENE, "outputFrames",
                               sinewCreateSimulation(device, scene, &settings, &simulation)));
         settings.outputFrames = 2;
+        settings.outputUsage = VK_BUFFER_USAGE_CONDITIONAL_RENDERING_BIT_EXT;
+        EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_SCENE, "outputUsage",
+                              sinewCreateSimulation(device, scene, &settings, &simulation)));
+        settings.outputUsage = VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+        settings.outputFamilies = 1u << 31;
+        EXPECT_TRUE(failsWith(SINEW_ERROR_INVALID_ARGUMENT, "outputFamilies",
+                              sinewCreateSimulation(device, scene, &settings, &simulation)));
+        settings.outputFamilies = 0;
         ASSERT_TRUE(isOk(sinewCreateSimulation(device, scene, &settings, &simulation)));
         SinewBufferView view{};
         EXPECT_EQ(sinewGetFrameView(simulation, 0, SINEW_POSITIONS, &view), SINEW_NOT_READY);

@@ -4,6 +4,8 @@
 #include "sinew/export.hpp"
 #include "sinew/vk/device.hpp"
 
+#include <span>
+
 namespace sinew::vk {
 
 /// A range of a VkBuffer for a kernel, a copy or a vertex input. Owns nothing.
@@ -20,7 +22,8 @@ struct SINEW_API BufferRequest {
     VkDeviceSize count = 0;   ///< elements; at least one is allocated so that a binding is never empty
     std::uint32_t stride = 0; ///< [B]; 4-byte multiple
     MemoryKind kind = MemoryKind::device;
-    VkBufferUsageFlags usage = 0; ///< added to storage + transfer source + transfer destination
+    VkBufferUsageFlags usage = 0;              ///< added to storage + transfer source + transfer destination
+    std::span<const std::uint32_t> families{}; ///< different ones that use it at a time; empty = one by one
 };
 
 /// RAII buffer. Can be moved, not copied. Must not outlive its Device, which may be moved meanwhile.

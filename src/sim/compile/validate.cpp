@@ -21,6 +21,7 @@
 #include "sinew/substeps.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -92,6 +93,14 @@ void checkGrabs(const Settings& settings, Complaints& complaints) {
                        "is " + number(settings.motions) + ", must be at most " + number(ranges::mostMotions));
 }
 
+void checkOutputUsage(const Settings& settings, Complaints& complaints) {
+    if (const std::uint32_t others = settings.outputUsage & ~ranges::outputUsages; others != 0)
+        complaints.add("settings.outputUsage",
+                       "has bit " + number(std::countr_zero(others)) +
+                           " of VkBufferUsageFlags, must have bits 0 to 8, 17 (device "
+                           "address) or 19 (input of acceleration structures)");
+}
+
 void checkSleep(const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::split && settings.sleeps)
         complaints.add("settings.sleeps", std::string("is set, but solver ") + solverName(settings.solver) +
@@ -111,6 +120,7 @@ void checkSettings(const Settings& settings, Complaints& complaints) {
                                              ", but split is stable only below 4 / (1 + 2 theta) = " +
                                              number(static_cast<float>(bound)));
     checkGrabs(settings, complaints);
+    checkOutputUsage(settings, complaints);
     checkSleep(settings, complaints);
     if (complaints.isEmpty()) checkSweeps(settings, complaints);
 }

@@ -33,30 +33,43 @@ std::vector<bool> holdArguments(const StepProgram& program) {
     return result;
 }
 
-std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram& program) {
+// How a host draws with a buffer; 0 = it is no output.
+VkBufferUsageFlags usageOf(const StepProgram& program, BufferId id) {
+    const CutSurfaceBuffers& cut = program.cutSurface;
+    VkBufferUsageFlags usage = 0;
+    const auto add = [&](VkBufferUsageFlags flags, std::initializer_list<BufferId> buffers) {
+        if (std::ranges::find(buffers, id) != buffers.end()) usage |= flags;
+    };
+    add(VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+        {program.skinVertices, program.positions, program.velocities, program.previousPositions,
+         program.previousSkinVertices, program.cutting.pieces, program.textureCoordinates,
+         program.wholeTextureCoordinates, cut.vertices, cut.rest, cut.textureCoordinates});
+    add(VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, {cut.draws, program.pieceDraws});
+    add(VK_BUFFER_USAGE_INDEX_BUFFER_BIT, {program.skinIndices, program.wholeIndices, cut.indices});
+    add(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+        {cut.state, cut.particles, program.cutting.pieceSizes, program.forces.sums});
+    return usage;
+}
+
+std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram& program,
+                                    const OutputUse& use) {
     const std::vector<bool> holdsArguments = holdArguments(program);
     std::vector<vk::Buffer> buffers;
     buffers.reserve(program.buffers.size());
     for (std::uint32_t b = 0; b < program.buffers.size(); ++b) {
         const BufferSpec& spec = program.buffers[b];
-        VkBufferUsageFlags usage = 0;
-        const CutSurfaceBuffers& cut = program.cutSurface;
-        const BufferId id{b};
-        if (id == program.skinVertices || id == program.positions || id == program.velocities ||
-            id == program.previousPositions || id == program.previousSkinVertices ||
-            id == program.cutting.pieces || id == program.textureCoordinates ||
-            id == program.wholeTextureCoordinates || id == cut.vertices || id == cut.rest ||
-            id == cut.textureCoordinates)
-            usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-        if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws)
-            usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-        if (id == program.skinIndices || id == program.wholeIndices || id == cut.indices)
-            usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
-        buffers.emplace_back(device, vk::BufferRequest{.name = spec.label,
-                                                       .count = spec.initialOf ? 1 : spec.count,
-                                                       .stride = spec.stride,
-                                                       .kind = vk::MemoryKind::device,
-                                                       .usage = usage});
+        VkBufferUsageFlags usage = usageOf(program, BufferId{b});
+        const bool isOutput = usage != 0;
+        if (isOutput) usage |= use.usage;
+        if (holdsArguments[b]) usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+        buffers.emplace_back(
+            device, vk::BufferRequest{.name = spec.label,
+                                      .count = spec.initialOf ? 1 : spec.count,
+                                      .stride = spec.stride,
+                                      .kind = vk::MemoryKind::device,
+                                      .usage = usage,
+                                      .families = isOutput ? std::span<const std::uint32_t>(use.families)
+                                                           : std::span<const std::uint32_t>()});
     }
     return buffers;
 }
@@ -115,8 +128,8 @@ SetPlan planSets(const StepProgram& program) {
 
 } // namespace
 
-GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
-    : buffers_(makeBuffers(device, program)), staging_(makeStaging(device, program)),
+GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program, const OutputUse& use)
+    : buffers_(makeBuffers(device, program, use)), staging_(makeStaging(device, program)),
       kernels_(makeKernels(device, program)) {
     for (std::uint32_t b = 0; b < program.buffers.size(); ++b)
         if (program.buffers[b].initialOf) initialOf_.emplace(b, *program.buffers[b].initialOf);

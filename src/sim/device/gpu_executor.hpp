@@ -2,6 +2,7 @@
 // times.
 #pragma once
 
+#include "sim/device/output_use.hpp"
 #include "sim/program/program.hpp"
 #include "sinew/vk/commands.hpp"
 #include "sinew/vk/kernel_store.hpp"
@@ -19,8 +20,8 @@ void requireGroups(const vk::Kernel& kernel, std::uint32_t groups, std::uint32_t
 class GpuExecutor {
 public:
     /// Creates everything; throws vk::Error naming the buffer or kernel. Submits nothing: upload() fills the
-    /// buffers.
-    GpuExecutor(const vk::Device& device, const StepProgram& program);
+    /// buffers. `use` is that of the outputs.
+    GpuExecutor(const vk::Device& device, const StepProgram& program, const OutputUse& use = {});
 
     /// Records the copies that put every buffer into its initial state (also a reset). Ends with a barrier.
     void upload(vk::Commands& commands) noexcept;

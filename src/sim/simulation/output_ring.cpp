@@ -14,9 +14,10 @@ constexpr VkBufferUsageFlags drawn = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFF
 } // namespace
 
 OutputRing::OutputRing(const vk::Device& device, const StepProgram& program, const GpuExecutor& executor,
-                       std::uint32_t frames)
-    : program_(program), executor_(executor), slots_(frames) {
-    if (frames == 0) return;
+                       const Settings& settings)
+    : program_(program), executor_(executor), slots_(settings.outputFrames) {
+    if (slots_.empty()) return;
+    const OutputUse use = outputUseOf(device, settings);
     const std::vector<bool> isWritten = areWritten(program);
     const auto keep = [&](BufferId buffer, By by) {
         if (buffer != BufferId{} && isWritten[buffer.index]) kept_.push_back({buffer, by});
@@ -35,7 +36,8 @@ OutputRing::OutputRing(const vk::Device& device, const StepProgram& program, con
                                      vk::BufferRequest{.name = spec.label + ".output",
                                                        .count = executor.view(one.buffer).size / spec.stride,
                                                        .stride = spec.stride,
-                                                       .usage = drawn});
+                                                       .usage = drawn | use.usage,
+                                                       .families = use.families});
         }
 }
 

@@ -11,9 +11,10 @@ namespace sinew::sim {
 
 class OutputRing {
 public:
-    /// Makes the copies for `frames` steps; none for 0. `program` and `executor` must outlive the ring.
+    /// Makes the copies for Settings::outputFrames steps; none for 0. `program` and `executor` must outlive
+    /// the ring.
     OutputRing(const vk::Device& device, const StepProgram& program, const GpuExecutor& executor,
-               std::uint32_t frames);
+               const Settings& settings);
 
     /// Records the copies of what the step `frame` has left, behind a barrier after it.
     void recordStep(vk::Commands& commands, std::uint64_t frame) noexcept;

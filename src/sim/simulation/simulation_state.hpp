@@ -128,9 +128,9 @@ struct Simulation::State {
     struct Resolved {};
     State(const vk::Device& d, const Scene& scene, const Settings& settings, Resolved)
         : device(d.anchored()), chosen(settings), program(compileFor(d, scene, settings)),
-          executor(d, program), written(writtenByStep(program)), sceneKey(sim::sceneKey(scene)),
-          ring(d, settings.framesInFlight, resultSizes(program)),
-          outputs(d, program, executor, settings.outputFrames), skins(rangesOf(scene.skins, Triangles::all)),
+          executor(d, program, outputUseOf(d, settings)), written(writtenByStep(program)),
+          sceneKey(sim::sceneKey(scene)), ring(d, settings.framesInFlight, resultSizes(program)),
+          outputs(d, program, executor, settings), skins(rangesOf(scene.skins, Triangles::all)),
           wholeSkins(rangesOf(scene.skins, Triangles::whole)), anchors(scene.attachments),
           grabs(settings.grabs, scene.particles.size()),
           fields(settings.fields, scene.bodies.size(), program.fields),
