@@ -62,6 +62,18 @@ function(sinew_install_component component)
     install(EXPORT sinew_${component} NAMESPACE sinew:: DESTINATION ${SINEW_PACKAGE_FOLDER} COMPONENT ${component})
 endfunction()
 
+# sinew_copy_headers(<to> <folder of sources> <names...>): copies of headers that include each other as hosts do, with
+# `sinew` in front of such a folder.
+function(sinew_copy_headers to folder)
+    foreach(name IN LISTS ARGN)
+        set(header ${PROJECT_SOURCE_DIR}/src/${folder}/${name}.hpp)
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+        file(READ ${header} text)
+        string(REGEX REPLACE "#include \"(mesh|scenes)/" "#include \"sinew/\\1/" text "${text}")
+        file(GENERATE OUTPUT ${to}/sinew/${folder}/${name}.hpp CONTENT "${text}")
+    endforeach()
+endfunction()
+
 # core: what an engine embeds, and `standalone`: the loader and the queue of programs without an engine.
 sinew_package(core core OUTPUT sinew OBJECTS sinew_vk sinew_sim LINKS sinew_headers)
 target_link_libraries(sinew_package_core PRIVATE Threads::Threads)

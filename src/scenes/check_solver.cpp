@@ -3,7 +3,7 @@
 
 #include "scenes/section.hpp"
 #include "sim/compile/compile.hpp"
-#include "sim/model/touching.hpp"
+#include "sinew/touching.hpp"
 #include "sinew/validate.hpp"
 
 #include <algorithm>
