@@ -254,17 +254,19 @@ struct SkinSlotsPush {
 #define SLOT_LOST 32u
 
 // Position of a vertex in this step with a blade, and in the last one; it moves straight between them, so that tests
-// against the blade see a continuous path. now.w = 0: it was not near the blade in the last one.
+// against the blade see a continuous path. now.w = 0: it was not near the blade in the last one. before.w = 0: it was
+// not near in the step before this one, or a stroke begins.
 struct PlacedVertex {
     vec4 before, now; // [m]
 };
 
 // Values of w in the place at rest of a vertex beside a cut. VERTEX_MOVES = the blade has passed between it and its
 // anchor, and it moves there once the anchor loses a link. From VERTEX_MOVED on it has moved: VERTEX_AHEAD = to where
-// the blade will pass if it goes straight on.
+// the blade will pass if it goes straight on, VERTEX_OLD = by an earlier stroke.
 #define VERTEX_MOVES 1.0
 #define VERTEX_MOVED 2.0
 #define VERTEX_AHEAD 3.0
+#define VERTEX_OLD 4.0
 
 // Pieces of a sheet's skin beside cuts (surface/sheet_pieces.hpp). A triangle of such a skin is half of the cell
 // above a slot: corners a, c = a + z, d = a + x + z, or a, d, b = a + x.

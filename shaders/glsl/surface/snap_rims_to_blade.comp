@@ -29,28 +29,11 @@ layout(std430, binding = 15) readonly buffer Planes { vec4 planes[]; };         
 #include "surface/near_skin.glsl"
 #include "common/blade_sweep.glsl"
 #include "surface/blade_plane.glsl"
+#include "surface/around.glsl"
 
 const float mostWay = 1.5;      // [cells]
 const float leastVolume = 1e-3; // relative to its rest volume: flatter material gives no rest position
 const float leastTangent = 0.2; // part of the blade's normal in the plane of the skin, squared: a blade at a smaller angle shaves along the skin
-
-// The material around a particle: the best affine motion of it and its neighbours on both sides of the blade.
-struct Around {
-    vec3 rest, now; // means
-    vec3 drift;     // mean motion in this step
-};
-
-Around aroundOf(uint i) {
-    Around mean = Around(REST(i), AT(i), PLACE(i) - placeBefore(i));
-    for (uint alive = SAVED(i); alive != 0u; alive &= alive - 1u) {
-        const uint j = uint(int(i) + offsetOf(directionOf(findLSB(alive))));
-        mean.rest += REST(j);
-        mean.now += AT(j);
-        mean.drift += PLACE(j) - placeBefore(j);
-    }
-    const float share = 1.0 / float(1 + bitCount(SAVED(i)));
-    return Around(share * mean.rest, share * mean.now, share * mean.drift);
-}
 
 // The place of a vertex after this step, with its state in w.
 vec4 nextPlace(uint v, HungVertex self, vec4 to) {
@@ -66,7 +49,7 @@ vec4 nextPlace(uint v, HungVertex self, vec4 to) {
     if (!(abs(determinant(turn)) > leastVolume)) return to;
     if (!isMet) {
         const Around around = aroundOf(i);
-        x = around.now + turn * (self.rest.xyz - around.rest);
+        x = placeIn(around, turn, self.rest.xyz);
         meeting = planeMeeting(x, PLACE(i), around.drift);
     }
     const vec3 normal = transpose(turn) * meeting.normal, skin = planes[v].xyz; // at rest
@@ -86,9 +69,9 @@ void main() {
     const uint v = listed[push.first + item];
     const HungVertex self = hungAt(v);
     vec4 to = moved[v];
-    if (to.w == VERTEX_AHEAD && blade.isCarried == 0u) to.w = VERTEX_MOVED; // by an earlier stroke
+    if (to.w >= VERTEX_MOVED && blade.isCarried == 0u) to.w = VERTEX_OLD;
     if (to.w == VERTEX_MOVES && blade.isCarried == 0u) to = vec4(0.0);
-    if (to.w != VERTEX_MOVED && isNearBlade(self.anchor)) to = nextPlace(v, self, to);
+    if (to.w != VERTEX_MOVED && to.w != VERTEX_OLD && isNearBlade(self.anchor)) to = nextPlace(v, self, to);
     if (to.w >= VERTEX_MOVED) rims[v] = 1u;
     moved[v] = to;
 }

@@ -12,7 +12,7 @@ layout(std430, binding = 2) readonly buffer Links { uint links[]; };
 layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
 #define HUNG_BINDING 4
 #include "surface/hung_vertex.glsl"
-layout(std430, binding = 5) readonly buffer SkinHits { uint skinHits[]; };
+layout(std430, binding = 5) readonly buffer SkinHits { uint skinHits[]; }; // (intersect_skin_edges)
 layout(std430, binding = 6) writeonly buffer Vertices { CutVertex vertices[]; };
 #define MOVED_BINDING 7
 #include "surface/moved_vertex.glsl"
@@ -21,15 +21,16 @@ layout(push_constant) uniform Push { PrismPush push; };
 #include "surface/skin_prisms.glsl"
 #include "surface/skin_points.glsl"
 #include "surface/skin_rest.glsl"
+#include "surface/rim_share.glsl"
 
-// Position of the cut along edge n. If the blade has not met the edge, it passed between an end of the edge and the
-// anchor of that end: that end is on the blade.
+// Position of the cut along edge n.
 float shareOf(SkinPrism prism, uint self, uint n) {
     const SkinEdge edge = edgeOf(prism, self, n);
-    const uint value = bitfieldExtract(skinHits[edge.prism], int(8u * edge.edge), 8);
-    if (value > 0u) return edge.isReversed ? 1.0 - float(value) / 255.0 : float(value) / 255.0;
-    const bool isStart = MOVED(prism.vertices[n]).w >= VERTEX_MOVED, isEnd = MOVED(prism.vertices[(n + 1u) % 3u]).w >= VERTEX_MOVED;
-    return isStart == isEnd ? 0.5 : isStart ? 0.02 : 0.98;
+    const uint word = skinHits[edge.prism];
+    const float start = MOVED(prism.vertices[n]).w, end = MOVED(prism.vertices[(n + 1u) % 3u]).w;
+    uint share = bitfieldExtract(word, int(8u * edge.edge), 8);
+    if ((word & partedBit(edge.edge)) == 0u) share = rimShare(edge.isReversed ? end : start, edge.isReversed ? start : end, share);
+    return float(edge.isReversed ? 255u - share : share) / 255.0;
 }
 
 vec4 edgePlace(SkinPrism prism, uint self, uint n) {

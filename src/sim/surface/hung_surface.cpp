@@ -130,12 +130,12 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
         program.dispatchIndirect(k::placeVertices, listOf(hung, range.vertices, SKIN_VERTICES),
                                  {bladePlaces, placesBefore, blade, cutting.savedLinks, cutting.places,
                                   surface.rest, hung.vertices, surface.partitions, hung.counts, hung.listed,
-                                  hung.placed},
+                                  hung.placed, hung.moved},
                                  range.vertices);
     for (const HungRange& range : hung.ranges)
         program.dispatchIndirect(k::intersectSkinEdges, listOf(hung, range.prisms, SKIN_NEAR),
                                  {bladePlaces, placesBefore, blade, cutting.savedLinks, points, hung.prisms,
-                                  hung.placed, hung.hits, hung.counts, hung.nears},
+                                  hung.placed, hung.hits, hung.counts, hung.nears, hung.moved},
                                  range.prisms);
     for (const HungRange& range : hung.ranges)
         program.dispatchIndirect(k::snapRimsToBlade, listOf(hung, range.vertices, SKIN_VERTICES),

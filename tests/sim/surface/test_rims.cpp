@@ -261,8 +261,8 @@ TEST(Rims, LieOnThePathOfTheBladeAtEndsAndCrossings) {
                         crossing.rms(), crossing.most);
             EXPECT_GT(alone.count, 100u);
             EXPECT_LT(alone.most, 0.05);
-            EXPECT_LT(crossing.rms(), 0.05);
-            EXPECT_LT(crossing.most, 0.2);
+            EXPECT_LT(crossing.rms(), 0.035);
+            EXPECT_LT(crossing.most, 0.18);
         }
     }
 }
