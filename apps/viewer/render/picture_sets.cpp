@@ -14,7 +14,8 @@ constexpr std::uint32_t backdropBinding = countsBinding + 1;   // backdrop.frag
 constexpr std::uint32_t enlargedBinding = backdropBinding + 1; // enlarge.frag
 constexpr std::uint32_t normalsBinding = enlargedBinding + 1;  // surfaces.frag
 constexpr std::uint32_t materialsBinding = normalsBinding + 1; // the same
-constexpr std::uint32_t bindingCount = materialsBinding + 1;
+constexpr std::uint32_t insidesBinding = materialsBinding + 1; // inside.glsl
+constexpr std::uint32_t bindingCount = insidesBinding + 1;
 
 std::vector<vk::Buffer> makeParams(const vk::Device& device, std::uint32_t slots) {
     std::vector<vk::Buffer> params;
@@ -32,18 +33,25 @@ std::array<VkDescriptorSetLayoutBinding, bindingCount> bindings() {
     for (std::uint32_t binding = 0; binding < bindingCount; ++binding)
         bindings[binding] = {.binding = binding,
                              .descriptorType = binding == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                                            : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                               : binding == insidesBinding
+                                                   ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                                   : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                              .descriptorCount = 1,
                              .stageFlags = drawingStages};
+    bindings[insidesBinding].stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT;
     return bindings;
 }
 
 } // namespace
 
-PictureSets::PictureSets(const vk::Device& device, const LightMaps& maps, std::uint32_t slots)
+PictureSets::PictureSets(const vk::Device& device, const LightMaps& maps, const vk::BufferView& insides,
+                         std::uint32_t slots)
     : device_(device), sets_(device, "picture", bindings(), sizeof(layout::SkinPush), slots),
       params_(makeParams(device, slots)) {
-    for (std::uint32_t slot = 0; slot < slots; ++slot) writeSet(slot, maps);
+    for (std::uint32_t slot = 0; slot < slots; ++slot) {
+        writeSet(slot, maps);
+        writeInsides(slot, insides);
+    }
 }
 
 void PictureSets::writeSet(std::uint32_t slot, const LightMaps& maps) const {
@@ -66,6 +74,17 @@ void PictureSets::writeSet(std::uint32_t slot, const LightMaps& maps) const {
                            .pImageInfo = binding == 0 ? nullptr : &images[binding - 1],
                            .pBufferInfo = binding == 0 ? &params : nullptr};
     device_.functions().vkUpdateDescriptorSets(device_.handle(), writes.size(), writes.data(), 0, nullptr);
+}
+
+void PictureSets::writeInsides(std::uint32_t slot, const vk::BufferView& insides) const {
+    const VkDescriptorBufferInfo info{insides.buffer, insides.offset, insides.size};
+    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                     .dstSet = sets_.set(slot),
+                                     .dstBinding = insidesBinding,
+                                     .descriptorCount = 1,
+                                     .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                     .pBufferInfo = &info};
+    device_.functions().vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
 }
 
 void PictureSets::writeCounts(std::uint32_t slot, VkImageView counts, VkSampler sampler) const noexcept {

@@ -9,10 +9,11 @@
 namespace sinew::viewer {
 
 /// Owns descriptor sets, the pipeline layout they fit and the buffers of their parameters. Must not outlive
-/// its Device, which must not move, nor the maps.
+/// its Device, which must not move, nor the maps and `insides` (Insides of inside.glsl).
 class PictureSets {
 public:
-    PictureSets(const vk::Device& device, const LightMaps& maps, std::uint32_t slots);
+    PictureSets(const vk::Device& device, const LightMaps& maps, const vk::BufferView& insides,
+                std::uint32_t slots);
 
     /// Layout of every picture pipeline: this set, and layout::SkinPush for fragment shaders.
     VkPipelineLayout layout() const noexcept { return sets_.handle(); }
@@ -34,6 +35,7 @@ private:
     void writeImage(std::uint32_t slot, std::uint32_t binding, VkImageView view,
                     VkSampler sampler) const noexcept;
     void writeSet(std::uint32_t slot, const LightMaps& maps) const;
+    void writeInsides(std::uint32_t slot, const vk::BufferView& insides) const;
 
     const vk::Device& device_;
     SetLayout sets_;

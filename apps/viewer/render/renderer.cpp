@@ -6,6 +6,7 @@
 #include "viewer/render/mesh_buffer.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace sinew::viewer {
@@ -38,6 +39,14 @@ VkFormat canvasDepthFormat(const vk::Device& device) {
     return findFormat(device, formats, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT);
 }
 
+// Insides of inside.glsl: a head for each skin, then the depths of all.
+vk::Buffer insidesBuffer(const vk::Device& device, const SkinDepths& of) {
+    std::vector<float> all(sizeof(of.skins) / sizeof(float) + std::max<std::size_t>(of.depths.size(), 1));
+    std::memcpy(all.data(), of.skins.data(), sizeof(of.skins));
+    std::ranges::copy(of.depths, all.begin() + sizeof(of.skins) / sizeof(float));
+    return filledBuffer(device, "picture.insides", all, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
 } // namespace
 
 Quality reducedQuality() {
@@ -68,13 +77,14 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                                          .depth = format_.depth,
                                          .samples = format_.samples,
                                          .finalLayout = target.finalLayout})),
-      sets_(device, maps_, slots), balls_(device, light.balls), insides_(device, light.insides, 0),
-      marks_(device, light.marks, 0), walls_(device, light.walls), hand_(device),
-      strokes_(device, {.name = "strokes",
-                        .count = slots * pointsASlot,
-                        .stride = sizeof(sim::layout::vec4),
-                        .kind = vk::MemoryKind::upload,
-                        .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
+      insidesOfSkins_(insidesBuffer(device, light.depths)),
+      sets_(device, maps_, insidesOfSkins_.view(), slots), balls_(device, light.balls),
+      insides_(device, light.insides, 0), marks_(device, light.marks, 0), walls_(device, light.walls),
+      hand_(device), strokes_(device, {.name = "strokes",
+                                       .count = slots * pointsASlot,
+                                       .stride = sizeof(sim::layout::vec4),
+                                       .kind = vk::MemoryKind::upload,
+                                       .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
       sheets_(filledBuffer(device, "picture.sheets",
                            light.sheets.empty() ? std::vector<layout::vec4>(1) : light.sheets,
                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),

@@ -249,6 +249,7 @@ private:
     bool leavesBacks_ = false; // for this picture
     LightMaps maps_;
     RenderPass pass_;
+    vk::Buffer insidesOfSkins_; ///< Insides of inside.glsl
     PictureSets sets_;
     Balls balls_, insides_, marks_;
     Walls walls_;

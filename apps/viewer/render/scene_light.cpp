@@ -13,7 +13,8 @@ namespace {
 constexpr float keyAzimuth =
     -1.30f; // azimuth of the key light from the camera's [rad]: from the left, a little in front
 constexpr float keyElevation = 0.80f; // [rad]
-constexpr float hazeRadii = 30;       // radius at which the ground has faded, in radii of the scene
+constexpr float tissueGloss = 1;
+constexpr float hazeRadii = 30; // radius at which the ground has faded, in radii of the scene
 
 layout::vec4 packed(const Vector3& v, float w) {
     return {v.x(), v.y(), v.z(), w};
@@ -27,8 +28,8 @@ layout::mat4 packed(const Matrix4& matrix) {
 
 // A mesh is drawn as tissue, wet inside; a body without a mesh of its own as rubber, the same inside.
 float glossOf(const sim::Skin& skin) {
-    constexpr float ofTissue = 1, ofRubber = 0.3f;
-    return skin.particles.empty() ? ofTissue : ofRubber;
+    constexpr float ofRubber = 0.3f;
+    return skin.particles.empty() ? tissueGloss : ofRubber;
 }
 
 // The grid of the sheet whose particles the skin shows; null = it is of no sheet.
@@ -96,6 +97,10 @@ SceneLight lightFor(const sim::Scene& scene, const Camera& camera) {
     if (std::ranges::count(light.isSheet, true) == 0) light.sheets.clear();
     light.isClosed = closedSkins(scene);
     light.isOutward = outwardSkins(scene);
+    std::vector<bool> hasLayers;
+    for (std::size_t i = 0; i < light.gloss.size(); ++i)
+        hasLayers.push_back(light.isClosed[i] && light.gloss[i] >= tissueGloss);
+    light.depths = skinDepths(scene, hasLayers);
     light.balls = ballsOf(scene);
     light.insides = insidesOf(scene);
     light.colliders = scene.colliders;

@@ -6,6 +6,7 @@
 #include "viewer/render/balls.hpp"
 #include "viewer/render/camera.hpp"
 #include "viewer/render/section.hpp"
+#include "viewer/render/skin_depths.hpp"
 #include "viewer/render/walls.hpp"
 
 namespace sinew::viewer {
@@ -23,6 +24,7 @@ struct SceneLight {
     std::vector<layout::vec4> sheets;
     std::vector<bool> isClosed;           ///< whether each skin is closed (closedSkins)
     std::vector<bool> isOutward;          ///< whether it is closed and its triangles face outwards
+    SkinDepths depths;                    ///< of tissue that can be cut
     BallList balls;                       ///< balls for bodies without a skin
     BallList insides;                     ///< particles of the others, as far as their values reach
     BallList marks;                       ///< marks of the particles that the scene holds

@@ -35,6 +35,14 @@ struct FrameParams {
     vec4 section; // unit normal and offset [m]; SECTION forms of shaders cut away everything in front of the plane
 };
 
+// What the inside of a skin is drawn from. `depths` of a skin: a grid of distances from it as loaded, x fastest, more
+// than 0 within the body; exact near the skin, and never less than the distance that a picture needs further in.
+struct SkinInside {
+    vec4 low;   // first node of the grid, and the distance between its nodes [m]
+    vec4 nodes; // their numbers along x, y, z; w: index of the first in all depths, -1 = there are none
+    vec4 size;  // x: cube root of the volume of the skin's box [m]
+};
+
 #define ICOSAHEDRON_INNER 0.7946f // radius of the largest ball in an icosahedron whose corners are on the unit ball
 
 struct SkinPush {

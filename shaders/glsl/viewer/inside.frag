@@ -19,8 +19,10 @@ vec3 normalHere() {
 }
 
 void main() {
-    const vec3 normal = normalHere(); // before anything is discarded: it needs neighbouring pixels
+    // Before anything is discarded: these need neighbouring pixels.
+    const vec3 normal = normalHere();
+    const uint skin = min(uint(inBody.w + 0.5), SKIN_COLORS - 1u);
+    const InsidePlace at = InsidePlace(inBody.xyz, dFdx(inBody.xyz), dFdy(inBody.xyz), depthBelow(inBody.xyz, skin), insides[skin].size.x);
     keepBehindSection(worldPosition);
-    const vec4 skin = frame.skins[min(uint(inBody.w + 0.5), SKIN_COLORS - 1u)];
-    show(worldPosition, normal, insideSurface(inBody.xyz, skin));
+    show(worldPosition, normal, insideSurface(at, frame.skins[skin]));
 }
