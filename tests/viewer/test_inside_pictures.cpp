@@ -1,4 +1,4 @@
-// Tests of the inside of tissue in pictures: its rind.
+// Tests of the inside of tissue in pictures: its rind, its fat, and the walls of a cut.
 #include "scene_shot.hpp"
 
 #include "mesh/generate.hpp"
@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <random>
 
 namespace sinew::viewer {
 namespace {
@@ -134,6 +135,51 @@ TEST(Insides, HaveARindInASection) {
     const Picture picture = ball.lookAt(1, moved + Vector3(0, 0.9f * ball.radius, 0), 0.9f,
                                         {.layers = {.section = Section{Vector3::UnitX(), plane}}});
     expectRind(picture, ball, Vector3(plane, moved.y(), moved.z()));
+}
+
+// The face that is lit: fat is yellow there.
+TEST(Insides, HaveLittleFat) {
+    OpenBall ball;
+    const Vector3 moved = ball.moved(1);
+    const Picture picture = ball.lookAt(-1, moved, 3);
+    int all = 0, fat = 0, flesh = 0;
+    for (float y = -1; y < 1; y += 0.01f)
+        for (float z = -1; z < 1; z += 0.01f) {
+            if (y * y + z * z > 1) continue;
+            const Color color = colorAt(picture, ball.shot.camera, moved + ball.radius * Vector3(0, y, z));
+            ++all;
+            flesh += isFlesh(color) ? 1 : 0;
+            fat += !isFlesh(color) && color[0] > color[1] && 100 * color[2] < 92 * color[1] ? 1 : 0;
+        }
+    EXPECT_GT(fat, 0.03 * all) << "below its skin alone";
+    EXPECT_LT(fat, 0.15 * all);
+    EXPECT_GT(flesh, 0.8 * all);
+}
+
+TEST(Insides, MatchOnBothWallsOfACut) {
+    OpenBall ball;
+    const Vector3 left = ball.moved(-1), right = ball.moved(1);
+    const Picture ofLeft = ball.lookAt(1, left, 3);
+    const Camera toLeft = ball.shot.camera;
+    const Picture ofRight = ball.lookAt(-1, right, 3);
+    const Camera toRight = ball.shot.camera;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> place(-0.7f, 0.7f);
+    std::vector<std::array<float, 2>> seen;
+    for (int i = 0; i < 4000; ++i) {
+        const Vector3 x = ball.radius * Vector3(0, place(random), place(random));
+        seen.push_back(
+            {paleness(colorAt(ofLeft, toLeft, left + x)), paleness(colorAt(ofRight, toRight, right + x))});
+    }
+    std::array<float, 2> mean{}, spread{};
+    float common = 0;
+    for (const auto& pair : seen)
+        for (std::size_t k = 0; k < 2; ++k) mean[k] += pair[k] / static_cast<float>(seen.size());
+    for (const auto& pair : seen) {
+        for (std::size_t k = 0; k < 2; ++k) spread[k] += (pair[k] - mean[k]) * (pair[k] - mean[k]);
+        common += (pair[0] - mean[0]) * (pair[1] - mean[1]);
+    }
+    EXPECT_GT(common / std::sqrt(spread[0] * spread[1]), 0.8f) << "correlation of the two";
 }
 
 TEST(Insides, KnowTheDepthOfPlacesBelowTheirSkin) {

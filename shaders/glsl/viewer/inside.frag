@@ -20,9 +20,10 @@ vec3 normalHere() {
 
 void main() {
     // Before anything is discarded: these need neighbouring pixels.
-    const vec3 normal = normalHere();
+    const vec3 normal = normalHere(), right = dFdx(worldPosition), down = dFdy(worldPosition);
     const uint skin = min(uint(inBody.w + 0.5), SKIN_COLORS - 1u);
     const InsidePlace at = InsidePlace(inBody.xyz, dFdx(inBody.xyz), dFdy(inBody.xyz), depthBelow(inBody.xyz, skin), insides[skin].size.x);
     keepBehindSection(worldPosition);
-    show(worldPosition, normal, insideSurface(at, frame.skins[skin]));
+    const InsideSurface inside = insideSurface(at, frame.skins[skin]);
+    show(worldPosition, bumped(normal, inside, at, right, down), inside.surface);
 }

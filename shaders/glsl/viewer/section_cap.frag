@@ -105,5 +105,6 @@ void main() {
     const uint skin = skinOf(color);
     const float size = insides[skin].size.x, depth = frame.skins[skin].w >= leastMoist ? outlineDistance(rindReach * size, right, down) : 1e6;
     const InsidePlace at = InsidePlace(position, right, down, depth, size);
-    shown = shade(position, frame.section.xyz, insideSurface(at, frame.skins[skin]));
+    const InsideSurface inside = insideSurface(at, frame.skins[skin]);
+    shown = shade(position, bumped(frame.section.xyz, inside, at, right, down), inside.surface);
 }

@@ -75,7 +75,8 @@ vec4 shadeSeen(vec3 worldPosition, vec3 n, Surface surface) {
 
     const float nh = max(dot(n, halfway), 0.0);
     const float fresnel = reflectance + (1.0 - reflectance) * pow(1.0 - max(dot(v, halfway), 0.0), 5.0);
-    const float gloss = 0.55 * highlight(0.30, nl, nv, nh) + 0.45 * highlight(0.55, nl, nv, nh);
+    const float roughness = mix(0.30, 0.18, clamp(2.0 * (moist - 1.0), 0.0, 1.0)); // a film of liquid is smooth
+    const float gloss = 0.55 * highlight(roughness, nl, nv, nh) + 0.45 * highlight(0.55, nl, nv, nh);
     const vec3 r = reflect(-v, n);
     const vec3 above = skyColor(vec3(r.x, max(r.y, 0.0), r.z));
     const vec3 mirrored = mix(bounce / pi, above, smoothstep(-0.3, 0.5, r.y)) * mix(0.3, 1.0, below.y);
