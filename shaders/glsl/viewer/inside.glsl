@@ -1,5 +1,5 @@
 // The material inside of bodies. Tissue has a rind (pale skin, then fat) around flesh with fibres, thin sheets of fat
-// and vessels, and is wet. A plain body is inside like its surface, grainy. Patterns are solid, in sizes of the body, so
+// and vessels, and is wet. A plain body is inside like its surface, cloudy. Patterns are solid, in sizes of the body, so
 // that both walls of a cut match; one that is finer than a pixel fades.
 #include "viewer/noise.glsl"
 
@@ -98,8 +98,8 @@ InsideSurface tissueInside(InsidePlace at, vec3 skin) {
 // `skin`: linear RGB and gloss.
 InsideSurface insideSurface(InsidePlace at, vec4 skin) {
     if (skin.w >= leastMoist) return tissueInside(at, skin.rgb);
-    const float grain = noise(at.place * (260.0 / frame.stage.w)).x;
-    return InsideSurface(Surface(skin.rgb * mix(0.66, 0.86, grain), skin.w, 0.6, insideRim), vec3(0.0));
+    const float cloud = noise(at.place * (4.0 / at.size)).x;
+    return InsideSurface(Surface(skin.rgb * mix(0.74, 0.86, cloud), skin.w, 0.6, insideRim), vec3(0.0));
 }
 
 // The unit normal of a surface with bumps [Mikkelsen 2010]. `right`, `down`: change of the point seen per pixel [m]. Of a
