@@ -78,8 +78,8 @@ SINEW_C_API SinewResult sinewGetWorldCounts(SinewWorld world, SinewSceneCounts* 
 // those of a scene with colliders that move or with host colliders, and all after sinewObserveStatus() has
 // asked for more room for contacts. No step may wait to be repeated. Does not wait. The host resets the first
 // simulation by sinewRecordReset(); a take-over needs no reset. Errors: those of sinewCreateSimulation() if
-// the making failed: parts that were to arrive are then removed, and the world goes on without them; that
-// parts leave is tried again by the next call.
+// the making failed: parts that were to arrive are then removed, and the world goes on without them; parts
+// that were to leave stay until the next change, sinewUpdateWorld(), or sinewReleaseReplaced() with memory.
 SINEW_C_API SinewResult sinewRecordChanges(SinewWorld world, VkCommandBuffer commands, uint32_t* isTakenOver);
 // The status of any step since the last sinewReleaseReplaced(), before a take-over or after. As
 // sinewGetStatus().
@@ -96,7 +96,7 @@ SINEW_C_API SinewResult sinewReleaseReplaced(SinewWorld world);
 // These submit to the queue of a device of sinewCreateDevice() and wait; for other devices they return
 // SINEW_ERROR_UNSUPPORTED. They release what was replaced. A world is stepped either by them or by recording.
 
-// Waits until all changes have arrived. Resets before the first step. Errors: as sinewRecordChanges().
+// Waits until all changes have arrived; tries those that failed again. Resets before the first step. Errors: as sinewRecordChanges().
 SINEW_C_API SinewResult sinewUpdateWorld(SinewWorld world);
 // sinewUpdateWorld(), then `count` steps as by sinewStep(): indices in `step` are those after the changes.
 // A step that needs more room changes the handle of the simulation too. Errors: as both; DIVERGED with the

@@ -82,9 +82,12 @@ public:
     /// with Step::repeats, those of another length than the last that was finished, those of a scene with
     /// colliders that move or with Settings::hostColliders, and all after observe() has asked for more room
     /// for contacts. No step may wait to be recorded again. Throws what the making threw, after which the
-    /// world goes on without the parts that were to arrive; parts that were to leave do so with a later
-    /// take-over, which the next call begins. `commands` as in Simulation::recordReset().
+    /// world goes on without the parts that were to arrive; parts that were to leave stay until the next
+    /// change, or a retry(). `commands` as in Simulation::recordReset().
     bool recordChanges(VkCommandBuffer commands);
+    /// Parts that a failed making has kept from leaving are a change again. release() does it too if it has
+    /// something to destroy.
+    void retry() noexcept;
     /// Whether recordChanges() would take over if no step were in flight: let these finish.
     bool isReady() const;
     /// Destroys, on a thread, the simulations that were replaced. Call when all commands that were recorded
@@ -132,6 +135,7 @@ private:
     Rooms rooms_;
     std::uint32_t refusedRoom_ = 0xffffffffu; ///< Settings::contactRoom that could not be had
     bool hasChanged_ = false;                 ///< since the newest making began
+    bool isLeaving_ = false;                  ///< parts that a failed making has kept
     Scene scene_;
     std::vector<Placed> placed_; ///< parts in scene_, in order
     std::unique_ptr<Simulation> simulation_;

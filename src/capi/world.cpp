@@ -272,6 +272,7 @@ SinewResult sinewUpdateWorld(SinewWorld world) {
             UseOfWorld use(world.id);
             Submitting queue(use->device);
             resetOnce(use.simulation(), queue);
+            use->world.retry();
             settle(use, queue);
         },
         SINEW_ERROR_INVALID_SCENE);

@@ -248,6 +248,10 @@ bool World::observe(const StepStatus& status) {
     return true;
 }
 
+void World::retry() noexcept {
+    hasChanged_ = hasChanged_ || isLeaving_;
+}
+
 bool World::isChanging() const noexcept {
     return hasChanged_ || making_ != nullptr;
 }
@@ -296,7 +300,7 @@ void World::begin() {
                                   making.make(device, *base, parts, running, scene, placed);
                               });
     making_ = std::move(making);
-    hasChanged_ = false;
+    hasChanged_ = isLeaving_ = false;
 }
 
 // Entries of contact lists keep their places in pools: a scene with fewer owners gets longer lists.
@@ -316,8 +320,7 @@ std::uint32_t World::contactRoomFor(std::size_t particles, std::size_t faces) co
         std::min(room, std::max<double>(asked_.contactRoom, ranges::mostContactRoom)));
 }
 
-// The world goes on as it is, and tries again to let parts leave. Only a failure without other changes says
-// that a room is too large.
+// The world goes on as it is. Only a failure without other changes says that a room is too large.
 void World::giveUp(const Making& making) noexcept {
     for (const Placed& placed : making.arriving)
         if (slotOf(placed.part) != nullptr) forget(slots_[placed.part.index]);
@@ -327,12 +330,14 @@ void World::giveUp(const Making& making) noexcept {
     }
     asked_.contactRoom = std::min(asked_.contactRoom, settings_.contactRoom);
     asked_.cutSurfaceRoom = std::min(asked_.cutSurfaceRoom, settings_.cutSurfaceRoom);
-    hasChanged_ = hasChanged_ || making.hasLost;
+    hasChanged_ = hasChanged_ || (making.hasLost && !making.arriving.empty());
+    isLeaving_ = making.hasLost;
 }
 
 void World::release() {
     SINEW_ONE_THREAD(simulation_->state_->oneThread);
     if (replaced_.empty()) return;
+    retry(); // there is more memory now
     destroying_ = std::async(std::launch::async, [before = std::move(destroying_),
                                                   replaced = std::exchange(replaced_, {})]() mutable {
         if (before.valid()) before.wait();
