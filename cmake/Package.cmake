@@ -87,8 +87,9 @@ if(SINEW_INSTALL)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/sinew DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT core
         PATTERN sinew.h EXCLUDE PATTERN sinew_world.h EXCLUDE PATTERN sinew_query.h EXCLUDE PATTERN sinew_events.h EXCLUDE PATTERN sinew_motions.h EXCLUDE) # of the component c
     sinew_install_component(core)
+    set(SINEW_SCENES_FOLDER ${CMAKE_INSTALL_DATADIR}/sinew/scenes)
     configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/sinewConfig.cmake.in ${PROJECT_BINARY_DIR}/sinewConfig.cmake
-        INSTALL_DESTINATION ${SINEW_PACKAGE_FOLDER} NO_SET_AND_CHECK_MACRO)
+        INSTALL_DESTINATION ${SINEW_PACKAGE_FOLDER} PATH_VARS SINEW_SCENES_FOLDER NO_SET_AND_CHECK_MACRO)
     write_basic_package_version_file(${PROJECT_BINARY_DIR}/sinewConfigVersion.cmake COMPATIBILITY SameMinorVersion)
     # Paths in the files of pkg-config are relative to these files.
     foreach(folder LIB INCLUDE) # a host may ask for absolute folders

@@ -1,5 +1,5 @@
 # Configures Sinew as a part of another build with strict flags, and checks for things that it must not need.
-# With BUILDS, compiles one file of the host and one of Sinew.
+# With BUILDS, compiles the host, a library of Sinew, and what reads scene files.
 #   cmake -DHOST_CMAKE=<cmake of the host> -DFOLDER=<build folder> -DPART=<host's sources> -DFETCHES=<by FetchContent>
 #       -DSINEW_FOLDER=<sources> -DCOMPILER=<c++> -DVULKAN=<folder of vulkan/> [-DBUILDS=ON] -P as_a_part.cmake
 file(REMOVE_RECURSE ${FOLDER})
@@ -11,7 +11,7 @@ foreach(folder vulkan vk_video)
 endforeach()
 execute_process(
     COMMAND ${HOST_CMAKE} -S ${PART} -B ${FOLDER} -G Ninja -DFETCHES=${FETCHES} -DSINEW_FOLDER=${SINEW_FOLDER}
-            -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug -DVULKAN_HEADERS=${headers} "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wconversion -Werror"
+            -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug -DVULKAN_HEADERS=${headers} -DSINEW_BUILD_SCENES=${BUILDS} "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wconversion -Werror"
     RESULT_VARIABLE result
     OUTPUT_VARIABLE output
     ERROR_VARIABLE output)
@@ -37,7 +37,7 @@ if(checked)
 endif()
 if(BUILDS)
     execute_process(
-        COMMAND ${HOST_CMAKE} --build ${FOLDER} --target host sinew_vk
+        COMMAND ${HOST_CMAKE} --build ${FOLDER} --target host sinew_vk reader sinew_scenes
         RESULT_VARIABLE result
         OUTPUT_VARIABLE output
         ERROR_VARIABLE output)
