@@ -1,5 +1,5 @@
 # Writes one SPIR-V file as C++, packed: CMake itself makes a gzip file, of which the stream of deflate is embedded. It has no
-# time of its making, so that two builds have the same bytes.
+# time of its making, so that two builds with the same CMake have the same bytes.
 #   cmake -DSPIRV=.. -DOUTPUT=.. -DNAMESPACE=.. -DIDENTIFIER=.. -DNAME=.. -P EmbedShader.cmake
 file(SIZE ${SPIRV} size)
 math(EXPR words "${size} / 4")

@@ -12,7 +12,8 @@
 extern "C" {
 #endif
 
-// Kinds; bit 1 << kind of SinewSettings::events asks for one. In a list they stand in this order.
+// Kinds; bit 1 << kind of SinewSettings::events asks for one. In a list they stand in this order. Later versions may
+// have more.
 enum {
     SINEW_EVENT_CONTACT_BEGINS = 0, // a body touches a partner that it did not touch before
     SINEW_EVENT_CONTACT_ENDS = 1,   // they have not touched for two steps
