@@ -294,6 +294,7 @@ private:
         wiresPipeline,
         skinCountPipeline,
         cutCountPipeline,
+        pieceCountPipeline,
         ballCountPipeline,
         ballValuesCountPipeline,
         sectionValuesPipeline,

@@ -100,6 +100,11 @@ void Renderer::makeCounts(Additions& to) const {
     using In = PipelineRequest::Input;
     add(skinCountPipeline, "skins", shaders::skinVert, shaders::skinCountFrag, In::positionsAndNormals);
     add(cutCountPipeline, "cuts", shaders::cutVert, shaders::cutCountFrag, In::cuts);
+    constexpr std::uint32_t isWallId = 6;
+    const std::array ofPieces{constants[0], vk::SpecialisationConstant{isWallId, 0}};
+    request.constants = ofPieces;
+    add(pieceCountPipeline, "pieces", shaders::cutVert, shaders::cutCountFrag, In::cuts);
+    request.constants = constants;
     add(ballCountPipeline, "balls", shaders::ballVert, shaders::ballCountFrag, In::balls);
     add(ballValuesCountPipeline, "ball_values", shaders::ballValuesVert, shaders::ballValuesCountFrag,
         In::ballValues);
@@ -120,7 +125,7 @@ void Renderer::recordCounts(VkCommandBuffer commands, const Canvas& canvas, cons
     begin(commands, *countsPass_, canvas.countsFramebuffer(), canvas.extent(), nothing);
     if (isSolid) {
         drawSkins(commands, skinCountPipeline, simulation);
-        drawCuts(commands, cutCountPipeline, cutCountPipeline, simulation);
+        drawCuts(commands, cutCountPipeline, pieceCountPipeline, simulation);
         if (isMap) drawInsides(commands, simulation, overlay);
     }
     if (!isSolid || !layers.has(layer::particles)) {

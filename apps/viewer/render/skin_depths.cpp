@@ -76,13 +76,16 @@ layout::SkinInside addGrid(std::vector<float>& depths, const mesh::TriangleTree&
 
 SkinDepths skinDepths(const sim::Scene& scene, const std::vector<bool>& isTissue) {
     SkinDepths all;
+    for (layout::SkinInside& inside : all.skins) { // those without a skin are read too
+        inside.nodes.w = -1;
+        inside.size.x = 1;
+    }
     for (std::size_t i = 0; i < std::min(scene.skins.size(), all.skins.size()); ++i) {
         const sim::Skin& skin = scene.skins[i];
         const std::vector<mesh::Vector3> places = placesOf(scene, skin);
         Box box;
         for (const mesh::Vector3& place : places) box.extend(place);
         const double size = box.isEmpty() ? 1 : std::cbrt(std::max(box.volume(), 1e-9));
-        all.skins[i].nodes.w = -1;
         if (isTissue[i] && isCuttable(scene, skin)) {
             const mesh::TriangleTree surface(places, skin.wholeTriangles.empty() ? skin.triangles
                                                                                  : skin.wholeTriangles);

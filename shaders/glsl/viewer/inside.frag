@@ -21,8 +21,9 @@ vec3 normalHere() {
 void main() {
     // Before anything is discarded: these need neighbouring pixels.
     const vec3 normal = normalHere(), right = dFdx(worldPosition), down = dFdy(worldPosition);
-    const uint skin = min(uint(inBody.w + 0.5), SKIN_COLORS - 1u);
-    const InsidePlace at = InsidePlace(inBody.xyz, dFdx(inBody.xyz), dFdy(inBody.xyz), depthBelow(inBody.xyz, skin), insides[skin].size.x);
+    const uint index = uint(inBody.w + 0.5), skin = min(index, SKIN_COLORS - 1u);
+    const float depth = index < SKIN_COLORS ? depthBelow(inBody.xyz, skin) : 1e6;
+    const InsidePlace at = InsidePlace(inBody.xyz, dFdx(inBody.xyz), dFdy(inBody.xyz), depth, insides[skin].size.x);
     keepBehindSection(worldPosition);
     const InsideSurface inside = insideSurface(at, frame.skins[skin]);
     show(worldPosition, bumped(normal, inside, at, right, down), inside.surface);

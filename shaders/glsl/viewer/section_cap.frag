@@ -42,11 +42,10 @@ bool isSolid(vec2 pixel) { return countNear(pixel) > 0.5; }
 // enters. A gap that the ray leaves through its opening is not told from the outside.
 bool isGap(vec2 pixel) { return countNear(pixel) > 0.5 / 512.0; }
 
-// The skin of that color.
+// The first skin of that color; SKIN_COLORS if there is none.
 uint skinOf(vec3 color) {
     uint skin = 0u;
-    for (uint i = 0u; i < SKIN_COLORS; ++i)
-        if (distance(frame.skins[i].rgb, color) < 0.002) skin = i;
+    while (skin < SKIN_COLORS && distance(frame.skins[skin].rgb, color) >= 0.002) ++skin;
     return skin;
 }
 
@@ -82,7 +81,7 @@ void main() {
     vec4 sum = vec4(0.0);
     for (int i = 0; i < samples; ++i) {
         const vec4 count = countAt(i);
-        if (count.a < 0.5 / 64.0) continue;
+        if (count.a < 0.75 / 64.0) continue; // up to five walls of cuts more than skins
         mask |= 1 << i;
         sum = count;
     }
@@ -103,8 +102,10 @@ void main() {
         return;
     }
     const uint skin = skinOf(color);
-    const float size = insides[skin].size.x, depth = frame.skins[skin].w >= leastMoist ? outlineDistance(rindReach * size, right, down) : 1e6;
+    const bool isKnown = skin < SKIN_COLORS;
+    const float gloss = isKnown ? frame.skins[min(skin, SKIN_COLORS - 1u)].w : 1.0, size = insides[min(skin, SKIN_COLORS - 1u)].size.x;
+    const float depth = isKnown && gloss >= leastMoist ? outlineDistance(rindReach * size, right, down) : 1e6;
     const InsidePlace at = InsidePlace(position, right, down, depth, size);
-    const InsideSurface inside = insideSurface(at, frame.skins[skin]);
+    const InsideSurface inside = insideSurface(at, vec4(color, gloss));
     shown = shade(position, bumped(frame.section.xyz, inside, at, right, down), inside.surface);
 }
