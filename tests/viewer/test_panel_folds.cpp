@@ -210,6 +210,9 @@ TEST(ComparisonText, SaysCostAndDistanceAsFarAsTheyAreKnown) {
     EXPECT_EQ(parts::comparisonText(fast, slow, apart),
               "The right one takes 2.2 times as long; particles are 1.2 mm apart (rms), at most 4.7 mm.");
     EXPECT_EQ(parts::comparisonText(none, none, Distance{}), "Particles are in the same places.");
+    Curve slowest;
+    slowest.add(240);
+    EXPECT_EQ(parts::comparisonText(slow, slowest, {}), "The right one takes 120 times as long.");
 }
 
 TEST_F(PanelFoldsTest, NameWhatPlaysInEachHalfOfAComparison) {

@@ -131,7 +131,7 @@ Strain measureStrain(const sim::Scene& scene, StateProbe& probe) {
     return {strain.rms, strain.largest};
 }
 
-Distance measureDistance(const StateProbe& first, const StateProbe& second) {
+std::optional<Distance> measureDistance(const StateProbe& first, const StateProbe& second) {
     double squares = 0, most = 0;
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < first.positions().size(); ++i) {
@@ -143,8 +143,9 @@ Distance measureDistance(const StateProbe& first, const StateProbe& second) {
         most = std::max(most, distance);
         ++count;
     }
-    if (count == 0) return {};
-    return {static_cast<float>(std::sqrt(squares / static_cast<double>(count))), static_cast<float>(most)};
+    if (count == 0) return std::nullopt;
+    return Distance{static_cast<float>(std::sqrt(squares / static_cast<double>(count))),
+                    static_cast<float>(most)};
 }
 
 Gauges::Gauges(const Document& document, double dt) : dt_(dt) {

@@ -30,8 +30,9 @@ Knobs turnedTo(const sim::Material& material, Knobs knobs, const Knobs& fromFile
 /// Strain of the live links, in the state that `probe` recorded last.
 Strain measureStrain(const sim::Scene& scene, StateProbe& probe);
 
-/// The distance between the same particles in two states of a scene, over those that both show.
-Distance measureDistance(const StateProbe& first, const StateProbe& second);
+/// The distance between the same particles in two states of a scene, over those that both show; empty if they
+/// show none.
+std::optional<Distance> measureDistance(const StateProbe& first, const StateProbe& second);
 
 /// Collects the facts that change.
 class Gauges {

@@ -247,7 +247,7 @@ BesideFacts Comparison::facts() const {
     facts.phases = measured.phases;
     facts.strainRms = measured.strainRms;
     facts.strainMax = measured.strainMax;
-    facts.apart = beside_->apart();
+    if (!isBehind_) facts.apart = beside_->apart();
     return facts;
 }
 

@@ -96,8 +96,12 @@ std::string nameOf(const BesideFacts& other, std::size_t side) {
 
 std::string comparisonText(const Curve& left, const Curve& right, const std::optional<Distance>& apart) {
     std::string text;
-    if (left.median() > 0 && right.median() > 0)
-        text = figure("The right one takes %.2g times as long", double{right.median() / left.median()});
+    if (left.median() > 0 && right.median() > 0) {
+        const double ratio = double{right.median() / left.median()};
+        const char* const format =
+            ratio < 10 ? "The right one takes %.2g times as long" : "The right one takes %.0f times as long";
+        text = figure(format, ratio);
+    }
     if (!apart) return text.empty() ? text : text + ".";
     text += text.empty() ? "Particles are " : "; particles are ";
     if (apart->largest == 0) return text + "in the same places.";
