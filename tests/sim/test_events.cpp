@@ -90,6 +90,12 @@ Lattice blockAt(const Vec3& origin) {
             .radius = 0.05f};
 }
 
+void addCuttableBlock(Scene& scene) {
+    Lattice lattice = blockAt({0, 0, 0});
+    lattice.isCuttable = true;
+    addLattice(scene, lattice);
+}
+
 // Blocks that meet, and a ball on the way of both; a plane below.
 Scene meeting() {
     Scene scene{.name = "meeting"};
@@ -206,9 +212,7 @@ TEST(Events, ACutIsToldWithTheLinksAndThePieces) {
     Scene scene = weightless();
     scene.planes = {{.offset = -9}};
     addBall(scene, {5, 5, 5});
-    Lattice lattice = blockAt({0, 0, 0});
-    lattice.isCuttable = true;
-    addLattice(scene, lattice);
+    addCuttableBlock(scene);
     test::Runner runner(scene, listing(cutEvents));
     EXPECT_TRUE(run(runner, 2).empty());
     const test::Sweep half = test::sweepOf({{0.15, 0.15, 0.15}, {1, 0, 0}}, 1);
@@ -229,9 +233,7 @@ TEST(Events, RemovedFragmentsAreToldOnceAndAgainAfterAnUndo) {
     Scene scene = weightless();
     scene.debris = 17;
     addBall(scene, {5, 5, 5});
-    Lattice lattice = blockAt({0, 0, 0});
-    lattice.isCuttable = true;
-    addLattice(scene, lattice);
+    addCuttableBlock(scene);
     test::Runner runner(scene, listing(cutEvents));
     run(runner, 1);
     const vk::Buffer whole = runner.saveTopology();
@@ -267,9 +269,7 @@ TEST(Events, RemovedFragmentsAreToldOnceAndAgainAfterAnUndo) {
 // An undo of a cut is no event, and the next cut is compared with what it left.
 TEST(Events, AnUndoneCutCutsAgain) {
     Scene scene = weightless();
-    Lattice lattice = blockAt({0, 0, 0});
-    lattice.isCuttable = true;
-    addLattice(scene, lattice);
+    addCuttableBlock(scene);
     test::Runner runner(scene, listing(cutEvents));
     run(runner, 1);
     const vk::Buffer whole = runner.saveTopology();

@@ -35,7 +35,7 @@ struct FrameParams {
     vec4 section; // unit normal and offset [m]; SECTION forms of shaders cut away everything in front of the plane
 };
 
-// What the inside of a skin is drawn from. `depths` of a skin: a grid of distances from it as loaded, x fastest, more
+// Data from which the inside of a skin is drawn. `depths` of a skin: a grid of distances from it as loaded, x fastest, more
 // than 0 within the body; exact near the skin, and never less than the distance that a picture needs further in.
 struct SkinInside {
     vec4 low;   // first node of the grid, and the distance between its nodes [m]

@@ -61,8 +61,8 @@ float depthAt(MapPoint point, vec2 offset, float away) {
 
 // Mean depth of the blockers between the light and a disc around the point, and their weight: 0 if there are none. The
 // first tap is at the point: otherwise few taps, turned differently in each pixel, miss a small blocker here and there.
-// One or two blockers in the rest of the disc count in part: where some pixels meet one and others none, the latter
-// would else be lit in full, and a crease would be speckled.
+// Few blockers in the rest of the disc count in part: where some pixels meet one and others none, the latter would else
+// be lit in full, and a crease would be speckled.
 vec2 blockersAround(MapPoint point, float radius, uint taps, vec2 turn) {
     const float fewBlockers = 2.0 + float(taps) / 8.0;
     float blockers = 0.0, depth = 0.0, isShaded = 0.0; // at the point itself

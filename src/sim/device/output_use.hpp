@@ -1,4 +1,4 @@
-// What a host does with the buffers of public views besides drawing and computing with them.
+// Uses of the buffers of public views by a host, besides drawing and computing with them.
 #pragma once
 
 #include "sinew/scene.hpp"
@@ -10,8 +10,8 @@ namespace sinew::sim {
 
 struct OutputUse {
     VkBufferUsageFlags usage = 0; ///< in addition to Sinew's own
-    std::vector<std::uint32_t>
-        families{}; ///< that share them, the device's own included; empty = that one alone
+    /// Those that share them, the device's own included; empty = that one alone.
+    std::vector<std::uint32_t> families{};
 };
 
 /// Use by Settings::outputUsage and outputFamilies. Throws vk::Error(misuse) on a family that the device

@@ -1,4 +1,4 @@
-// What decides whether parts of a scene may touch, by particle.
+// Values by particle that decide whether parts of a scene may touch.
 #pragma once
 
 #include "sinew/touching.hpp"
